@@ -1,1 +1,23 @@
-//! wip
+//! The closed delay equation of a tip that carves the surface it is dragged over.
+//!
+//! A tip at x0(t), pulled by a spring whose far end moves with velocity r, indents a soft surface
+//! u(x,t) with its footprint f and is pushed down the slope that it left there itself:
+//!
+//! ```text
+//!     x0'(t)  = -u_x(x0(t), t) + r t - x0(t) + Fext(t)            (10)
+//!     u_t(x,t) = -α f(x - x0(t))                                  (11)
+//! ```
+//!
+//! All that the surface does to the tip is a memory of the tip's own past, so x0(t) alone obeys a
+//! closed equation (18), which this crate integrates: [`run`]. Lengths are in units of the tip width
+//! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
+//! `docs/mathematics.md` derives them again.
+
+pub mod stability;
+pub mod tip_function;
+
+mod model;
+mod spline;
+
+pub use model::{Model, ModelError};
+pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

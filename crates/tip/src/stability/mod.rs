@@ -1,0 +1,1 @@
+//! Linear stability of steady motion (section IV of the paper).

@@ -1,0 +1,119 @@
+//! Sums of Gaussians a exp(-(x-c)²/(2w²)).
+
+use super::TipFunctionError;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// A Gaussian is below 1e-17 of its peak beyond this many widths: exp(-8.8²/2) = 1.5e-17. The factor
+/// x that a derivative brings keeps that below round-off too.
+const WIDTHS_OF_REACH: f64 = 8.8;
+
+/// Its transform likewise, in units of 1/width.
+const INVERSE_WIDTHS_OF_BAND: f64 = 8.7;
+
+/// One term a exp(-(x-c)²/(2w²)). Lengths in units of σ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gaussian {
+    /// a
+    pub amplitude: f64,
+    /// c
+    pub center: f64,
+    /// w
+    pub width: f64,
+}
+
+/// An even sum of Gaussians, validated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaussianSum {
+    terms: Vec<Gaussian>,
+}
+
+impl GaussianSum {
+    /// # Errors
+    /// Not finite, a width ≤ 0, zero everywhere, or not even.
+    pub(super) fn new(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
+        for (i, term) in terms.iter().enumerate() {
+            let index = i + 1;
+            if ![term.amplitude, term.center, term.width].iter().all(|v| v.is_finite()) {
+                return Err(TipFunctionError::NotFinite { index });
+            }
+            if term.width <= 0.0 {
+                return Err(TipFunctionError::Width { index, width: term.width });
+            }
+        }
+        if terms.iter().all(|term| term.amplitude.abs() <= 0.0) {
+            return Err(TipFunctionError::Zero);
+        }
+        if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
+            return Err(TipFunctionError::NotEven { center: term.center });
+        }
+        Ok(Self { terms })
+    }
+
+    /// The terms, as given.
+    #[must_use]
+    pub fn terms(&self) -> &[Gaussian] {
+        &self.terms
+    }
+
+    pub(super) fn value(&self, x: f64) -> f64 {
+        self.near(x).map(|(g, z)| g.amplitude * (-0.5 * z * z).exp()).sum()
+    }
+
+    pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        self.near(x).fold((0.0, 0.0), |(slope, curvature), (g, z)| {
+            let value = g.amplitude * (-0.5 * z * z).exp() / g.width;
+            (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
+        })
+    }
+
+    pub(super) fn tail(&self, x: f64) -> f64 {
+        let term = |g: &Gaussian| {
+            let z = (x - g.center) / g.width;
+            g.amplitude * g.width * (PI / 2.0).sqrt() * libm::erfc(z * FRAC_1_SQRT_2)
+        };
+        self.terms.iter().map(term).sum()
+    }
+
+    pub(super) fn fourier(&self, q: f64) -> f64 {
+        let term = |g: &Gaussian| {
+            let qw = q * g.width;
+            g.amplitude
+                * g.width
+                * (2.0 * PI).sqrt()
+                * (-0.5 * qw * qw).exp()
+                * (q * g.center).cos()
+        };
+        self.terms.iter().map(term).sum()
+    }
+
+    pub(super) fn reach(&self) -> f64 {
+        self.terms.iter().map(|g| g.center.abs() + WIDTHS_OF_REACH * g.width).fold(0.0, f64::max)
+    }
+
+    pub(super) fn band(&self) -> f64 {
+        self.terms.iter().map(|g| INVERSE_WIDTHS_OF_BAND / g.width).fold(0.0, f64::max)
+    }
+
+    /// The terms that matter at x, each with z = (x-c)/w: a table's many narrow ones are mostly far.
+    fn near(&self, x: f64) -> impl Iterator<Item = (&Gaussian, f64)> {
+        self.terms
+            .iter()
+            .map(move |g| (g, (x - g.center) / g.width))
+            .filter(|(_, z)| z.abs() < WIDTHS_OF_REACH)
+    }
+}
+
+/// Whether the mirror image of `term` is among `terms` as often as it is itself, to round-off.
+fn has_twin(terms: &[Gaussian], term: &Gaussian) -> bool {
+    let close = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
+    let total = |center: f64| -> f64 {
+        terms
+            .iter()
+            .filter(|g| {
+                close(g.width, term.width, term.width) && close(g.center, center, term.width)
+            })
+            .map(|g| g.amplitude)
+            .sum()
+    };
+    close(total(term.center), total(-term.center), term.amplitude.abs().max(1e-300))
+}

@@ -1,0 +1,272 @@
+//! The footprint f(x) of the tip: how fast it indents the surface at distance x from its apex.
+
+mod bessel;
+mod gaussian;
+mod table;
+
+pub use gaussian::{Gaussian, GaussianSum};
+use thiserror::Error;
+
+/// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TipFunction {
+    /// A sum of Gaussians, (48) among them; tabulated tips become one too.
+    Gaussians(GaussianSum),
+    /// J0(x), the analytically tractable example of section IV.C.
+    Bessel,
+}
+
+/// Why a footprint was refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TipFunctionError {
+    /// No Gaussian, or none with an amplitude other than 0.
+    #[error(
+        "the tip function is zero everywhere: give at least one Gaussian with an amplitude other than 0"
+    )]
+    Zero,
+    /// A Gaussian with a parameter that is not finite.
+    #[error("Gaussian number {index}: amplitude, center and width must be finite numbers")]
+    NotFinite {
+        /// Counted from 1.
+        index: usize,
+    },
+    /// A Gaussian whose width is not positive.
+    #[error("Gaussian number {index} has width {width}: a width must be above 0")]
+    Width {
+        /// Counted from 1.
+        index: usize,
+        /// As given.
+        width: f64,
+    },
+    /// A Gaussian off the origin without its mirror image.
+    #[error(
+        "the tip function is not even: the Gaussian at center {center} lacks a twin of the same amplitude and width at {mirror}",
+        mirror = -center
+    )]
+    NotEven {
+        /// Center of the Gaussian that stands alone.
+        center: f64,
+    },
+    /// Side lobes that are not finite.
+    #[error("beta is {0}: it must be a finite number")]
+    Beta(f64),
+    /// A table with too few or too many rows.
+    #[error("the table has {found} rows: between {min} and {max} are needed")]
+    TableLength {
+        /// Rows given.
+        found: usize,
+        /// Fewest that define a shape.
+        min: usize,
+        /// Most that are taken; thin the table above that.
+        max: usize,
+    },
+    /// A table entry that is not finite.
+    #[error("row {row} of the table is not a pair of finite numbers")]
+    TableNotFinite {
+        /// Counted from 1.
+        row: usize,
+    },
+    /// A table whose x do not increase.
+    #[error("row {row} of the table has x = {x}: x must increase from row to row")]
+    TableUnsorted {
+        /// Counted from 1.
+        row: usize,
+        /// As given.
+        x: f64,
+    },
+    /// A table that does not begin at x = 0.
+    #[error("the table starts at x = {0}: it must start at x = 0 (f is even, so x ≥ 0 is enough)")]
+    TableStart(f64),
+    /// A table whose last value is not small.
+    #[error(
+        "the table does not decay: its last value is {ratio:.1e} of its largest, at most {most:.0e} will do; sample further out"
+    )]
+    TableDecay {
+        /// |f at the last x| / max |f|.
+        ratio: f64,
+        /// Largest ratio accepted.
+        most: f64,
+    },
+}
+
+impl TipFunction {
+    /// (48): exp(-ξ²/2) - β/2 (exp(-(ξ+2)²/2) + exp(-(ξ-2)²/2)) with ξ = x/`width`.
+    ///
+    /// # Errors
+    /// `beta` not finite, `width` not a positive finite number.
+    pub fn triple_gaussian(beta: f64, width: f64) -> Result<Self, TipFunctionError> {
+        if !beta.is_finite() {
+            return Err(TipFunctionError::Beta(beta));
+        }
+        let lobe = |amplitude, center: f64| Gaussian { amplitude, center: center * width, width };
+        let mut terms = vec![lobe(1.0, 0.0)];
+        if beta.abs() > 0.0 {
+            terms.extend([lobe(-beta / 2.0, -2.0), lobe(-beta / 2.0, 2.0)]);
+        }
+        Self::gaussian_sum(terms)
+    }
+
+    /// exp(-x²/(2 `width`²)).
+    ///
+    /// # Errors
+    /// `width` not a positive finite number.
+    pub fn gaussian(width: f64) -> Result<Self, TipFunctionError> {
+        Self::gaussian_sum(vec![Gaussian { amplitude: 1.0, center: 0.0, width }])
+    }
+
+    /// Any even sum of Gaussians.
+    ///
+    /// # Errors
+    /// Not finite, a width ≤ 0, zero everywhere, or not even.
+    pub fn gaussian_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
+        GaussianSum::new(terms).map(Self::Gaussians)
+    }
+
+    /// The smooth even function through the points (x, f) sampled on x ≥ 0, 0 beyond the last of them.
+    ///
+    /// It is the sum of Gaussians on an even lattice that takes the tabulated values there: analytic,
+    /// so that the orders of convergence hold, and within the error of a cubic spline between rows.
+    ///
+    /// # Errors
+    /// Too short or long, not finite, unsorted, not from x = 0, or not decaying.
+    pub fn table(x: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
+        Self::gaussian_sum(table::gaussians_through(x, f)?)
+    }
+
+    /// f(x).
+    #[must_use]
+    pub fn value(&self, x: f64) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.value(x),
+            Self::Bessel => libm::j0(x),
+        }
+    }
+
+    /// f'(x).
+    #[must_use]
+    pub fn slope(&self, x: f64) -> f64 {
+        self.slope_and_curvature(x).0
+    }
+
+    /// f'(x) and f''(x), which share their costly part.
+    #[must_use]
+    pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        match self {
+            Self::Gaussians(sum) => sum.slope_and_curvature(x),
+            Self::Bessel => bessel::slope_and_curvature(x),
+        }
+    }
+
+    /// ∫_x^∞ f(ξ)dξ: the profile of steady motion, (24).
+    #[must_use]
+    pub fn tail(&self, x: f64) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.tail(x),
+            Self::Bessel => bessel::tail(x),
+        }
+    }
+
+    /// ∫_{-∞}^∞ f(ξ)dξ: the depth left far behind, (25).
+    #[must_use]
+    pub fn integral(&self) -> f64 {
+        self.fourier(0.0)
+    }
+
+    /// ∫_{-∞}^∞ f(ξ) cos(qξ)dξ, the Fourier transform of the even f at wave number q.
+    #[must_use]
+    pub fn fourier(&self, q: f64) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.fourier(q),
+            Self::Bessel => bessel::fourier(q),
+        }
+    }
+
+    /// Distance beyond which f and its derivatives are below the round-off of their largest values;
+    /// `None` for a footprint that never fades (J0 falls only like 1/√x).
+    #[must_use]
+    pub fn reach(&self) -> Option<f64> {
+        match self {
+            Self::Gaussians(sum) => Some(sum.reach()),
+            Self::Bessel => None,
+        }
+    }
+
+    /// Wave number beyond which the transform of f is below the round-off of its largest value.
+    #[must_use]
+    pub fn band(&self) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.band(),
+            Self::Bessel => 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn every_kind() -> Vec<TipFunction> {
+        let x: Vec<f64> = (0..60).map(|i| 0.15 * f64::from(i)).collect();
+        let f: Vec<f64> = x.iter().map(|x| (1.0 - 0.3 * x * x) * (-x * x / 2.0).exp()).collect();
+        vec![
+            TipFunction::triple_gaussian(1.0, 1.0).unwrap(),
+            TipFunction::triple_gaussian(0.7, 0.4).unwrap(),
+            TipFunction::gaussian(2.0).unwrap(),
+            TipFunction::table(&x, &f).unwrap(),
+            TipFunction::Bessel,
+        ]
+    }
+
+    /// Central differences of the next lower derivative; eighth order, so 1e-9 is far above its error.
+    fn difference(f: impl Fn(f64) -> f64, x: f64) -> f64 {
+        let h = 0.02;
+        let d = |k: f64| f(x + k * h) - f(x - k * h);
+        (d(1.0) * 4.0 / 5.0 - d(2.0) / 5.0 + d(3.0) * 4.0 / 105.0 - d(4.0) / 280.0) / h
+    }
+
+    #[test]
+    fn derivatives_and_tail_agree_with_differences() {
+        for tip in every_kind() {
+            for x in [-7.3, -1.1, -0.2, 0.0, 1e-9, 0.4, 1.7, 3.0, 12.0, 39.0, 41.5] {
+                let (slope, curvature) = tip.slope_and_curvature(x);
+                assert!((slope - difference(|x| tip.value(x), x)).abs() < 1e-8, "{tip:?} {x}");
+                assert!((curvature - difference(|x| tip.slope(x), x)).abs() < 1e-7, "{tip:?} {x}");
+                assert!(
+                    (tip.value(x) + difference(|x| tip.tail(x), x)).abs() < 1e-9,
+                    "{tip:?} {x}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_footprint_is_even_and_its_tail_spans_the_integral() {
+        for tip in every_kind() {
+            assert!((tip.tail(-35.0) + tip.tail(35.0) - tip.integral()).abs() < 1e-13, "{tip:?}");
+            for x in [0.3, 2.0, 5.0] {
+                assert!((tip.value(x) - tip.value(-x)).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_left_beyond_the_reach() {
+        for tip in every_kind() {
+            if let Some(reach) = tip.reach() {
+                let (slope, curvature) = tip.slope_and_curvature(reach);
+                assert!(tip.value(reach).abs() + slope.abs() + curvature.abs() < 1e-13, "{tip:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_lone_lobe_off_the_origin_is_refused() {
+        let lobe = Gaussian { amplitude: 1.0, center: 1.0, width: 1.0 };
+        assert_eq!(
+            TipFunction::gaussian_sum(vec![lobe]),
+            Err(TipFunctionError::NotEven { center: 1.0 })
+        );
+        let twin = Gaussian { center: -1.0, ..lobe };
+        assert!(TipFunction::gaussian_sum(vec![lobe, twin]).is_ok());
+    }
+}

@@ -13,11 +13,24 @@
 //! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
 //! `docs/mathematics.md` derives them again.
 
+pub mod memory;
 pub mod stability;
 pub mod tip_function;
 
+mod collocation;
+mod force;
+mod history;
+mod initial_surface;
+mod integrator;
 mod model;
+mod series;
 mod spline;
 
+pub use collocation::{STAGES, Stages};
+pub use force::{Force, ForceError, Pulse};
+pub use history::{Step, Trajectory};
+pub use initial_surface::{InitialSurface, Noise};
+pub use integrator::{IntegrationError, Integrator, Work};
 pub use model::{Model, ModelError};
+pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

@@ -25,6 +25,12 @@ impl CubicSpline {
         self.x[self.x.len() - 1]
     }
 
+    pub(crate) fn mean_interval(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "a count of knots")]
+        let intervals = (self.x.len() - 1) as f64;
+        (self.last() - self.first()) / intervals
+    }
+
     pub(crate) fn value(&self, x: f64) -> f64 {
         self.jet(x).0
     }

@@ -1,0 +1,134 @@
+//! Density to field: transform, multiply, transform back.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+use crate::window::Window;
+use crate::{Density, Field, Kernel, Plan};
+
+/// A kernel made ready: its transform over the window's, and the Fourier transforms.
+///
+/// **Who must cover what.** One call sees a window of [`length`](Self::length) cells of the
+/// density, and nothing else.
+/// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window see every
+///   source that matters, whether or not others lie outside. The window leaves room for targets
+///   in an interval as long as `separation − reach`.
+/// - A kernel without: all sources must lie in the window, and the targets within `separation` of
+///   each of them.
+///
+/// [`first_cell_about`](Self::first_cell_about) centres the window.
+pub struct Convolver {
+    plan: Plan,
+    /// `K̂/(length φ̂²)` up to half the Nyquist wavenumber; zero beyond.
+    multiplier: Vec<Complex<f64>>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    backward: Arc<dyn ComplexToReal<f64>>,
+    spectrum: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl Convolver {
+    /// Prepares the kernel for separations of source and target up to `separation`.
+    ///
+    /// # Panics
+    /// As [`Plan::new`].
+    pub fn new(kernel: &Kernel, separation: f64) -> Self {
+        Self::with_plan(kernel, Plan::new(kernel, separation))
+    }
+
+    /// Prepares the kernel by a plan of the caller's; accuracy is that of the plan.
+    pub fn with_plan(kernel: &Kernel, plan: Plan) -> Self {
+        let mut planner = RealFftPlanner::new();
+        let forward = planner.plan_fft_forward(plan.length);
+        let backward = planner.plan_fft_inverse(plan.length);
+        let needed = forward.get_scratch_len().max(backward.get_scratch_len());
+        let mut convolver = Self {
+            plan,
+            multiplier: Vec::new(),
+            spectrum: forward.make_output_vec(),
+            scratch: vec![Complex::default(); needed],
+            forward,
+            backward,
+        };
+        convolver.transform(&mut periodic_samples(kernel, &plan));
+        convolver.multiplier = deconvolved(&convolver.spectrum, plan.length);
+        convolver
+    }
+
+    /// The choices made for this kernel.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The spacing that the density must have.
+    pub fn spacing(&self) -> f64 {
+        self.plan.spacing
+    }
+
+    /// Cells in the window.
+    pub fn length(&self) -> usize {
+        self.plan.length
+    }
+
+    /// The first cell of the window centred on `position`.
+    pub fn first_cell_about(&self, position: f64) -> i64 {
+        (position / self.plan.spacing).round() as i64 - self.plan.length as i64 / 2
+    }
+
+    /// Convolves the window of `density` that starts at `first_cell`, overwriting `field`.
+    ///
+    /// Allocates only if the field has held a shorter window before.
+    ///
+    /// # Panics
+    /// If the density's spacing is not the plan's.
+    pub fn convolve(&mut self, density: &Density, first_cell: i64, field: &mut Field) {
+        let same = density.spacing().to_bits() == self.plan.spacing.to_bits();
+        assert!(same, "density of spacing {}, plan of {}", density.spacing(), self.plan.spacing);
+        let cells = field.reset(&self.plan, first_cell);
+        density.copy_window(first_cell, cells);
+        self.transform(cells);
+        let (kept, cut) = self.spectrum.split_at_mut(self.multiplier.len());
+        for (mode, factor) in kept.iter_mut().zip(&self.multiplier) {
+            *mode *= factor;
+        }
+        cut.fill(Complex::default());
+        // A sum of reals; said so because the transform back refuses NaN here.
+        self.spectrum[0].im = 0.0;
+        self.backward
+            .process_with_scratch(&mut self.spectrum, cells, &mut self.scratch)
+            .expect("buffers have the lengths of the plan");
+    }
+
+    /// Transforms `cells` into `self.spectrum`, destroying them.
+    fn transform(&mut self, cells: &mut [f64]) {
+        self.forward
+            .process_with_scratch(cells, &mut self.spectrum, &mut self.scratch)
+            .expect("buffers have the lengths of the plan");
+    }
+}
+
+/// The kernel, tapered if need be, on the circle of the window: two images meet in each cell.
+fn periodic_samples(kernel: &Kernel, plan: &Plan) -> Vec<f64> {
+    let image = |cell: i64| {
+        let x = cell as f64 * plan.spacing;
+        if x.abs() > plan.reach {
+            return 0.0;
+        }
+        (kernel.value)(x) * plan.taper.map_or(1.0, |taper| taper.value(x))
+    };
+    let length = plan.length as i64;
+    (0..length).map(|cell| image(cell) + image(cell - length)).collect()
+}
+
+/// Divides by the window once for the spreading and once for the reading, and normalises.
+fn deconvolved(spectrum: &[Complex<f64>], length: usize) -> Vec<Complex<f64>> {
+    let window = Window::shared();
+    let divided = |(mode, k): (usize, &Complex<f64>)| {
+        let phi = window.transform(TAU * mode as f64 / length as f64);
+        k / (length as f64 * phi * phi)
+    };
+    spectrum[..=length / 4].iter().enumerate().map(divided).collect()
+}

@@ -1,0 +1,131 @@
+//! Sources, spread over a lattice that grows to hold them.
+
+use std::ops::Range;
+
+use crate::lattice::Lattice;
+use crate::window::{BELOW, WIDTH, Window};
+
+/// The density of all sources so far, `D_i = Σ_j w_j φ((i − y_j/spacing)/8)`, on the cells `i` of
+/// a lattice that grows either way as sources come. Cell `i` lies at position `i · spacing`.
+///
+/// Sums are compensated (Kahan): a tip that sticks adds a million sources to the same few cells,
+/// where plain sums drift by as many roundings, all of one sign. The error of a cell is then that
+/// of one addition, whatever the number of sources.
+///
+/// Growth doubles the store, so that `n` calls of [`add`](Self::add) cost of order `n`, and memory
+/// is sixteen bytes per cell between the first and the last source, at most tripled.
+#[derive(Clone, Debug)]
+pub struct Density {
+    window: &'static Window,
+    lattice: Lattice,
+    sums: Vec<f64>,
+    /// What each sum has in excess of its exact value.
+    excess: Vec<f64>,
+    /// The cell of `sums[0]`.
+    first: i64,
+    /// The cells that sources have touched; the store may hold more.
+    touched: Range<i64>,
+}
+
+impl Density {
+    /// An empty density on the lattice of the given spacing: that of a
+    /// [`Plan`](crate::Plan), or any positive number of few significant bits.
+    pub fn new(spacing: f64) -> Self {
+        Self {
+            window: Window::shared(),
+            lattice: Lattice::new(spacing),
+            sums: Vec::new(),
+            excess: Vec::new(),
+            first: 0,
+            touched: 0..0,
+        }
+    }
+
+    /// The distance between cells.
+    pub fn spacing(&self) -> f64 {
+        self.lattice.spacing
+    }
+
+    /// The cells touched by sources; empty before the first.
+    pub fn range(&self) -> Range<i64> {
+        self.touched.clone()
+    }
+
+    /// Adds a source of the given weight.
+    ///
+    /// The position must be finite, and not farther from the other sources than memory can span.
+    #[inline]
+    pub fn add(&mut self, position: f64, weight: f64) {
+        debug_assert!(position.is_finite(), "a source at {position}");
+        let (cell, offset) = self.lattice.locate(position);
+        let start = cell - BELOW;
+        if start < self.touched.start || start + WIDTH as i64 > self.touched.end {
+            self.touch(start);
+        }
+        let at = (start - self.first) as usize;
+        let sums = &mut self.sums[at..at + WIDTH];
+        let excess = &mut self.excess[at..at + WIDTH];
+        for ((sum, excess), w) in sums.iter_mut().zip(excess).zip(self.window.weights(offset)) {
+            let term = weight * w - *excess;
+            let next = *sum + term;
+            *excess = (next - *sum) - term;
+            *sum = next;
+        }
+    }
+
+    /// Copies the cells from `first_cell` on into `out`, with zeros where no source has been.
+    pub fn copy_window(&self, first_cell: i64, out: &mut [f64]) {
+        let end = first_cell + out.len() as i64;
+        let from = self.touched.start.clamp(first_cell, end);
+        let to = self.touched.end.clamp(from, end);
+        let (head, rest) = out.split_at_mut((from - first_cell) as usize);
+        let (body, tail) = rest.split_at_mut((to - from) as usize);
+        head.fill(0.0);
+        tail.fill(0.0);
+        if from < to {
+            let at = (from - self.first) as usize;
+            body.copy_from_slice(&self.sums[at..at + body.len()]);
+        }
+    }
+
+    /// Moves the origin of positions and cells by `cells`: what was cell `i` becomes `i − cells`,
+    /// what was position `x` becomes `x − cells · spacing`. Exact, and no data moves.
+    ///
+    /// The lattice itself loses nothing far from the origin, but positions do, being rounded to
+    /// one part in 2⁵³ of their distance from it. A [`Field`](crate::Field) has a `rebase` of its
+    /// own.
+    pub fn rebase(&mut self, cells: i64) {
+        self.first -= cells;
+        self.touched = self.touched.start - cells..self.touched.end - cells;
+    }
+
+    /// Makes the sixteen cells from `start` on part of the lattice.
+    #[cold]
+    fn touch(&mut self, start: i64) {
+        let end = start + WIDTH as i64;
+        if self.touched.is_empty() {
+            self.first = start;
+            self.touched = start..end;
+        }
+        self.touched = self.touched.start.min(start)..self.touched.end.max(end);
+        let doubled = 2 * self.sums.len();
+        if start < self.first {
+            let more = ((self.first - start) as usize).max(self.sums.len());
+            self.first -= more as i64;
+            prepend_zeros(&mut self.sums, more);
+            prepend_zeros(&mut self.excess, more);
+        }
+        let needed = (self.touched.end - self.first) as usize;
+        if needed > self.sums.len() {
+            self.sums.resize(needed.max(doubled), 0.0);
+            self.excess.resize(needed.max(doubled), 0.0);
+        }
+    }
+}
+
+fn prepend_zeros(values: &mut Vec<f64>, count: usize) {
+    let old = values.len();
+    values.resize(old + count, 0.0);
+    values.copy_within(..old, count);
+    values[..count].fill(0.0);
+}

@@ -1,0 +1,85 @@
+//! The sum on a window of the lattice, read anywhere in it.
+
+use std::ops::RangeInclusive;
+
+use crate::Plan;
+use crate::lattice::Lattice;
+use crate::window::{BELOW, WIDTH, Window};
+
+/// `S(x)` about one place, as left by [`Convolver::convolve`](crate::Convolver::convolve).
+///
+/// Reading changes nothing, so any number of threads may read at once. An empty field
+/// ([`Field::new`]) takes the size of the first window it holds, and is reused without allocation.
+#[derive(Clone, Debug)]
+pub struct Field {
+    window: &'static Window,
+    lattice: Lattice,
+    cells: Vec<f64>,
+    first: i64,
+    margin: f64,
+}
+
+impl Default for Field {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Field {
+    /// A field that holds nothing yet.
+    pub fn new() -> Self {
+        let (window, lattice) = (Window::shared(), Lattice::new(1.0));
+        Self { window, lattice, cells: Vec::new(), first: 0, margin: 0.0 }
+    }
+
+    /// The targets at which the sum is right: those at least [`Plan::margin`] inside the window.
+    pub fn range(&self) -> RangeInclusive<f64> {
+        let position = |cell: i64| cell as f64 * self.lattice.spacing;
+        let last = self.first + self.cells.len() as i64 - 1;
+        position(self.first) + self.margin..=position(last) - self.margin
+    }
+
+    /// `S(x)`.
+    ///
+    /// # Panics
+    /// If `x` is not 8 cells inside the window. Between there and [`range`](Self::range) it reads,
+    /// but sources outside the window are missing.
+    #[inline]
+    pub fn value(&self, x: f64) -> f64 {
+        self.value_and_derivative(x).0
+    }
+
+    /// `S(x)` and `dS/dx`.
+    ///
+    /// # Panics
+    /// As [`value`](Self::value).
+    #[inline]
+    pub fn value_and_derivative(&self, x: f64) -> (f64, f64) {
+        let (cell, offset) = self.lattice.locate(x);
+        let start = usize::try_from(cell - BELOW - self.first).unwrap_or(usize::MAX);
+        let cells = self.cells.get(start..).and_then(|rest| rest.first_chunk::<WIDTH>());
+        let Some(cells) = cells else { self.outside(x) };
+        let (value, slope) = self.window.read(cells, offset);
+        (value, slope * self.lattice.per_unit)
+    }
+
+    /// Moves the origin of positions by `cells`, along with
+    /// [`Density::rebase`](crate::Density::rebase).
+    pub fn rebase(&mut self, cells: i64) {
+        self.first -= cells;
+    }
+
+    /// Makes room for the window of a plan, whatever the cells held before.
+    pub(crate) fn reset(&mut self, plan: &Plan, first_cell: i64) -> &mut [f64] {
+        self.lattice = Lattice::new(plan.spacing);
+        self.first = first_cell;
+        self.margin = plan.margin();
+        self.cells.resize(plan.length, 0.0);
+        &mut self.cells
+    }
+
+    #[cold]
+    fn outside(&self, x: f64) -> ! {
+        panic!("target {x} outside the window, good for {:?}", self.range())
+    }
+}

@@ -1,0 +1,175 @@
+//! Radau IIA collocation: nodes, weights and the stage polynomial that is also the dense output.
+//!
+//! Reference: Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8.
+
+use gauss_quad::legendre::GaussLegendre;
+use std::num::NonZeroUsize;
+use std::sync::LazyLock;
+
+/// Number of stages s: order 2s - 1 at step ends, s + 1 locally in between.
+pub const STAGES: usize = 6;
+
+/// One number per stage.
+pub type Stages = [f64; STAGES];
+
+/// The s-stage Radau IIA method on the unit step.
+pub(crate) struct Collocation {
+    /// Nodes 0 < `c_1` < … < `c_s` = 1.
+    pub(crate) c: Stages,
+    /// `a_ij` = `∫_0^{c_i}` `ℓ_j(τ)dτ` with the Lagrange polynomials `ℓ_j` of the nodes.
+    pub(crate) a: [Stages; STAGES],
+    /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes:
+    /// the inverse of `a`.
+    pub(crate) derivative: [Stages; STAGES],
+    /// Derivative of that polynomial at τ = 0.
+    pub(crate) derivative_at_start: Stages,
+    /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): what a defect at the start of a step, times
+    /// its length, amounts to within the step.
+    pub(crate) defect_to_error: f64,
+}
+
+/// The method, built once.
+pub(crate) static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::radau);
+
+impl Collocation {
+    fn radau() -> Self {
+        let c = nodes();
+        let mut a = [[0.0; STAGES]; STAGES];
+        for (row, &ci) in a.iter_mut().zip(&c) {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = integral(ci, |tau| lagrange(&c, j, tau));
+            }
+        }
+        let mut derivative = [[0.0; STAGES]; STAGES];
+        let mut derivative_at_start = [0.0; STAGES];
+        for j in 0..STAGES {
+            // d/dτ (τ/c_j ℓ_j) = (ℓ_j + τ ℓ_j')/c_j.
+            derivative_at_start[j] = lagrange(&c, j, 0.0) / c[j];
+            for i in 0..STAGES {
+                derivative[i][j] = if i == j {
+                    let others = (0..STAGES).filter(|&k| k != j);
+                    1.0 / c[j] + others.map(|k| 1.0 / (c[j] - c[k])).sum::<f64>()
+                } else {
+                    // At another node the basis function vanishes: its slope is the limit of a ratio.
+                    let others = (0..STAGES).filter(|&k| k != i && k != j);
+                    let ratio = |k: usize| (c[i] - c[k]) / (c[j] - c[k]);
+                    c[i] / c[j] / (c[j] - c[i]) * others.map(ratio).product::<f64>()
+                };
+            }
+        }
+        Self { c, a, derivative, derivative_at_start, defect_to_error: defect_to_error(&c) }
+    }
+
+    /// Quadrature weights over the whole step, `b_j` = `a_sj`.
+    pub(crate) fn b(&self) -> &Stages {
+        &self.a[STAGES - 1]
+    }
+
+    /// Value at τ of the polynomial that is 0 at τ = 0 and `values` at the nodes.
+    pub(crate) fn value(&self, values: &Stages, tau: f64) -> f64 {
+        let basis = |i: usize| tau / self.c[i] * lagrange(&self.c, i, tau);
+        (0..STAGES).map(|i| values[i] * basis(i)).sum()
+    }
+
+    /// Its derivative at τ.
+    pub(crate) fn slope(&self, values: &Stages, tau: f64) -> f64 {
+        let at_nodes = apply(&self.derivative, values);
+        (0..STAGES).map(|j| at_nodes[j] * lagrange(&self.c, j, tau)).sum()
+    }
+}
+
+/// Matrix times vector.
+pub(crate) fn apply(matrix: &[Stages; STAGES], v: &Stages) -> Stages {
+    std::array::from_fn(|i| (0..STAGES).map(|j| matrix[i][j] * v[j]).sum())
+}
+
+/// `ℓ_j(τ)` over the nodes c.
+fn lagrange(c: &Stages, j: usize, tau: f64) -> f64 {
+    (0..STAGES).filter(|&k| k != j).map(|k| (tau - c[k]) / (c[j] - c[k])).product()
+}
+
+/// The zeros of `P_s - P_{s-1}`, P the Legendre polynomials of 2τ-1: one at 1, the others between the
+/// zeros of `P_s`, where the difference changes sign. (The Jacobi rule of gauss-quad 0.3.2 would be
+/// shorter, but sets the middle node of odd degrees to 0.)
+fn nodes() -> Stages {
+    let difference = |x: f64| {
+        let (mut last, mut here) = (1.0, x);
+        for n in 1..STAGES {
+            let n = n as f64;
+            (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
+        }
+        here - last
+    };
+    let mut brackets: Vec<f64> = gauss().as_node_weight_pairs().iter().map(|(x, _)| *x).collect();
+    brackets.sort_by(f64::total_cmp);
+    let mut c = [1.0; STAGES];
+    for (c, bracket) in c.iter_mut().zip(brackets.windows(2)) {
+        let (mut low, mut high) = (bracket[0], bracket[1]);
+        let sign = difference(low).signum();
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if difference(middle) * sign > 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        *c = 0.5 * (1.0 + 0.5 * (low + high));
+    }
+    c
+}
+
+fn gauss() -> GaussLegendre {
+    GaussLegendre::new(const { NonZeroUsize::new(STAGES).unwrap() })
+}
+
+/// ∫_0^{end} of a polynomial of degree below 2s.
+fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let rule = gauss();
+    let term = |(x, w): &(f64, f64)| 0.5 * end * w * f(0.5 * end * (1.0 + x));
+    rule.as_node_weight_pairs().iter().map(term).sum()
+}
+
+fn defect_to_error(c: &Stages) -> f64 {
+    let n = |tau: f64| c.iter().map(|c| tau - c).product::<f64>();
+    let largest = (0..=200).map(|i| integral(f64::from(i) / 200.0, n).abs()).fold(0.0, f64::max);
+    largest / n(0.0).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_integrate_polynomials_up_to_degree_2s_minus_2_and_no_further() {
+        let miss = |degree: i32| {
+            let sum: f64 = RADAU.b().iter().zip(&RADAU.c).map(|(b, c)| b * c.powi(degree)).sum();
+            (sum - 1.0 / f64::from(degree + 1)).abs()
+        };
+        let exact = i32::try_from(2 * STAGES - 2).unwrap();
+        for degree in 0..=exact {
+            assert!(miss(degree) < 3e-16, "degree {degree}: {}", miss(degree));
+        }
+        assert!(miss(exact + 1) > 1e-8);
+    }
+
+    #[test]
+    fn the_derivative_matrix_is_the_inverse_of_a() {
+        for i in 0..STAGES {
+            let unit = std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 });
+            let back = apply(&RADAU.derivative, &apply(&RADAU.a, &unit));
+            for (j, value) in back.iter().enumerate() {
+                assert!((value - unit[j]).abs() < 1e-13, "{i} {j} {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_stage_polynomial_reproduces_a_polynomial_of_degree_s() {
+        let p = |t: f64| t * (1.0 - 0.3 * t + 0.7 * t.powi(3) - 0.2 * t.powi(5));
+        let slope = |t: f64| 1.0 - 0.6 * t + 2.8 * t.powi(3) - 1.2 * t.powi(5);
+        let values = RADAU.c.map(p);
+        for t in [0.0, 0.21, 0.5, 0.98, 1.0, 1.7] {
+            assert!((RADAU.value(&values, t) - p(t)).abs() < 1e-12, "{t}");
+            assert!((RADAU.slope(&values, t) - slope(t)).abs() < 1e-11, "{t}");
+        }
+        let start: f64 = (0..STAGES).map(|j| RADAU.derivative_at_start[j] * values[j]).sum();
+        assert!((start - 1.0).abs() < 1e-13);
+    }
+}

@@ -1,0 +1,147 @@
+//! The external force Fext(t) of (9), (10), in units of kσ.
+
+use crate::spline::CubicSpline;
+use std::fmt;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// A Gaussian pulse A exp(-(t-T)²/(2W²)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulse {
+    /// A
+    pub amplitude: f64,
+    /// T
+    pub time: f64,
+    /// W
+    pub width: f64,
+}
+
+/// Why a force was refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ForceError {
+    /// A pulse with a number that is not finite.
+    #[error("the pulse {0:?} has an entry that is not a finite number")]
+    PulseNotFinite(Pulse),
+    /// A pulse of no width.
+    #[error("the pulse {0:?} needs a width above 0")]
+    PulseWidth(Pulse),
+    /// A table that is no function of time.
+    #[error("the force table: {0}")]
+    Table(#[from] crate::series::SeriesError),
+}
+
+/// Sum of pulses, a table and, for tests and manufactured solutions, a function.
+#[derive(Clone, Default)]
+pub struct Force {
+    pulses: Vec<Pulse>,
+    table: Option<CubicSpline>,
+    function: Option<Arc<dyn Fn(f64) -> f64 + Send + Sync>>,
+}
+
+impl fmt::Debug for Force {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("Force")
+            .field("pulses", &self.pulses)
+            .field("table", &self.table)
+            .field("function", &self.function.is_some())
+            .finish()
+    }
+}
+
+/// exp(-10²/2) = 2e-22: a pulse is nothing outside of this many widths.
+const WIDTHS_OF_PULSE: f64 = 10.0;
+/// Steps within a pulse are at most this many of its widths long, so that none is jumped over.
+const WIDTHS_PER_STEP: f64 = 1.5;
+/// Steps within a table span at most this many of its intervals.
+const INTERVALS_PER_STEP: f64 = 3.0;
+
+impl Force {
+    /// A sum of Gaussian pulses and, if given, the cubic spline through a table (t, force), 0 outside.
+    ///
+    /// # Errors
+    /// Entries that are not finite, widths ≤ 0, a table that is short or unsorted.
+    pub fn new(
+        pulses: Vec<Pulse>,
+        table: Option<(Vec<f64>, Vec<f64>)>,
+    ) -> Result<Self, ForceError> {
+        for pulse in &pulses {
+            if ![pulse.amplitude, pulse.time, pulse.width].iter().all(|v| v.is_finite()) {
+                return Err(ForceError::PulseNotFinite(*pulse));
+            }
+            if pulse.width <= 0.0 {
+                return Err(ForceError::PulseWidth(*pulse));
+            }
+        }
+        let table = table.map(|(t, force)| crate::series::spline_through(t, force)).transpose()?;
+        Ok(Self { pulses, table, function: None })
+    }
+
+    /// Any smooth function of time; it must vary over times of order one.
+    pub fn from_fn(function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self { function: Some(Arc::new(function)), ..Self::default() }
+    }
+
+    /// Fext(t).
+    #[must_use]
+    pub fn value(&self, t: f64) -> f64 {
+        let pulses = self.pulses.iter().map(|p| {
+            let z = (t - p.time) / p.width;
+            p.amplitude * (-0.5 * z * z).exp()
+        });
+        let table = self.table.as_ref().filter(|s| (s.first()..=s.last()).contains(&t));
+        pulses.sum::<f64>()
+            + table.map_or(0.0, |s| s.value(t))
+            + self.function.as_ref().map_or(0.0, |f| f(t))
+    }
+
+    /// The next time after t at which a step must end: where a pulse or the table begins or ends.
+    pub(crate) fn next_break(&self, t: f64) -> f64 {
+        self.spans()
+            .flat_map(|(start, end, _)| [start, end])
+            .filter(|edge| *edge > t)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Longest step allowed at t.
+    pub(crate) fn longest_step(&self, t: f64) -> f64 {
+        self.spans()
+            .filter(|(start, end, _)| (*start..*end).contains(&t))
+            .map(|(_, _, longest)| longest)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// (start, end, longest step within) of everything that is limited in time.
+    fn spans(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        let pulse = |p: &Pulse| {
+            let half = WIDTHS_OF_PULSE * p.width;
+            (p.time - half, p.time + half, WIDTHS_PER_STEP * p.width)
+        };
+        let table = |s: &CubicSpline| (s.first(), s.last(), INTERVALS_PER_STEP * s.mean_interval());
+        self.pulses.iter().map(pulse).chain(self.table.iter().map(table))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn breaks_and_longest_steps_surround_a_pulse() {
+        let force =
+            Force::new(vec![Pulse { amplitude: 2.0, time: 30.0, width: 0.1 }], None).unwrap();
+        assert!((force.next_break(0.0) - 29.0).abs() < 1e-12);
+        assert!(force.longest_step(28.0).is_infinite());
+        assert!((force.longest_step(30.2) - 0.15).abs() < 1e-12);
+        assert!(force.next_break(31.5).is_infinite());
+        assert!((force.value(30.0) - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_table_is_followed_and_is_zero_outside() {
+        let t: Vec<f64> = (0..=50).map(|i| 0.1 * f64::from(i)).collect();
+        let force = Force::new(vec![], Some((t.clone(), t.iter().map(|t| t.sin()).collect())));
+        let force = force.unwrap();
+        assert!((force.value(2.22) - 2.22_f64.sin()).abs() < 1e-6);
+        assert!(force.value(5.1).abs() < 1e-300);
+    }
+}

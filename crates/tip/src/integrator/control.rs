@@ -1,0 +1,103 @@
+//! Step lengths from error estimates, and the constants that tune the integrator.
+
+use crate::collocation::{RADAU, STAGES};
+
+/// The largest error allowed within one step, as a fraction of the tolerance. The rest is for what
+/// steps add up to and for what the motion amplifies; tests/tolerance_ladder.rs holds the balance.
+const SHARE_OF_A_STEP: f64 = 0.05;
+
+/// A step is planned to displace the tip by at most this much over the band limit of f, 1.5 widths of
+/// a Gaussian: beyond, the step's own indentation is no smooth function of its stages.
+pub(super) const BANDS_PER_STEP: f64 = 13.0;
+/// And never by more than this.
+pub(super) const LONGEST_DISPLACEMENT: f64 = 4.0;
+/// A displacement larger than planned by this factor is still accepted.
+pub(super) const OVERSHOOT: f64 = 1.5;
+
+/// Weight of the change of the defect from step to step in the error estimate: where the leading
+/// derivative passes through zero, the defect alone says nothing.
+const WEIGHT_OF_CHANGE: f64 = 0.5;
+
+/// First step tried, in units of Γ/k.
+const FIRST_STEP: f64 = 0.01;
+const SAFETY: f64 = 0.9;
+const LARGEST_GROWTH: f64 = 2.5;
+const LARGEST_SHRINKAGE: f64 = 0.2;
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a small count")]
+const ORDER_WITHIN_A_STEP: i32 = STAGES as i32 + 1;
+
+/// Chooses step lengths.
+#[derive(Debug, Clone)]
+pub(super) struct Control {
+    tolerance: f64,
+    next: f64,
+    fixed: bool,
+    just_rejected: bool,
+    /// h times the defect, and h, of the last accepted step.
+    last: Option<(f64, f64)>,
+}
+
+impl Control {
+    pub(super) fn new(tolerance: f64) -> Self {
+        Self { tolerance, next: FIRST_STEP, fixed: false, just_rejected: false, last: None }
+    }
+
+    pub(super) fn fix(&mut self, h: f64) {
+        (self.next, self.fixed) = (h, true);
+    }
+
+    pub(super) fn is_fixed(&self) -> bool {
+        self.fixed
+    }
+
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Largest error allowed within a step.
+    pub(super) fn target(&self) -> f64 {
+        SHARE_OF_A_STEP * self.tolerance
+    }
+
+    /// The length to try next: below `limit`, and either reaching the end in `distance` or leaving
+    /// room for a step of the same length before it.
+    pub(super) fn proposal(&self, limit: f64, distance: f64) -> f64 {
+        let h = if self.fixed { self.next } else { self.next.min(limit) };
+        if h >= distance * (1.0 - 1e-9) {
+            distance
+        } else if 2.0 * h > distance && !self.fixed {
+            0.5 * distance
+        } else {
+            h
+        }
+    }
+
+    /// Accepts a step of length h whose stage polynomial starts with this defect (its velocity less
+    /// the true one), or says what length to try instead.
+    ///
+    /// The error within the step follows e' = Je + defect N(τ)/N(0), N vanishing at the nodes; a groove
+    /// of `stiffness` -J above 1/h damps it.
+    pub(super) fn judge(&mut self, defect: f64, h: f64, stiffness: f64) -> Result<(), f64> {
+        if self.fixed {
+            return Ok(());
+        }
+        let strayed = h * defect;
+        let expected = |(last, h_last): (f64, f64)| last * (h / h_last).powi(ORDER_WITHIN_A_STEP);
+        let change = self.last.map_or(0.0, |last| strayed - expected(last));
+        let k = RADAU.defect_to_error;
+        let error = k * (strayed.abs() + WEIGHT_OF_CHANGE * change.abs()) / (1.0 + k * h * stiffness);
+        let ratio = (self.target() / error.max(1e-300)).powf(1.0 / f64::from(ORDER_WITHIN_A_STEP));
+        // An error that is NaN has the largest shrinkage: max and clamp would let it pass.
+        let factor = if ratio.is_nan() { LARGEST_SHRINKAGE } else { SAFETY * ratio };
+        let factor = factor.clamp(LARGEST_SHRINKAGE, LARGEST_GROWTH);
+        if error.is_nan() || error > self.target() {
+            self.just_rejected = true;
+            return Err(h * factor.min(SAFETY));
+        }
+        self.next = h * if self.just_rejected { factor.min(1.0) } else { factor };
+        self.just_rejected = false;
+        self.last = Some((strayed, h));
+        Ok(())
+    }
+}

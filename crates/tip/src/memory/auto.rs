@@ -1,0 +1,56 @@
+//! The cheaper of the memories, by the number of nodes within reach.
+
+use super::{Direct, Fft, Memory};
+use crate::TipFunction;
+use crate::collocation::Stages;
+
+/// `direct` while few nodes lie within reach of the tip, `fft` from then on.
+pub struct Auto {
+    tip: TipFunction,
+    now: Now,
+}
+
+enum Now {
+    Direct(Direct),
+    Fft(Fft),
+}
+
+/// Nodes within reach from which a step with `fft` is the cheaper one: benches/memory.rs.
+pub const CROSSOVER_NODES: usize = 48;
+
+impl Auto {
+    /// Nothing remembered yet.
+    #[must_use]
+    pub fn new(tip: TipFunction) -> Self {
+        Self { now: Now::Direct(Direct::new(tip.clone())), tip }
+    }
+}
+
+impl Memory for Auto {
+    fn groove(&mut self, at: &Stages, slope: &mut Stages, curvature: &mut Stages) {
+        match &mut self.now {
+            Now::Direct(memory) => memory.groove(at, slope, curvature),
+            Now::Fft(memory) => memory.groove(at, slope, curvature),
+        }
+    }
+
+    fn remember(&mut self, position: &Stages, weight: &Stages) {
+        match &mut self.now {
+            Now::Direct(direct) => {
+                direct.remember(position, weight);
+                if direct.nodes_within_reach() > CROSSOVER_NODES {
+                    let past: Vec<_> = direct.past().collect();
+                    self.now = Now::Fft(Fft::with_past(self.tip.clone(), &past));
+                }
+            }
+            Now::Fft(memory) => memory.remember(position, weight),
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match &self.now {
+            Now::Direct(memory) => memory.name(),
+            Now::Fft(memory) => memory.name(),
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Measured series (x_i, y_i) from a user's file, checked before a spline goes through them.
+
+use crate::spline::CubicSpline;
+use thiserror::Error;
+
+/// Why a series was refused. Rows are counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SeriesError {
+    /// A spline needs three points.
+    #[error("{0} rows were found: at least 3 are needed")]
+    Short(usize),
+    /// A row that is not finite.
+    #[error("row {0} is not a pair of finite numbers")]
+    NotFinite(usize),
+    /// A first column that does not increase.
+    #[error("row {row} has {value} in its first column: it must increase from row to row")]
+    Unsorted {
+        /// Row.
+        row: usize,
+        /// Entry.
+        value: f64,
+    },
+}
+
+/// The natural cubic spline through a series.
+pub(crate) fn spline_through(x: Vec<f64>, y: Vec<f64>) -> Result<CubicSpline, SeriesError> {
+    let rows = x.len().min(y.len());
+    if rows < 3 {
+        return Err(SeriesError::Short(rows));
+    }
+    if let Some(i) = (0..rows).find(|&i| !(x[i].is_finite() && y[i].is_finite())) {
+        return Err(SeriesError::NotFinite(i + 1));
+    }
+    if let Some(i) = (1..rows).find(|&i| x[i] <= x[i - 1]) {
+        return Err(SeriesError::Unsorted { row: i + 1, value: x[i] });
+    }
+    Ok(CubicSpline::through(x, y))
+}

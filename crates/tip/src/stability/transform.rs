@@ -1,0 +1,217 @@
+//! G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy, the transform that the characteristic equation (30) is made of.
+
+use super::scaled_erfc::scaled_erfc;
+use crate::TipFunction;
+use crate::tip_function::Gaussian;
+use gauss_quad::GaussLegendre;
+use num_complex::Complex64;
+use std::f64::consts::{PI, SQRT_2};
+
+/// Sums of more Gaussians than this are integrated by quadrature: a table has hundreds.
+const MOST_CLOSED_FORMS: usize = 16;
+/// Nodes on each quadrature panel.
+const PANEL_NODES: usize = 32;
+/// |Λ + band| times half a panel's width that 32 nodes integrate to round-off.
+const PANEL_PHASE: f64 = 17.0;
+/// The quadrature serves |Λ| up to this many bands; beyond, the closed form does.
+const BANDS_SERVED: f64 = 1.5;
+/// Exponents above this are carried in [`Scaled::log_scale`].
+const LARGEST_EXPONENT: f64 = 300.0;
+
+/// A value and its derivative with respect to Λ, both times e^`log_scale`.
+///
+/// G grows like e^{Λ²w²/2} to the left, beyond the range of floating point at |Λ| ≈ 40/w.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scaled {
+    pub(super) value: Complex64,
+    pub(super) derivative: Complex64,
+    pub(super) log_scale: f64,
+}
+
+/// G for one tip function.
+///
+/// Gaussian sums: closed form by the scaled complementary error function, or, for the many narrow
+/// Gaussians of a table, Gauss-Legendre quadrature. J0: closed form (44), √(Λ²+1) = √(Λ+i)√(Λ-i)
+/// with principal roots, that is, analytic for Re Λ > 0 and continued to the left with cuts that run
+/// from ±i straight to the left.
+#[derive(Debug, Clone)]
+pub(super) struct CurvatureTransform {
+    kind: Kind,
+}
+
+#[derive(Debug, Clone)]
+enum Kind {
+    ClosedForms(Vec<Gaussian>),
+    Quadrature(Panels, Vec<Gaussian>),
+    Bessel,
+}
+
+impl CurvatureTransform {
+    pub(super) fn new(tip: &TipFunction) -> Self {
+        let kind = match tip {
+            TipFunction::Bessel => Kind::Bessel,
+            TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
+                Kind::ClosedForms(sum.terms().to_vec())
+            }
+            TipFunction::Gaussians(sum) => {
+                Kind::Quadrature(Panels::new(tip), sum.terms().to_vec())
+            }
+        };
+        Self { kind }
+    }
+
+    /// Whether G comes from closed forms, so that its real part on the axis is best had from f̂.
+    pub(super) fn is_closed_form(&self) -> bool {
+        !matches!(self.kind, Kind::Quadrature(..))
+    }
+
+    /// G(Λ) and G'(Λ).
+    pub(super) fn at(&self, lambda: Complex64) -> Scaled {
+        match &self.kind {
+            Kind::ClosedForms(terms) => closed_forms(terms, lambda),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.integrate(lambda),
+            Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
+            Kind::Bessel => bessel(lambda),
+        }
+    }
+}
+
+/// Σ over Gaussians of Λ²f̃ - Λf(0) - f'(0). With z = (Λw² - c)/(w√2) and R of [`scaled_erfc`], one of
+/// them contributes, free of the cancellation between these three,
+///
+/// ```text
+///     a e^{-c²/2w²} [ (Λ + c/w²) R(z) + (c²/w³) √(π/2) erfcx(z) ]
+/// ```
+///
+/// and where Re z < 0, the same with erfcx(z), R(z) replaced by -erfcx(-z), R(-z), plus
+/// a w √(2π) Λ² exp(Λ²w²/2 - cΛ).
+fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
+    let exponent = |g: &Gaussian| lambda * (lambda * (0.5 * g.width * g.width) - g.center);
+    let is_left = |g: &Gaussian| lambda.re * g.width * g.width < g.center;
+    let largest = terms
+        .iter()
+        .filter(|g| is_left(g))
+        .map(|g| exponent(g).re)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
+    let down = (-log_scale).exp();
+    let mut value = Complex64::ZERO;
+    let mut derivative = Complex64::ZERO;
+    for g in terms {
+        let (v, d) = algebraic_part(g, lambda);
+        value += v * down;
+        derivative += d * down;
+        if is_left(g) {
+            let growth = (exponent(g) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt());
+            value += growth * lambda * lambda;
+            derivative +=
+                growth * lambda * (2.0 + lambda * (lambda * (g.width * g.width) - g.center));
+        }
+    }
+    Scaled { value, derivative, log_scale }
+}
+
+/// The bracket above with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
+/// erfcx' = 2R/√π, R' = √π erfcx + 2zR (the same in both half-planes).
+fn algebraic_part(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
+    let (c, w) = (g.center, g.width);
+    let at_origin = g.amplitude * (-0.5 * (c / w).powi(2)).exp();
+    if at_origin.abs() < f64::MIN_POSITIVE {
+        return (Complex64::ZERO, Complex64::ZERO);
+    }
+    let z = (lambda * w - c / w) / SQRT_2;
+    let (k, remainder) = if z.re < 0.0 {
+        let (k, remainder) = scaled_erfc(-z);
+        (-k, remainder)
+    } else {
+        scaled_erfc(z)
+    };
+    let shifted = lambda + c / (w * w);
+    let lobe = (c / w).powi(2) / w * (PI / 2.0).sqrt();
+    let remainder_slope = k * PI.sqrt() + z * remainder * 2.0;
+    let value = shifted * remainder + k * lobe;
+    let derivative = remainder
+        + (shifted * remainder_slope + remainder * (2.0 / PI.sqrt() * lobe)) * (w / SQRT_2);
+    (value * at_origin, derivative * at_origin)
+}
+
+/// G = Λ²/√(Λ²+1) - Λ = -Λ/(s(s + Λ)) with s = √(Λ²+1), (44).
+fn bessel(lambda: Complex64) -> Scaled {
+    let s = bessel_root(lambda);
+    // s - Λ = 1/(s + Λ) avoids the cancellation where they are close, which is where s ≈ Λ.
+    let difference = if (s + lambda).norm_sqr() > 1.0 { (s + lambda).inv() } else { s - lambda };
+    let value = -lambda * difference / s;
+    let derivative = lambda * (lambda * lambda + 2.0) / (s * s * s) - 1.0;
+    Scaled { value, derivative, log_scale: 0.0 }
+}
+
+/// √(Λ²+1), positive for positive Λ, with cuts from ±i straight to the left.
+pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
+    (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
+}
+
+/// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip.
+#[derive(Debug, Clone)]
+struct Panels {
+    width: f64,
+    /// Nodes within a panel, from its start.
+    offsets: Vec<f64>,
+    /// Weight times f'' at every node, panel by panel.
+    weighted: Vec<f64>,
+    largest_lambda: f64,
+}
+
+impl Panels {
+    fn new(tip: &TipFunction) -> Self {
+        let reach = tip.reach().unwrap_or(1.0);
+        let largest_lambda = BANDS_SERVED * tip.band();
+        let phase = tip.band() + largest_lambda;
+        let panels = (0.5 * reach * phase / PANEL_PHASE).ceil().max(1.0);
+        let width = reach / panels;
+        let rule = GaussLegendre::new(PANEL_NODES.try_into().unwrap_or(std::num::NonZero::<usize>::MIN));
+        let mut pairs: Vec<(f64, f64)> = rule.as_node_weight_pairs().to_vec();
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let offsets: Vec<f64> = pairs.iter().map(|(x, _)| 0.5 * width * (1.0 + x)).collect();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let starts = (0..panels as u32).map(|i| f64::from(i) * width);
+        let weighted = starts
+            .flat_map(|start| {
+                let node = |(x, w): (&f64, &(f64, f64))| {
+                    0.5 * width * w.1 * tip.slope_and_curvature(start + x).1
+                };
+                offsets.iter().zip(&pairs).map(node).collect::<Vec<_>>()
+            })
+            .collect();
+        Self { width, offsets, weighted, largest_lambda }
+    }
+
+    fn serves(&self, lambda: Complex64) -> bool {
+        lambda.norm() <= self.largest_lambda
+    }
+
+    fn integrate(&self, lambda: Complex64) -> Scaled {
+        let within: Vec<Complex64> = self.offsets.iter().map(|x| (-lambda * x).exp()).collect();
+        let panels = self.weighted.chunks_exact(self.offsets.len());
+        #[expect(clippy::cast_precision_loss, reason = "a count")]
+        let length = self.width * panels.len() as f64;
+        let largest = -lambda.re * length;
+        let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
+        let mut value = Complex64::ZERO;
+        let mut derivative = Complex64::ZERO;
+        let mut start = 0.0;
+        for panel in panels {
+            let mut sum = Complex64::ZERO;
+            let mut moment = Complex64::ZERO;
+            for ((weight, e), x) in panel.iter().zip(&within).zip(&self.offsets) {
+                let term = e * *weight;
+                sum += term;
+                moment += term * *x;
+            }
+            let carry = (-lambda * start - log_scale).exp();
+            value += carry * sum;
+            derivative -= carry * (moment + sum * start);
+            start += self.width;
+        }
+        Scaled { value, derivative, log_scale }
+    }
+}

@@ -23,6 +23,8 @@ mod history;
 mod initial_surface;
 mod integrator;
 mod model;
+mod outcome;
+mod run;
 mod series;
 mod spline;
 
@@ -32,5 +34,7 @@ pub use history::{Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use model::{Model, ModelError};
+pub use outcome::{Oscillation, Outcome, Regime, classify};
+pub use run::{MemoryChoice, Run, RunError, Scenario, Start, TOLERANCES, run, run_observed};
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

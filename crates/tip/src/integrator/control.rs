@@ -86,7 +86,8 @@ impl Control {
         let expected = |(last, h_last): (f64, f64)| last * (h / h_last).powi(ORDER_WITHIN_A_STEP);
         let change = self.last.map_or(0.0, |last| strayed - expected(last));
         let k = RADAU.defect_to_error;
-        let error = k * (strayed.abs() + WEIGHT_OF_CHANGE * change.abs()) / (1.0 + k * h * stiffness);
+        let error =
+            k * (strayed.abs() + WEIGHT_OF_CHANGE * change.abs()) / (1.0 + k * h * stiffness);
         let ratio = (self.target() / error.max(1e-300)).powf(1.0 / f64::from(ORDER_WITHIN_A_STEP));
         // An error that is NaN has the largest shrinkage: max and clamp would let it pass.
         let factor = if ratio.is_nan() { LARGEST_SHRINKAGE } else { SAFETY * ratio };

@@ -167,7 +167,8 @@ impl<'a> Integrator<'a> {
     /// Defect of the stage polynomial at the start of the step, where the true velocity is known from
     /// the step before.
     fn defect(&self, displacement: &Stages, h: f64) -> f64 {
-        let slope: f64 = RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
+        let slope: f64 =
+            RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
         slope / h - self.velocity
     }
 

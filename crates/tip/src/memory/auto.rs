@@ -16,7 +16,7 @@ enum Now {
 }
 
 /// Nodes within reach from which a step with `fft` is the cheaper one: benches/memory.rs.
-pub const CROSSOVER_NODES: usize = 48;
+const CROSSOVER_NODES: usize = 48;
 
 impl Auto {
     /// Nothing remembered yet.

@@ -46,7 +46,8 @@ impl Direct {
 
     /// All that is remembered: displacements from where the tip stands now, and times spent there.
     pub fn past(&self) -> impl Iterator<Item = (f64, f64)> {
-        let nodes = |b: &Block| std::array::from_fn::<_, STAGES, _>(|i| (b.position[i], b.weight[i]));
+        let nodes =
+            |b: &Block| std::array::from_fn::<_, STAGES, _>(|i| (b.position[i], b.weight[i]));
         self.blocks.iter().flat_map(nodes).map(|(x, weight)| (x - self.position, weight))
     }
 

@@ -31,7 +31,7 @@ impl AxisPoint {
         (r * self.cosine - self.sine, r * self.cosine_slope - self.sine_slope)
     }
 
-    /// αc²- s, which vanishes where (43) holds for given α, and its derivative.
+    /// αc² - s, which vanishes where (43) holds for given α, and its derivative.
     fn alpha_mismatch(&self, alpha: f64) -> (f64, f64) {
         (
             alpha * self.cosine * self.cosine - self.sine,
@@ -97,8 +97,7 @@ impl Axis {
     fn zeros(&self, g: impl Fn(&AxisPoint) -> (f64, f64)) -> Vec<AxisPoint> {
         let mut zeros = Vec::new();
         // At Ω → 0, c → 0 and s → f(0).
-        let start = self.samples.first().map_or(0.0, |p| p.wave_number) * 1e-9;
-        let mut before = (start, (-self.tip.value(0.0), 0.0));
+        let mut before = (0.0, (-self.tip.value(0.0), 0.0));
         for sample in &self.samples {
             let here = (sample.wave_number, g(sample));
             let (left, right) = (before.1, here.1);
@@ -145,7 +144,11 @@ impl Axis {
         let mut point = self.at(x);
         for _ in 0..100 {
             let (value, slope) = g(&point);
-            if (value > 0.0) == rising { hi = x } else { lo = x }
+            if (value > 0.0) == rising {
+                hi = x
+            } else {
+                lo = x
+            }
             let newton = x - value / slope;
             let next = if newton > lo && newton < hi { newton } else { 0.5 * (lo + hi) };
             let done = (next - x).abs() <= 4.0 * f64::EPSILON * x;

@@ -53,9 +53,7 @@ impl CurvatureTransform {
             TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
                 Kind::ClosedForms(sum.terms().to_vec())
             }
-            TipFunction::Gaussians(sum) => {
-                Kind::Quadrature(Panels::new(tip), sum.terms().to_vec())
-            }
+            TipFunction::Gaussians(sum) => Kind::Quadrature(Panels::new(tip), sum.terms().to_vec()),
         };
         Self { kind }
     }
@@ -102,7 +100,8 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
         value += v * down;
         derivative += d * down;
         if is_left(g) {
-            let growth = (exponent(g) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt());
+            let growth =
+                (exponent(g) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt());
             value += growth * lambda * lambda;
             derivative +=
                 growth * lambda * (2.0 + lambda * (lambda * (g.width * g.width) - g.center));
@@ -168,7 +167,8 @@ impl Panels {
         let phase = tip.band() + largest_lambda;
         let panels = (0.5 * reach * phase / PANEL_PHASE).ceil().max(1.0);
         let width = reach / panels;
-        let rule = GaussLegendre::new(PANEL_NODES.try_into().unwrap_or(std::num::NonZero::<usize>::MIN));
+        let rule =
+            GaussLegendre::new(PANEL_NODES.try_into().unwrap_or(std::num::NonZero::<usize>::MIN));
         let mut pairs: Vec<(f64, f64)> = rule.as_node_weight_pairs().to_vec();
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         let offsets: Vec<f64> = pairs.iter().map(|(x, _)| 0.5 * width * (1.0 + x)).collect();

@@ -1,0 +1,251 @@
+//! A run: a tip set going from a given start, integrated to a given time, and what became of it.
+
+use crate::integrator::{IntegrationError, Integrator, Work};
+use crate::memory::{Auto, Direct, Fft, Memory};
+use crate::outcome::{Outcome, classify};
+use crate::series::SeriesError;
+use crate::{Force, InitialSurface, Model, Noise, Step, Trajectory};
+use std::ops::ControlFlow;
+use thiserror::Error;
+
+/// What the tip finds when it starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// The steady state (22), (24), as after an infinite past: t1 = (X + r + l0)/r.
+    Steady,
+    /// A flat surface, the spring relaxed, the support above the tip: t1 = X/r.
+    Flat,
+}
+
+/// Which memory carries the past.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MemoryChoice {
+    /// The cheaper one, [`Auto`].
+    Auto,
+    /// [`Direct`]
+    Direct,
+    /// [`Fft`]
+    Fft,
+}
+
+/// Everything that defines a run. Lengths in σ, times in Γ/k, forces in kσ.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    /// Footprint, α and r.
+    pub model: Model,
+    /// Steady or flat.
+    pub start: Start,
+    /// Position X that the start is made for.
+    pub start_position: f64,
+    /// The tip starts at X - kick, so that l is `kick` above its start value.
+    pub kick: f64,
+    /// Noise added to the initial surface.
+    pub noise: Option<Noise>,
+    /// Profile (x, u) added to the initial surface.
+    pub profile: Option<(Vec<f64>, Vec<f64>)>,
+    /// External force.
+    pub force: Force,
+    /// Time to integrate to.
+    pub until: f64,
+    /// Largest error of l(t) asked for, in σ.
+    pub tolerance: f64,
+    /// Memory to use.
+    pub memory: MemoryChoice,
+}
+
+/// Why a run was refused or could not be finished.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunError {
+    /// X is not finite.
+    #[error("the start position is {0}: it must be a finite number")]
+    StartPosition(f64),
+    /// The kick is not finite.
+    #[error("the kick is {0}: it must be a finite number")]
+    Kick(f64),
+    /// The run would end before it begins.
+    #[error("the run would end at t = {until}, but it starts at t = {start}: ask for a later end")]
+    Until {
+        /// End asked for.
+        until: f64,
+        /// Time at which the tip is at its start position.
+        start: f64,
+    },
+    /// A tolerance that is no positive number, or that f64 cannot meet.
+    #[error(
+        "the tolerance is {0:e}: it must lie between {min:e}, where round-off takes over, and {max}",
+        min = TOLERANCES.0, max = TOLERANCES.1
+    )]
+    Tolerance(f64),
+    /// Noise that is not finite, of no spacing, or on too many points.
+    #[error(
+        "noise of amplitude {} on a spacing of {}: both must be finite, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
+        noise.amplitude, noise.spacing
+    )]
+    Noise {
+        /// As given.
+        noise: Noise,
+        /// Grid points between the start and the end.
+        points: f64,
+    },
+    /// An initial surface that is no function of x.
+    #[error("the initial surface: {0}")]
+    Profile(SeriesError),
+    /// The integration could not go on.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+}
+
+/// Tolerances that can be met: below 1e-13 round-off of positions takes over.
+pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
+
+const MOST_NOISE_POINTS: f64 = 2e8;
+/// Noise reaches this far behind the start and ahead of the support's last position.
+const NOISE_BEYOND: f64 = 30.0;
+
+/// A finished run.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// x0(t) at every t of the run.
+    pub trajectory: Trajectory,
+    /// Its regime and oscillation.
+    pub outcome: Outcome,
+    /// Counts.
+    pub work: Work,
+    /// Name of the memory in use at the end.
+    pub memory: &'static str,
+    /// Whether the observer stopped it before `until`.
+    pub interrupted: bool,
+}
+
+impl Scenario {
+    /// The steady start at X = 14 without any disturbance, to a tolerance of 1e-9.
+    #[must_use]
+    pub fn new(model: Model, until: f64) -> Self {
+        Self {
+            model,
+            start: Start::Steady,
+            start_position: 14.0,
+            kick: 0.0,
+            noise: None,
+            profile: None,
+            force: Force::default(),
+            until,
+            tolerance: 1e-9,
+            memory: MemoryChoice::Auto,
+        }
+    }
+
+    /// Time t1 at which the run starts.
+    #[must_use]
+    pub fn start_time(&self) -> f64 {
+        (self.start_position + self.start_extension()) / self.model.r()
+    }
+
+    /// rt - x0 at the start, before the kick.
+    fn start_extension(&self) -> f64 {
+        match self.start {
+            Start::Steady => self.model.steady_lag(),
+            Start::Flat => 0.0,
+        }
+    }
+
+    /// u0(x).
+    ///
+    /// # Errors
+    /// A profile that is no function of x.
+    pub fn initial_surface(&self) -> Result<InitialSurface, RunError> {
+        let mut surface = match self.start {
+            Start::Steady => InitialSurface::steady(&self.model, self.start_position),
+            Start::Flat => InitialSurface::flat(),
+        };
+        if let Some((x, u)) = self.profile.clone() {
+            surface = surface.with_profile(x, u).map_err(RunError::Profile)?;
+        }
+        if let Some(noise) = self.noise {
+            let (from, to) = self.noise_range();
+            surface = surface.with_noise(noise, from, to);
+        }
+        Ok(surface)
+    }
+
+    fn noise_range(&self) -> (f64, f64) {
+        let last = (self.model.r() * self.until).max(self.start_position);
+        (self.start_position - NOISE_BEYOND, last + NOISE_BEYOND)
+    }
+
+    /// # Errors
+    /// The first parameter out of range.
+    pub fn validate(&self) -> Result<(), RunError> {
+        if !self.start_position.is_finite() {
+            return Err(RunError::StartPosition(self.start_position));
+        }
+        if !self.kick.is_finite() {
+            return Err(RunError::Kick(self.kick));
+        }
+        let (until, start) = (self.until, self.start_time());
+        if !(until.is_finite() && until > start) {
+            return Err(RunError::Until { until, start });
+        }
+        if !(TOLERANCES.0..=TOLERANCES.1).contains(&self.tolerance) {
+            return Err(RunError::Tolerance(self.tolerance));
+        }
+        if let Some(noise) = self.noise {
+            let (from, to) = self.noise_range();
+            let points = (to - from) / noise.spacing;
+            let fits = noise.spacing > 0.0 && points <= MOST_NOISE_POINTS;
+            if !(noise.amplitude.is_finite() && fits) {
+                return Err(RunError::Noise { noise, points });
+            }
+        }
+        Ok(())
+    }
+
+    fn new_memory(&self) -> Box<dyn Memory> {
+        let tip = self.model.tip().clone();
+        match self.memory {
+            MemoryChoice::Auto => Box::new(Auto::new(tip)),
+            MemoryChoice::Direct => Box::new(Direct::new(tip)),
+            MemoryChoice::Fft => Box::new(Fft::new(tip)),
+        }
+    }
+}
+
+/// Integrates (15) from the start of the scenario to its end.
+///
+/// # Errors
+/// A parameter out of range, or a tolerance that turned out not to be met.
+pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
+    run_observed(scenario, |_| ControlFlow::Continue(()))
+}
+
+/// As [`run`], showing each accepted step to an observer, who may stop the run there.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_observed(
+    scenario: &Scenario,
+    mut observe: impl FnMut(&Step) -> ControlFlow<()>,
+) -> Result<Run, RunError> {
+    scenario.validate()?;
+    let surface = scenario.initial_surface()?;
+    let start = (scenario.start_time(), scenario.start_extension() + scenario.kick);
+    let mut integrator = Integrator::new(
+        &scenario.model,
+        &surface,
+        &scenario.force,
+        scenario.new_memory(),
+        start,
+        scenario.tolerance,
+    );
+    let mut steps = vec![];
+    let mut interrupted = false;
+    while integrator.t() < scenario.until && !interrupted {
+        let step = integrator.step(scenario.until)?;
+        steps.push(step);
+        interrupted = observe(&step).is_break();
+    }
+    let trajectory = Trajectory::new(scenario.model.r(), steps);
+    let outcome = classify(&trajectory, &scenario.model, scenario.tolerance);
+    let (work, memory) = (integrator.work(), integrator.memory().name());
+    Ok(Run { trajectory, outcome, work, memory, interrupted })
+}

@@ -1,1 +1,105 @@
-//! wip
+//! The surface u(x,t) that a tip leaves behind, from its trajectory alone.
+//!
+//! ```text
+//!     u(x,t) = u0(x) - α ∫_{t1}^t f(x - x0(t'))dt'        (14)
+//! ```
+//!
+//! The surface never enters the integration of the tip; here it is read off afterwards, at any x and at
+//! any t of the run, as a sum over the residence of the tip: where it was, and for how long. Heights in
+//! units of kσ²/a, lengths in σ, times in Γ/k.
+//!
+//! ```
+//! use stickslip_surface::Surface;
+//! use stickslip_tip::{Model, Scenario, TipFunction, run};
+//!
+//! let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0)?, 1.2, 1.0)?;
+//! let scenario = Scenario { kick: 0.05, ..Scenario::new(model, 60.0) };
+//! let trajectory = run(&scenario)?.trajectory;
+//! let initial = scenario.initial_surface()?;
+//! let surface = Surface::new(&scenario.model, &initial, &trajectory);
+//! let u = surface.heights(60.0, &[20.0, 20.1, 20.2])?;
+//! assert!(u.iter().all(|u| u.is_finite()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod carved;
+mod ripple;
+
+pub use carved::{Method, carved, carved_by};
+pub use ripple::{Ripple, ripple_behind};
+
+use ndarray::Array1;
+use rayon::prelude::*;
+use stickslip_tip::{InitialSurface, Model, Trajectory};
+use thiserror::Error;
+
+/// Why a surface cannot be given.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SurfaceError {
+    /// A time outside of the run.
+    #[error("t = {t} is outside of the run, which lasts from {start} to {end}")]
+    OutsideRun {
+        /// As asked.
+        t: f64,
+        /// Start of the trajectory.
+        start: f64,
+        /// End of the trajectory.
+        end: f64,
+    },
+    /// A position that is not finite.
+    #[error("x = {0} is not a finite number")]
+    Position(f64),
+}
+
+/// u(x,t) for one run.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface<'a> {
+    model: &'a Model,
+    initial: &'a InitialSurface,
+    trajectory: &'a Trajectory,
+}
+
+impl<'a> Surface<'a> {
+    /// Of a tip that moved along `trajectory` over `initial`.
+    #[must_use]
+    pub fn new(model: &'a Model, initial: &'a InitialSurface, trajectory: &'a Trajectory) -> Self {
+        Self { model, initial, trajectory }
+    }
+
+    /// u(x,t), (14), at every x. The accuracy is that of the trajectory; a point costs a bounded number
+    /// of operations, however long the history.
+    ///
+    /// # Errors
+    /// `t` outside of the run, x not finite.
+    pub fn heights(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
+        let (start, end) = (self.trajectory.start(), self.trajectory.end());
+        if !(start..=end).contains(&t) {
+            return Err(SurfaceError::OutsideRun { t, start, end });
+        }
+        let mut u = self.far_behind(t, x)?;
+        let before = |(u, x): (&mut f64, &f64)| *u += self.initial.height(*x);
+        u.as_slice_mut().unwrap_or_default().par_iter_mut().zip(x).for_each(before);
+        Ok(u)
+    }
+
+    /// -α ∫_{t1}^t f(x - x0(t'))dt': what the tip has carved by time t. Far behind the tip it is the
+    /// height u∞(x) of (35), for a run that started far before x.
+    ///
+    /// # Errors
+    /// x not finite.
+    pub fn far_behind(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
+        if let Some(x) = x.iter().find(|x| !x.is_finite()) {
+            return Err(SurfaceError::Position(*x));
+        }
+        let (positions, weights) = self.trajectory.residence(t);
+        let sums = carved(self.model.tip(), &positions, &weights, x);
+        Ok(sums.mapv_into(|sum| -self.model.alpha() * sum))
+    }
+}
+
+/// The profile (24) of steady motion, -(α/r) ∫_{x-x0}^∞ f, with the tip at x0.
+#[must_use]
+pub fn steady_profile(model: &Model, x0: f64, x: &[f64]) -> Array1<f64> {
+    let depth = model.alpha() / model.r();
+    x.iter().map(|x| -depth * model.tip().tail(x - x0)).collect()
+}

@@ -12,7 +12,7 @@ pub struct Auto {
 
 enum Now {
     Direct(Direct),
-    Fft(Fft),
+    Fft(Box<Fft>),
 }
 
 /// Nodes within reach from which a step with `fft` is the cheaper one: benches/memory.rs.
@@ -40,7 +40,7 @@ impl Memory for Auto {
                 direct.remember(position, weight);
                 if direct.nodes_within_reach() > CROSSOVER_NODES {
                     let past: Vec<_> = direct.past().collect();
-                    self.now = Now::Fft(Fft::with_past(self.tip.clone(), &past));
+                    self.now = Now::Fft(Box::new(Fft::with_past(self.tip.clone(), &past)));
                 }
             }
             Now::Fft(memory) => memory.remember(position, weight),

@@ -1,6 +1,6 @@
 //! Maxima and minima of l(t), looked for from the end of a run backwards.
 
-use crate::collocation::{RADAU, STAGES, apply};
+use crate::collocation::{RADAU, apply};
 use crate::{Step, Trajectory};
 
 /// A time and the value of l there.
@@ -46,10 +46,10 @@ fn turning_points(trajectory: &Trajectory, step: &Step) -> Vec<Extremum> {
     let at_nodes = apply(&RADAU.derivative, &step.displacement);
     let mut before = (0.0, l_slope(0.0));
     let mut found = vec![];
-    for i in 0..STAGES {
-        let after = (RADAU.c[i], trajectory.r() - at_nodes[i] / step.h);
+    for (c, moving) in RADAU.c.iter().zip(at_nodes) {
+        let after = (*c, trajectory.r() - moving / step.h);
         if before.1 * after.1 < 0.0 {
-            let tau = bisect(&l_slope, before.0, after.0);
+            let tau = bisect(l_slope, before.0, after.0);
             let t = step.t + tau * step.h;
             found.push(Extremum { t, l: trajectory.l(t), is_maximum: before.1 > 0.0 });
         }

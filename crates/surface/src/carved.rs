@@ -1,0 +1,72 @@
+//! Σ_j w_j f(x - x_j) over the residence of the tip, by the cheaper of two ways.
+
+use ndarray::Array1;
+use rayon::prelude::*;
+use stickslip_convolution::{Kernel, direct_sum, sum};
+use stickslip_tip::TipFunction;
+
+/// How a sum over the residence is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// One evaluation of f per position of the tip and per x: the definition.
+    Direct,
+    /// Spreading, FFT, reading: a bounded number of operations per position and per x.
+    Fft,
+}
+
+/// Pairs of source and target that cost as much as one of either by FFT; measured with
+/// benches/surface.rs, flat within a factor of two.
+const PAIRS_PER_POINT: f64 = 4.0;
+/// Cells of the lattice that cost as much as one point.
+const CELLS_PER_POINT: f64 = 2.0;
+
+impl Method {
+    /// The cheaper one for so many positions and points over this extent.
+    #[must_use]
+    pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
+        let (sources, targets) = (positions.len() as f64, x.len() as f64);
+        let span = |v: &[f64]| {
+            v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
+        };
+        let ((a, b), (c, d)) = (span(positions), span(x));
+        let extent = match tip.reach() {
+            Some(reach) => (b.min(d + reach) - a.max(c - reach)).max(0.0) + 2.0 * reach,
+            None => 4.0 * (b.max(d) - a.min(c)),
+        };
+        let cells = extent * tip.band() * 2.0 / std::f64::consts::PI;
+        let by_fft = PAIRS_PER_POINT * (sources + targets + cells / CELLS_PER_POINT + 200.0);
+        if sources * targets <= by_fft { Self::Direct } else { Self::Fft }
+    }
+}
+
+/// Σ_j `weights_j` f(x - `positions_j`) at every x, by the cheaper method.
+///
+/// # Panics
+/// If there are not as many weights as positions, or if a position or x is not finite.
+#[must_use]
+pub fn carved(tip: &TipFunction, positions: &[f64], weights: &[f64], x: &[f64]) -> Array1<f64> {
+    carved_by(Method::cheaper(tip, positions, x), tip, positions, weights, x)
+}
+
+/// As [`carved`], by the method given.
+///
+/// # Panics
+/// As [`carved`].
+#[must_use]
+pub fn carved_by(
+    method: Method,
+    tip: &TipFunction,
+    positions: &[f64],
+    weights: &[f64],
+    x: &[f64],
+) -> Array1<f64> {
+    let value = |x: f64| tip.value(x);
+    let kernel = Kernel { value: &value, band: tip.band(), reach: tip.reach() };
+    match method {
+        Method::Direct => {
+            let at = |x: &f64| direct_sum(&kernel, positions, weights, &[*x])[0];
+            x.par_iter().map(at).collect::<Vec<f64>>().into()
+        }
+        Method::Fft => sum(&kernel, positions, weights, x).into(),
+    }
+}

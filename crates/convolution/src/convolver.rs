@@ -14,8 +14,8 @@ use crate::{Density, Field, Kernel, Plan};
 /// **Who must cover what.** One call sees a window of [`length`](Self::length) cells of the
 /// density, and nothing else.
 /// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window see every
-///   source that matters, whether or not others lie outside. The window leaves room for targets
-///   in an interval as long as `separation − reach`.
+///   source that matters, whether or not others lie outside. A window centred on `x` leaves room
+///   for targets up to `(separation − reach)/2` from `x`.
 /// - A kernel without: all sources must lie in the window, and the targets within `separation` of
 ///   each of them.
 ///

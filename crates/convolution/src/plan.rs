@@ -64,7 +64,7 @@ impl Plan {
     /// A window of length `P` sums the kernel as if sources repeated with period `P`. The nearest
     /// repetition is at `P − separation` or farther, beyond the reach if `P ≥ separation + reach`;
     /// 48 cells are added for the windows of sources and targets at either end (see
-    /// [`margin`](Self::margin)).
+    /// [`margin`](Self::margin)), and 3 because it is centred on a cell.
     ///
     /// # Panics
     /// If the band is not positive and finite, or the separation or reach negative or not finite.
@@ -80,7 +80,7 @@ impl Plan {
         let reach = taper.map_or(kernel.reach.unwrap_or(0.0), |t| t.end());
         let band = kernel.band + taper.map_or(0.0, |t| TAPER_BAND_WIDTHS / t.width);
         let spacing = dyadic_at_most(PI / (UPSAMPLING * band));
-        let cells = ((separation + reach) / spacing).ceil() as usize + 3 * WIDTH;
+        let cells = ((separation + reach) / spacing).ceil() as usize + 3 * WIDTH + 3;
         Self { separation, spacing, length: fast_length(cells), reach, taper }
     }
 

@@ -26,7 +26,7 @@ pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[
 
 /// `S(x) = Σ_j w_j K(x − y_j)` at each target, through one lattice that holds them all.
 ///
-/// Guarantee as in the [crate documentation](crate). Time is about 50 ns per source and per target,
+/// Guarantee as in the [crate documentation](crate). Time is about 60 ns per source and per target,
 /// plus one transform of as many cells as sources and targets span. Sources beyond the reach of
 /// all targets, and targets beyond the reach of all sources, are left out of that span.
 ///

@@ -1,5 +1,7 @@
 //! The spreading window φ: its formula, its polynomials, its transform.
 
+mod fit;
+
 use std::array::from_fn;
 use std::sync::LazyLock;
 
@@ -14,13 +16,10 @@ pub(crate) const BELOW: i64 = HALF as i64 - 1;
 /// step of 1e-16 instead of 4e-17; values hardly tell, but derivatives read 2.5 times better so.
 const SHAPE: f64 = 12.0 * std::f64::consts::PI;
 
-/// Pairs of polynomial coefficients per cell: degree 19 brings the fit to round-off, slopes too.
-const PAIRS: usize = 9;
+/// Pairs of polynomial coefficients per weight. Degree 15 is at round-off, slopes too; degree 13
+/// costs the slopes a digit, and degree 19 gains nothing.
+const PAIRS: usize = 8;
 const COEFFICIENTS: usize = 2 * PAIRS;
-/// Terms of the power series that the polynomials are cut from: the slowest, of the outermost cell
-/// whose end is the branch point of the square root, is below 1e-17 from here on.
-const TERMS: usize = 40;
-
 /// Nodes of the transform per cell. Two already put the folded part of φ̂ (at 4π − κ) at round-off.
 const NODES_PER_CELL: usize = 2;
 const NODES: usize = NODES_PER_CELL * HALF;
@@ -28,14 +27,13 @@ const NODES: usize = NODES_PER_CELL * HALF;
 /// The "exponential of semicircle" window, `φ(z) = exp(β(√(1 − z²) − 1))` for |z| ≤ 1 and zero
 /// beyond, with `z = m/8` at a distance of `m` cells, and β = 12π.
 ///
-/// **Method.** Within a cell each of the sixteen weights is an analytic function of the offset;
-/// each is held as a
-/// polynomial of degree 19, its power series about the middle cut down by Chebyshev polynomials. As φ is even, weight
-/// `k` at offset `t` is weight `15 − k` at `1 − t`: even and odd parts of eight polynomials give
-/// all sixteen, in loops of fixed length over neighbouring numbers.
+/// **Method.** Within a cell each of the sixteen weights is an analytic function of the offset; each
+/// is held as a polynomial of degree 15, its power series about the middle of the cell cut down by
+/// Chebyshev polynomials. As φ is even, weight `k` at offset `t` is weight `15 − k` at `1 − t`: even
+/// and odd parts of eight polynomials give all sixteen, in loops of fixed length over neighbours.
 ///
-/// **Guarantee.** Weights are within 1e-15 of the formula (whose peak is 1), and slopes within
-/// 2e-14 of theirs (whose peak is 0.5).
+/// **Guarantee.** Weights are within 1e-15 of the formula, whose peak is 1, and their slopes within
+/// 1e-15 (from 1/100 of a cell inside the ends, where the formula's slope is infinite).
 #[derive(Clone, Debug)]
 pub struct Window {
     /// `even[p][k]`: coefficient of `s^{2p}` in weight `k` of the lower eight, `s = 2·offset − 1`.
@@ -57,20 +55,15 @@ impl Window {
         &SHARED
     }
 
-    /// The formula `φ(z)`, its exponent written `−βz²/(1 + √(1 − z²))`: the difference `√(1 − z²) − 1`
-    /// would cost 36 roundings at the peak.
+    /// The formula `φ(z)`, its exponent written `−βz²/(1 + √(1 − z²))`: the difference
+    /// `√(1 − z²) − 1`, rounded and multiplied by β, would cost 38 roundings at the peak.
     pub fn formula(z: f64) -> f64 {
         let square = 1.0 - z * z;
         if square < 0.0 { 0.0 } else { (-SHAPE * z * z / (1.0 + square.sqrt())).exp() }
     }
 
     fn fit() -> Self {
-        let chebyshev = chebyshev();
-        let step = -0.5 / HALF as f64;
-        let power: [[f64; TERMS]; HALF] = from_fn(|cell| {
-            let centre = (cell as f64 - BELOW as f64 - 0.5) / HALF as f64;
-            economised(series(centre, step), &chebyshev)
-        });
+        let power = fit::lower_weights();
         let even_of = from_fn(|cell| from_fn(|p| power[cell][2 * p]));
         let odd_of = from_fn(|cell| from_fn(|p| power[cell][2 * p + 1]));
         Self {
@@ -98,43 +91,16 @@ impl Window {
         unfold(even, odd.map(|o| o * s))
     }
 
-    /// The weights, and their derivatives with respect to the offset.
-    #[inline]
-    pub fn weights_and_slopes(&self, offset: f64) -> ([f64; WIDTH], [f64; WIDTH]) {
-        let s = 2.0 * offset - 1.0;
-        let square = s * s;
-        let mut odd_slope = [0.0; HALF];
-        let mut even_slope = [0.0; HALF];
-        for p in (0..PAIRS).rev() {
-            for k in 0..HALF {
-                // The offset runs half as far as s: 2 d/ds of s^{2p+1} and of s^{2p}.
-                odd_slope[k] = odd_slope[k] * square + (4 * p + 2) as f64 * self.odd[p][k];
-                even_slope[k] = if p == 0 {
-                    even_slope[k]
-                } else {
-                    even_slope[k] * square + (4 * p) as f64 * self.even[p][k]
-                };
-            }
-        }
-        (self.weights(offset), unfold(even_slope.map(|o| o * s), odd_slope))
-    }
-
     /// `Σ_k weight_k cells_k` and its derivative with respect to the offset.
     ///
     /// Cells are contracted with the coefficients first, which leaves one polynomial in the offset:
     /// its derivative then costs next to nothing.
     #[inline]
-    pub(crate) fn read(&self, cells: &[f64; WIDTH], offset: f64) -> (f64, f64) {
-        let mut even = [0.0; PAIRS];
-        let mut odd = [0.0; PAIRS];
-        for k in 0..HALF {
-            let sum = cells[k] + cells[WIDTH - 1 - k];
-            let difference = cells[k] - cells[WIDTH - 1 - k];
-            for p in 0..PAIRS {
-                even[p] += self.even_of[k][p] * sum;
-                odd[p] += self.odd_of[k][p] * difference;
-            }
-        }
+    pub fn read(&self, cells: &[f64; WIDTH], offset: f64) -> (f64, f64) {
+        let sums: [f64; HALF] = from_fn(|k| cells[k] + cells[WIDTH - 1 - k]);
+        let differences: [f64; HALF] = from_fn(|k| cells[k] - cells[WIDTH - 1 - k]);
+        let even = contracted(&self.even_of, &sums);
+        let odd = contracted(&self.odd_of, &differences);
         let s = 2.0 * offset - 1.0;
         let (e, e_slope) = horner(&even, s * s);
         let (o, o_slope) = horner(&odd, s * s);
@@ -165,6 +131,19 @@ fn unfold(even: [f64; HALF], odd: [f64; HALF]) -> [f64; WIDTH] {
     all
 }
 
+/// `Σ_k coefficients_k cell_k`, a vector over the powers; apart from its caller, or the compiler
+/// pairs cells instead of powers and spends as long on shuffling.
+#[inline]
+fn contracted(coefficients: &[[f64; PAIRS]; HALF], cells: &[f64; HALF]) -> [f64; PAIRS] {
+    let mut all = [0.0; PAIRS];
+    for (of_cell, cell) in coefficients.iter().zip(cells) {
+        for (sum, c) in all.iter_mut().zip(of_cell) {
+            *sum += c * cell;
+        }
+    }
+    all
+}
+
 /// A polynomial and its derivative.
 #[inline]
 fn horner(coefficients: &[f64; PAIRS], x: f64) -> (f64, f64) {
@@ -174,48 +153,4 @@ fn horner(coefficients: &[f64; PAIRS], x: f64) -> (f64, f64) {
         value = value * x + c;
     }
     (value, slope)
-}
-
-/// The power series in `s` of `φ(centre + step·s)`, by the recurrences of the square root and of
-/// the exponential. Unlike an interpolant of rounded samples, it has high coefficients as accurate
-/// as they are small, which the slopes need.
-fn series(centre: f64, step: f64) -> [f64; TERMS] {
-    // r² = 1 − z², and then φ' = β r' φ.
-    let square = [1.0 - centre * centre, -2.0 * centre * step, -step * step];
-    let mut root = [0.0; TERMS];
-    let mut phi = [0.0; TERMS];
-    root[0] = square[0].sqrt();
-    phi[0] = Window::formula(centre);
-    for n in 1..TERMS {
-        let cross: f64 = (1..n).map(|i| root[i] * root[n - i]).sum();
-        root[n] = (square.get(n).unwrap_or(&0.0) - cross) / (2.0 * root[0]);
-        let sum: f64 = (1..=n).map(|i| i as f64 * root[i] * phi[n - i]).sum();
-        phi[n] = SHAPE * sum / n as f64;
-    }
-    phi
-}
-
-/// Lowers the degree on [−1, 1], each power from the top giving way to the multiple of a Chebyshev
-/// polynomial that it leads (Lanczos).
-fn economised(mut powers: [f64; TERMS], chebyshev: &[[f64; TERMS]; TERMS]) -> [f64; TERMS] {
-    for n in (COEFFICIENTS..TERMS).rev() {
-        let factor = powers[n] / chebyshev[n][n];
-        for (power, t) in powers.iter_mut().zip(&chebyshev[n]) {
-            *power -= factor * t;
-        }
-    }
-    powers
-}
-
-/// Coefficients of the Chebyshev polynomials, integers exact up to 2⁵³: `T_n = 2s T_{n−1} − T_{n−2}`.
-fn chebyshev() -> [[f64; TERMS]; TERMS] {
-    let mut all = [[0.0; TERMS]; TERMS];
-    (all[0][0], all[1][1]) = (1.0, 1.0);
-    for n in 2..TERMS {
-        for d in 0..=n {
-            let shifted = if d == 0 { 0.0 } else { all[n - 1][d - 1] };
-            all[n][d] = 2.0 * shifted - all[n - 2][d];
-        }
-    }
-    all
 }

@@ -1,0 +1,60 @@
+//! The cells that the tip has reached.
+
+/// Values at consecutive cells, extended on demand; a cell not yet visited has its value at the start.
+pub(crate) struct Cells<'a> {
+    first: i64,
+    values: Vec<f64>,
+    unvisited: &'a dyn Fn(i64) -> f64,
+}
+
+impl<'a> Cells<'a> {
+    pub(crate) fn new(unvisited: &'a dyn Fn(i64) -> f64) -> Self {
+        Self { first: 0, values: Vec::new(), unvisited }
+    }
+
+    /// The cells `first` … `first + len - 1`, made if need be.
+    pub(crate) fn range(&mut self, first: i64, len: usize) -> &mut [f64] {
+        self.extend(first, first + len as i64);
+        let from = (first - self.first) as usize;
+        &mut self.values[from..from + len]
+    }
+
+    /// One cell, visited or not.
+    pub(crate) fn at(&self, cell: i64) -> f64 {
+        let visited = usize::try_from(cell - self.first).ok().and_then(|k| self.values.get(k));
+        visited.copied().unwrap_or_else(|| (self.unvisited)(cell))
+    }
+
+    fn extend(&mut self, first: i64, end: i64) {
+        if self.values.is_empty() {
+            self.first = first;
+        }
+        if first < self.first {
+            // Ahead by half of what there is, so that a long retreat costs linear time.
+            let ahead = first - self.values.len() as i64 / 2;
+            let new: Vec<f64> = (ahead..self.first).map(self.unvisited).collect();
+            self.values.splice(0..0, new);
+            self.first = ahead;
+        }
+        let old_end = self.first + self.values.len() as i64;
+        self.values.extend((old_end..end).map(self.unvisited));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_keep_what_was_written_while_they_extend_both_ways() {
+        let index = |cell: i64| cell as f64;
+        let mut cells = Cells::new(&index);
+        cells.range(10, 5)[2] = -1.0;
+        cells.range(-30, 3);
+        cells.range(40, 2);
+        for cell in -60..60 {
+            let expected = if cell == 12 { -1.0 } else { cell as f64 };
+            assert!((cells.at(cell) - expected).abs() < 1e-15, "cell {cell}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What can go wrong.
+
+use thiserror::Error;
+
+/// An unusable input, or a run that cannot go on.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum GridError {
+    /// α must be finite and ≥ 0.
+    #[error("alpha is {0}: the indentation rate must be a finite number ≥ 0")]
+    Alpha(f64),
+    /// r must be finite and > 0.
+    #[error("r is {0}: the support velocity must be a finite number > 0")]
+    R(f64),
+    /// The reach of the footprint must be finite and > 0.
+    #[error("the footprint's reach is {0}: it must be a finite number > 0")]
+    Reach(f64),
+    /// Time and position of the start must be finite.
+    #[error("the start is t = {time}, x0 = {x0}: both must be finite")]
+    Start {
+        /// t1
+        time: f64,
+        /// x0(t1)
+        x0: f64,
+    },
+    /// The spacing must be finite and > 0.
+    #[error("the grid spacing is {0}: it must be a finite number > 0")]
+    Spacing(f64),
+    /// No cell lies between the two ends.
+    #[error("the grid runs from {from} to {to}: it must hold at least four cells and at most 2^31")]
+    Domain {
+        /// Left end
+        from: f64,
+        /// Right end
+        to: f64,
+    },
+    /// Tolerances must be ≥ 0 and not both 0, steps > 0.
+    #[error("unusable stepping: tolerances must be ≥ 0 and not both 0, steps > 0")]
+    Stepping,
+    /// Requested times must be finite, ascending, at or after the start.
+    #[error("requested time {0}: times must be finite, ascending and not before the start")]
+    Time(f64),
+    /// A Gaussian needs finite amplitude and centre, and a width > 0; there must be one.
+    #[error("a lattice of Gaussians needs at least one, with finite numbers and width > 0")]
+    Gaussians,
+    /// The interpolation must reach over at least one cell.
+    #[error("the interpolation reaches over {0} cells: it must be between 1 and 10000")]
+    HalfWidth(usize),
+    /// Read ∘ write does not give back the footprint.
+    #[error(
+        "the lattice reproduces the footprint only to {defect:e}: refine its spacing, or give it the Gaussians of that very footprint"
+    )]
+    Defect {
+        /// Largest |Σ read · write - f|
+        defect: f64,
+    },
+    /// The tip left the grid.
+    #[error("the tip left the grid at t = {time}, x0 = {x0}: extend the grid")]
+    LeftGrid {
+        /// t
+        time: f64,
+        /// x0(t)
+        x0: f64,
+    },
+    /// No step is small enough: the motion is not finite, or too stiff for an explicit method.
+    #[error("the step size fell to {step:e} at t = {time}: loosen the tolerance")]
+    StepTooSmall {
+        /// t
+        time: f64,
+        /// The last step tried
+        step: f64,
+    },
+    /// The stepper's crate gave up: it judged the problem stiff.
+    #[error("the explicit stepper judged the problem stiff at t = {time}: bound the step")]
+    Stiff {
+        /// t
+        time: f64,
+    },
+}

@@ -1,0 +1,105 @@
+//! The three opponents, and one function to run any of them.
+
+use crate::cells::Cells;
+use crate::marcher::Marcher;
+use crate::scheme::Scheme;
+use crate::sinc::Sinc;
+use crate::tableau::Tableau;
+use crate::theta::Theta;
+use crate::three_point::ThreePoint;
+use crate::{Gaussian, GridError, Problem, Request, Run, Stepping, uniform};
+
+/// A discretisation of [`Problem`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Method {
+    /// The paper's: u at x_j = j Δx from `from` to `to`, all N + 1 unknowns advanced at every stage by
+    /// Dormand–Prince 5(4); the slope at the tip by central differences, interpolated linearly. Order 2.
+    Uniform {
+        /// Δx
+        spacing: f64,
+        /// Left end
+        from: f64,
+        /// Right end
+        to: f64,
+    },
+    /// The same scheme and pair, but a step touches only the cells within reach of the tip. Order 2.
+    Windowed {
+        /// Δx
+        spacing: f64,
+    },
+    /// A footprint that is a sum of Gaussians, on a lattice that writes and reads with narrower ones;
+    /// order 8. With `spacing` ≤ 0.36 the time integration is the only error.
+    Spectral {
+        /// The very terms of the footprint
+        gaussians: Vec<Gaussian>,
+        /// In units of the smallest width; π/8.7 gives round-off
+        spacing: f64,
+    },
+    /// Any smooth footprint, by samples and a regularised sinc; order 8. For Gaussians some 3 times the
+    /// work of [`Method::Spectral`].
+    Sinc {
+        /// Of the samples, in units of x: at most π over the largest wave number in f
+        spacing: f64,
+        /// Cells on either side that the interpolation reaches over, 80 for round-off
+        half_width: usize,
+    },
+}
+
+/// Runs `method` from the start to the last requested time.
+///
+/// # Errors
+/// Unusable input; a tip that leaves a [`Method::Uniform`] grid; a step lost in round-off.
+pub fn solve(
+    problem: &Problem,
+    method: &Method,
+    stepping: &Stepping,
+    request: &Request,
+) -> Result<Run, GridError> {
+    stepping.check()?;
+    request.check(problem.start.time)?;
+    match method {
+        &Method::Uniform { spacing, from, to } => {
+            uniform::run(problem, (positive(spacing)?, from, to), stepping, request)
+        }
+        &Method::Windowed { spacing } => {
+            let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
+            let start = |cell: i64| problem.start.height(cell as f64 * spacing);
+            let cells = Cells::new(&start);
+            Marcher::new(problem, scheme, Tableau::dopri5(), *stepping, cells, None).run(request)
+        }
+        Method::Spectral { gaussians, spacing } => {
+            spectral(problem, Theta::new(gaussians, positive(*spacing)?)?, stepping, request)
+        }
+        &Method::Sinc { spacing, half_width } => {
+            if !(1..=10_000).contains(&half_width) {
+                return Err(GridError::HalfWidth(half_width));
+            }
+            let scheme = Sinc::new(problem.footprint, positive(spacing)?, half_width);
+            spectral(problem, scheme, stepping, request)
+        }
+    }
+}
+
+/// A lattice that holds only what was carved; u0 and its slope are evaluated where they are wanted.
+fn spectral(
+    problem: &Problem,
+    scheme: impl Scheme,
+    stepping: &Stepping,
+    request: &Request,
+) -> Result<Run, GridError> {
+    let defect = crate::scheme::defect(&scheme, &problem.footprint);
+    if defect > 0.01 {
+        return Err(GridError::Defect { defect });
+    }
+    let nothing = |_: i64| 0.0;
+    let (cells, start) = (Cells::new(&nothing), &problem.start);
+    Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start)).run(request)
+}
+
+fn positive(spacing: f64) -> Result<f64, GridError> {
+    if spacing.is_finite() && spacing > 0.0 {
+        Ok(spacing)
+    } else {
+        Err(GridError::Spacing(spacing))
+    }
+}

@@ -1,0 +1,55 @@
+//! Equations (10) and (11) with their data.
+
+use crate::{Footprint, GridError, Start};
+
+/// A tip dragged by a spring over a surface that it carves:
+///
+/// x0'(t) = -u_x(x0(t), t) + r t - x0(t) + Fext(t),  u_t(x, t) = -α f(x - x0(t)).
+pub struct Problem<'a> {
+    pub(crate) alpha: f64,
+    pub(crate) r: f64,
+    pub(crate) footprint: Footprint<'a>,
+    pub(crate) start: Start<'a>,
+    force: Option<&'a dyn Fn(f64) -> f64>,
+}
+
+impl<'a> Problem<'a> {
+    /// Without external force.
+    ///
+    /// # Errors
+    /// α < 0, r ≤ 0, or a number that is not finite.
+    pub fn new(
+        alpha: f64,
+        r: f64,
+        footprint: Footprint<'a>,
+        start: Start<'a>,
+    ) -> Result<Self, GridError> {
+        if !(alpha.is_finite() && alpha >= 0.0) {
+            return Err(GridError::Alpha(alpha));
+        }
+        if !(r.is_finite() && r > 0.0) {
+            return Err(GridError::R(r));
+        }
+        if !(start.time.is_finite() && start.x0.is_finite()) {
+            return Err(GridError::Start { time: start.time, x0: start.x0 });
+        }
+        Ok(Self { alpha, r, footprint, start, force: None })
+    }
+
+    /// The same with Fext.
+    #[must_use]
+    pub fn with_force(self, force: &'a dyn Fn(f64) -> f64) -> Self {
+        Self { force: Some(force), ..self }
+    }
+
+    /// The start.
+    #[must_use]
+    pub fn start(&self) -> &Start<'a> {
+        &self.start
+    }
+
+    /// Right-hand side of (10), given the slope under the tip.
+    pub(crate) fn velocity(&self, t: f64, x0: f64, slope: f64) -> f64 {
+        self.r * t - x0 - slope + self.force.map_or(0.0, |force| force(t))
+    }
+}

@@ -1,0 +1,57 @@
+//! What distinguishes one grid from another.
+
+use crate::patch::Patch;
+
+/// Cells x_j = j h with a rule to write on them and a rule to read off them.
+///
+/// The cells hold numbers w_j with w_j' = -α `imprint`(x_j - x0); the surface (or, for a scheme that
+/// holds only what was carved, its difference from u0) is a fixed linear combination of them.
+pub(crate) trait Scheme {
+    /// h
+    fn spacing(&self) -> f64;
+    /// What the tip at `tip` writes, within its reach.
+    fn imprint(&self, tip: f64, out: &mut Patch);
+    /// Weights whose sum with the cells is u_x at `x`.
+    fn slope_stencil(&self, x: f64, out: &mut Patch);
+    /// Weights whose sum with the cells is u at `x`.
+    fn height_stencil(&self, x: f64, out: &mut Patch);
+}
+
+/// The cells within `reach` of `x`: first index and count.
+pub(crate) fn cells_within(x: f64, reach: f64, spacing: f64) -> (i64, usize) {
+    let first = ((x - reach) / spacing).ceil() as i64;
+    let last = ((x + reach) / spacing).floor() as i64;
+    (first, usize::try_from(last + 1 - first).unwrap_or(0))
+}
+
+/// Samples f itself at the cells within its reach.
+pub(crate) fn sample(footprint: &crate::Footprint, spacing: f64, tip: f64, out: &mut Patch) {
+    let (first, len) = cells_within(tip, footprint.reach(), spacing);
+    out.reset(first, len);
+    for (j, value) in out.values.iter_mut().enumerate() {
+        *value = footprint.value((first + j as i64) as f64 * spacing - tip);
+    }
+}
+
+/// max |Σ_j read(x - x_j) write(x_j - y) - f(x - y)| over the reach, relative to max |f|.
+pub(crate) fn defect(scheme: &impl Scheme, footprint: &crate::Footprint) -> f64 {
+    let (mut read, mut write, mut local) = Default::default();
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    for k in -64..=64 {
+        let f = footprint.value(f64::from(k) / 64.0 * footprint.reach());
+        // An irrational offset, so that tip and point lie differently among the cells each time.
+        let y = f64::from(k) * std::f64::consts::SQRT_2 * scheme.spacing();
+        scheme.height_stencil(y + f64::from(k) / 64.0 * footprint.reach(), &mut read);
+        scheme.imprint(y, &mut write);
+        local_copy(&mut local, &read, &write);
+        worst = worst.max((read.dot(&local.values) - f).abs());
+        largest = largest.max(f.abs());
+    }
+    worst / largest
+}
+
+/// `write` at the cells of `read`.
+fn local_copy(local: &mut Patch, read: &Patch, write: &Patch) {
+    local.reset(read.first, read.values.len());
+    local.add(1.0, write);
+}

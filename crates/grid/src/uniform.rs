@@ -1,0 +1,170 @@
+//! The paper's discretisation: N + 1 ordinary differential equations, all of them at every stage.
+
+use crate::control::{reached, too_small, towards};
+use crate::patch::Patch;
+use crate::scheme::Scheme;
+use crate::three_point::ThreePoint;
+use crate::unknowns::Unknowns;
+use crate::{GridError, Problem, Request, Run, Stepping, Work};
+use differential_equations::error::Error;
+use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::status::Status;
+use std::cell::{Cell, RefCell};
+
+type Dopri5 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Unknowns, 5, 7, 7>;
+
+/// x0 and u at the cells `first` … `first` + `len` - 1.
+struct FullGrid<'a> {
+    problem: &'a Problem<'a>,
+    scheme: ThreePoint<'a>,
+    first: i64,
+    len: usize,
+    stencil: RefCell<Patch>,
+    /// Where a stage last left the grid, if one did.
+    left: Cell<Option<(f64, f64)>>,
+}
+
+impl FullGrid<'_> {
+    fn x(&self, k: usize) -> f64 {
+        (self.first + k as i64) as f64 * self.scheme.spacing
+    }
+
+    /// Σ stencil · u, `None` off the grid.
+    fn read(&self, u: &[f64], stencil: &Patch) -> Option<f64> {
+        let from = usize::try_from(stencil.first - self.first).ok()?;
+        u.get(from..from + stencil.values.len()).map(|u| stencil.dot(u))
+    }
+
+    fn start(&self) -> Unknowns {
+        let start = &self.problem.start;
+        let heights = (0..self.len).map(|k| start.height(self.x(k)));
+        Unknowns(std::iter::once(start.x0).chain(heights).collect())
+    }
+
+    fn height(&self, u: &[f64], x: f64) -> f64 {
+        let mut stencil = Patch::default();
+        self.scheme.height_stencil(x, &mut stencil);
+        self.read(u, &stencil).unwrap_or_else(|| self.problem.start.height(x))
+    }
+}
+
+impl ODE<f64, Unknowns> for FullGrid<'_> {
+    fn diff(&self, t: f64, y: &Unknowns, dydt: &mut Unknowns) {
+        let x0 = y.0[0];
+        let mut stencil = self.stencil.borrow_mut();
+        self.scheme.slope_stencil(x0, &mut stencil);
+        let slope = self.read(&y.0[1..], &stencil);
+        if slope.is_none() && x0.is_finite() {
+            self.left.set(Some((t, x0)));
+        }
+        dydt.0[0] = self.problem.velocity(t, x0, slope.unwrap_or(f64::NAN));
+        for (k, rate) in dydt.0[1..].iter_mut().enumerate() {
+            *rate = -self.problem.alpha * self.problem.footprint.value(self.x(k) - x0);
+        }
+    }
+}
+
+/// A run on the cells from `from` to `to`.
+pub(crate) fn run(
+    problem: &Problem,
+    (spacing, from, to): (f64, f64, f64),
+    stepping: &Stepping,
+    request: &Request,
+) -> Result<Run, GridError> {
+    let first = (from / spacing).ceil();
+    let len = (to / spacing).floor() - first + 1.0;
+    if !(4.0..=2_147_483_648.0).contains(&len) {
+        return Err(GridError::Domain { from, to });
+    }
+    let grid = FullGrid {
+        problem,
+        scheme: ThreePoint { footprint: problem.footprint, spacing },
+        first: first as i64,
+        len: len as usize,
+        stencil: RefCell::default(),
+        left: Cell::new(None),
+    };
+    let mut runner = Runner::new(&grid, stepping, request)?;
+    let mut x0 = Vec::with_capacity(request.times.len());
+    for &time in request.times {
+        runner.advance_to(time)?;
+        x0.push(runner.solver.y().0[0]);
+    }
+    let u = request.points.iter().map(|&x| grid.height(&runner.solver.y().0[1..], x)).collect();
+    Ok(Run { x0, u, work: runner.work })
+}
+
+/// The crate's stepper, led from one requested time to the next.
+struct Runner<'g> {
+    grid: &'g FullGrid<'g>,
+    solver: Dopri5,
+    t: f64,
+    work: Work,
+}
+
+impl<'g> Runner<'g> {
+    fn new(
+        grid: &'g FullGrid<'g>,
+        stepping: &Stepping,
+        request: &Request,
+    ) -> Result<Self, GridError> {
+        let t = grid.problem.start.time;
+        let end = request.times.last().map_or(t, |&end| end).max(t + 1.0);
+        let step = stepping.first_step.min(stepping.max_step).min(end - t);
+        let mut solver = Dopri5::dopri5()
+            .rtol(stepping.rtol)
+            .atol(stepping.atol)
+            .h0(step)
+            .h_max(stepping.max_step)
+            .max_steps(usize::MAX);
+        let mut work = Work::default();
+        let evaluations =
+            solver.init(grid, t, end, &grid.start()).map_err(|e| grid.explain(&e, t, step))?;
+        grid.count(&mut work, evaluations.function);
+        Ok(Self { grid, solver, t, work })
+    }
+
+    fn advance_to(&mut self, target: f64) -> Result<(), GridError> {
+        while !reached(self.t, target) {
+            let proposed = self.solver.h();
+            let h = towards(target, self.t, proposed);
+            if too_small(h, self.t) && h < target - self.t {
+                return Err(self.grid.departure(GridError::StepTooSmall { time: self.t, step: h }));
+            }
+            self.solver.set_h(h);
+            let evaluations =
+                self.solver.step(self.grid).map_err(|e| self.grid.explain(&e, self.t, h))?;
+            self.grid.count(&mut self.work, evaluations.function);
+            if matches!(self.solver.status(), Status::RejectedStep) {
+                self.work.rejected += 1;
+                continue;
+            }
+            self.work.steps += 1;
+            self.t = self.solver.t();
+            if h < proposed {
+                self.solver.set_h(proposed.max(self.solver.h()));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl FullGrid<'_> {
+    fn count(&self, work: &mut Work, evaluations: usize) {
+        work.right_hand_sides += evaluations as u64;
+        work.cells_updated += (evaluations * self.len) as u64;
+    }
+
+    /// The tip's departure, if that is what stopped the run.
+    fn departure(&self, otherwise: GridError) -> GridError {
+        self.left.get().map_or(otherwise, |(time, x0)| GridError::LeftGrid { time, x0 })
+    }
+
+    fn explain(&self, error: &Error<f64, Unknowns>, time: f64, step: f64) -> GridError {
+        self.departure(match error {
+            Error::Stiffness { t, .. } => GridError::Stiff { time: *t },
+            _ => GridError::StepTooSmall { time, step },
+        })
+    }
+}

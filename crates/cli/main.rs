@@ -1,1 +1,42 @@
-fn main() {}
+//! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line.
+//!
+//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit
+//! status is 0, 1 for what failed at run time, 2 for unusable input, 130 (143) when interrupted by
+//! SIGINT (SIGTERM).
+
+mod arguments;
+mod commands;
+mod documents;
+mod failure;
+mod files;
+mod interrupt;
+mod plot;
+
+use arguments::{Cli, Command};
+use clap::Parser;
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match &cli.command {
+        Command::Run(arguments) => commands::run::run(arguments),
+        Command::Surface(arguments) => commands::surface::surface(arguments),
+        Command::Schema(arguments) => commands::schema::schema(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if !failure.is_silent() {
+                eprintln!("stickslip: {failure}");
+            }
+            failure.exit_code()
+        }
+    }
+}
+
+impl Failure {
+    fn exit_code(&self) -> ExitCode {
+        ExitCode::from(self.status())
+    }
+}

@@ -78,6 +78,12 @@ impl Collocation {
     }
 }
 
+/// Nodes c and weights b of the method, both on the unit step.
+#[must_use]
+pub fn nodes_and_weights() -> (Stages, Stages) {
+    (RADAU.c, *RADAU.b())
+}
+
 /// Matrix times vector.
 pub(crate) fn apply(matrix: &[Stages; STAGES], v: &Stages) -> Stages {
     std::array::from_fn(|i| (0..STAGES).map(|j| matrix[i][j] * v[j]).sum())

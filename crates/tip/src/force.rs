@@ -52,8 +52,6 @@ impl fmt::Debug for Force {
 const WIDTHS_OF_PULSE: f64 = 10.0;
 /// Steps within a pulse are at most this many of its widths long, so that none is jumped over.
 const WIDTHS_PER_STEP: f64 = 1.5;
-/// Steps within a table span at most this many of its intervals.
-const INTERVALS_PER_STEP: f64 = 3.0;
 
 impl Force {
     /// A sum of Gaussian pulses and, if given, the cubic spline through a table (t, force), 0 outside.
@@ -94,30 +92,24 @@ impl Force {
             + self.function.as_ref().map_or(0.0, |f| f(t))
     }
 
-    /// The next time after t at which a step must end: where a pulse or the table begins or ends.
+    /// The next time after t at which a step must end: where a pulse begins or ends, and the knots of
+    /// the table, so that the force is smooth within every step.
     pub(crate) fn next_break(&self, t: f64) -> f64 {
-        self.spans()
-            .flat_map(|(start, end, _)| [start, end])
-            .filter(|edge| *edge > t)
-            .fold(f64::INFINITY, f64::min)
+        let edges = self.pulses.iter().flat_map(|p| {
+            let half = WIDTHS_OF_PULSE * p.width;
+            [p.time - half, p.time + half]
+        });
+        let knot = self.table.as_ref().map_or(f64::INFINITY, |table| table.next_knot(t));
+        edges.filter(|edge| *edge > t).fold(knot, f64::min)
     }
 
     /// Longest step allowed at t.
     pub(crate) fn longest_step(&self, t: f64) -> f64 {
-        self.spans()
-            .filter(|(start, end, _)| (*start..*end).contains(&t))
-            .map(|(_, _, longest)| longest)
+        self.pulses
+            .iter()
+            .filter(|p| (t - p.time).abs() <= WIDTHS_OF_PULSE * p.width)
+            .map(|p| WIDTHS_PER_STEP * p.width)
             .fold(f64::INFINITY, f64::min)
-    }
-
-    /// (start, end, longest step within) of everything that is limited in time.
-    fn spans(&self) -> impl Iterator<Item = (f64, f64, f64)> {
-        let pulse = |p: &Pulse| {
-            let half = WIDTHS_OF_PULSE * p.width;
-            (p.time - half, p.time + half, WIDTHS_PER_STEP * p.width)
-        };
-        let table = |s: &CubicSpline| (s.first(), s.last(), INTERVALS_PER_STEP * s.mean_interval());
-        self.pulses.iter().map(pulse).chain(self.table.iter().map(table))
     }
 }
 
@@ -130,7 +122,7 @@ mod tests {
         let force =
             Force::new(vec![Pulse { amplitude: 2.0, time: 30.0, width: 0.1 }], None).unwrap();
         assert!((force.next_break(0.0) - 29.0).abs() < 1e-12);
-        assert!(force.longest_step(28.0).is_infinite());
+        assert!(force.longest_step(28.5).is_infinite());
         assert!((force.longest_step(30.2) - 0.15).abs() < 1e-12);
         assert!(force.next_break(31.5).is_infinite());
         assert!((force.value(30.0) - 2.0).abs() < 1e-15);

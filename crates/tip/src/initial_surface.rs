@@ -25,7 +25,8 @@ pub struct Noise {
 #[derive(Debug, Clone, Default)]
 pub struct InitialSurface {
     steady: Option<SteadyPast>,
-    splines: Vec<CubicSpline>,
+    profile: Option<CubicSpline>,
+    noise: Option<CubicSpline>,
 }
 
 /// The profile (24) of a tip that has always moved steadily and is now at `position`.
@@ -38,8 +39,18 @@ struct SteadyPast {
     reach: f64,
 }
 
-/// Steps over a spline advance at most this many of its intervals.
-const INTERVALS_PER_STEP: f64 = 3.0;
+/// A stretch of x on which u0 is one smooth function: between knots of its splines, or outside.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch {
+    /// Its ends.
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Pieces of the profile and of the noise, `None` outside of them.
+    pieces: [Option<usize>; 2],
+}
+
+/// A knot within this fraction of an interval counts as reached.
+const AT_A_KNOT: f64 = 1e-9;
 
 impl InitialSurface {
     /// u0 = 0.
@@ -54,7 +65,7 @@ impl InitialSurface {
         let tip = model.tip().clone();
         let reach = tip.reach().unwrap_or(f64::INFINITY);
         let depth = model.alpha() / model.r();
-        Self { steady: Some(SteadyPast { tip, depth, position, reach }), splines: vec![] }
+        Self { steady: Some(SteadyPast { tip, depth, position, reach }), ..Self::default() }
     }
 
     /// Adds the natural cubic spline through (x, u), 0 outside.
@@ -62,7 +73,7 @@ impl InitialSurface {
     /// # Errors
     /// Too short, not finite, unsorted.
     pub fn with_profile(mut self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
-        self.splines.push(spline_through(x, u)?);
+        self.profile = Some(spline_through(x, u)?);
         Ok(self)
     }
 
@@ -76,7 +87,7 @@ impl InitialSurface {
         let u: Vec<f64> = (0..points).map(height).collect();
         #[expect(clippy::cast_precision_loss, reason = "a count")]
         let x = (0..points).map(|i| from + noise.spacing * i as f64).collect();
-        self.splines.push(CubicSpline::through(x, u));
+        self.noise = Some(CubicSpline::through(x, u));
         self
     }
 
@@ -84,32 +95,71 @@ impl InitialSurface {
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         let steady = self.steady.as_ref().map_or(0.0, |s| -s.depth * s.tip.tail(x - s.position));
-        steady + self.splines_at(x).map(|s| s.value(x)).sum::<f64>()
+        let inside = |s: &&CubicSpline| (s.first()..=s.last()).contains(&x);
+        steady
+            + self.splines().into_iter().flatten().filter(inside).map(|s| s.value(x)).sum::<f64>()
     }
 
     /// u0'(x) and u0''(x).
     #[must_use]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        self.slope_and_curvature_on(&self.stretch(x, true), x)
+    }
+
+    /// u0' and u0'' of the function that u0 is on the stretch, wherever x is: within a step that begins
+    /// there, all is smooth.
+    pub(crate) fn slope_and_curvature_on(&self, stretch: &Stretch, x: f64) -> (f64, f64) {
         let mut sum = (0.0, 0.0);
         if let Some(s) = self.steady.as_ref().filter(|s| (x - s.position).abs() < s.reach) {
             let slope = s.tip.slope(x - s.position);
             sum = (s.depth * s.tip.value(x - s.position), s.depth * slope);
         }
-        for spline in self.splines_at(x) {
-            let (_, slope, curvature) = spline.jet(x);
-            sum = (sum.0 + slope, sum.1 + curvature);
+        for (spline, piece) in self.splines().into_iter().zip(stretch.pieces) {
+            if let (Some(spline), Some(piece)) = (spline, piece) {
+                let (_, slope, curvature) = spline.jet_on(piece, x);
+                sum = (sum.0 + slope, sum.1 + curvature);
+            }
         }
         sum
     }
 
-    /// The longest displacement that a step beginning at x may make without skipping a feature.
-    pub(crate) fn longest_displacement(&self, x: f64) -> f64 {
-        let longest = |s: &CubicSpline| INTERVALS_PER_STEP * s.mean_interval();
-        let near = |s: &&CubicSpline| (s.first() - longest(s)..=s.last() + longest(s)).contains(&x);
-        self.splines.iter().filter(near).map(longest).fold(f64::INFINITY, f64::min)
+    /// The stretch that a tip at x is on, or about to enter if it is at a knot.
+    pub(crate) fn stretch(&self, x: f64, forward: bool) -> Stretch {
+        let mut all = Stretch { low: f64::NEG_INFINITY, high: f64::INFINITY, pieces: [None; 2] };
+        for (spline, piece) in self.splines().into_iter().zip(&mut all.pieces) {
+            let Some(spline) = spline else { continue };
+            let (low, high);
+            (low, high, *piece) = stretch_of(spline, x, forward);
+            (all.low, all.high) = (all.low.max(low), all.high.min(high));
+        }
+        all
     }
 
-    fn splines_at(&self, x: f64) -> impl Iterator<Item = &CubicSpline> {
-        self.splines.iter().filter(move |s| (s.first()..=s.last()).contains(&x))
+    fn splines(&self) -> [Option<&CubicSpline>; 2] {
+        [self.profile.as_ref(), self.noise.as_ref()]
+    }
+}
+
+/// Ends and piece of one spline at x, or just ahead of it.
+fn stretch_of(spline: &CubicSpline, x: f64, forward: bool) -> (f64, f64, Option<usize>) {
+    let (low, high) = spline.ends_of(spline.piece_of(x));
+    let slack = AT_A_KNOT * (high - low);
+    let x = if forward { x + slack } else { x - slack };
+    if x < spline.first() {
+        (f64::NEG_INFINITY, spline.first(), None)
+    } else if x >= spline.last() {
+        (spline.last(), f64::INFINITY, None)
+    } else {
+        let piece = spline.piece_of(x);
+        let (low, high) = spline.ends_of(piece);
+        (low, high, Some(piece))
+    }
+}
+
+impl Stretch {
+    /// How far beyond an end a step may go and still count as ending there.
+    pub(crate) fn slack(&self) -> f64 {
+        // Infinite stretches end at one knot at most, of unit scale.
+        0.5 * AT_A_KNOT * (self.high - self.low).min(1.0)
     }
 }

@@ -16,6 +16,7 @@
 pub mod memory;
 pub mod stability;
 pub mod tip_function;
+pub mod units;
 
 mod collocation;
 mod force;
@@ -24,11 +25,12 @@ mod initial_surface;
 mod integrator;
 mod model;
 mod outcome;
+mod roots;
 mod run;
 mod series;
 mod spline;
 
-pub use collocation::{STAGES, Stages};
+pub use collocation::{STAGES, Stages, nodes_and_weights};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};

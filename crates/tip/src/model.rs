@@ -15,10 +15,12 @@ pub struct Model {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ModelError {
     /// α must be finite and ≥ 0.
-    #[error("alpha is {0}: the dimensionless indentation rate (13) must be a finite number ≥ 0")]
+    #[error(
+        "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0}"
+    )]
     Alpha(f64),
     /// r must be finite and > 0.
-    #[error("r is {0}: the dimensionless support velocity (12) must be a finite number > 0")]
+    #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0}")]
     R(f64),
 }
 
@@ -69,6 +71,7 @@ impl Model {
     /// Height that steady motion leaves far behind the tip, (25).
     #[must_use]
     pub fn steady_surface_behind(&self) -> f64 {
-        -self.alpha / self.r * self.tip.integral()
+        // 0.0 - 0.0 is 0.0, where a minus sign would make it -0.0.
+        0.0 - self.alpha / self.r * self.tip.integral()
     }
 }

@@ -1,7 +1,7 @@
 //! A run: a tip set going from a given start, integrated to a given time, and what became of it.
 
 use crate::integrator::{IntegrationError, Integrator, Work};
-use crate::memory::{Auto, Direct, Fft, Memory};
+use crate::memory::{Auto, CROSSOVER_NODES, Direct, Fft, Memory};
 use crate::outcome::{Outcome, classify};
 use crate::series::SeriesError;
 use crate::{Force, InitialSurface, Model, Noise, Step, Trajectory};
@@ -57,13 +57,13 @@ pub struct Scenario {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
     /// X is not finite.
-    #[error("the start position is {0}: it must be a finite number")]
+    #[error("the start position must be a finite number, not {0}")]
     StartPosition(f64),
     /// The kick is not finite.
-    #[error("the kick is {0}: it must be a finite number")]
+    #[error("the kick must be a finite number, not {0}")]
     Kick(f64),
     /// The run would end before it begins.
-    #[error("the run would end at t = {until}, but it starts at t = {start}: ask for a later end")]
+    #[error("the run starts at t = {start}: it must end after that, not at {until}")]
     Until {
         /// End asked for.
         until: f64,
@@ -72,7 +72,7 @@ pub enum RunError {
     },
     /// A tolerance that is no positive number, or that f64 cannot meet.
     #[error(
-        "the tolerance is {0:e}: it must lie between {min:e}, where round-off takes over, and {max}",
+        "the tolerance must lie between {min:e}, below which round-off takes over, and {max}; {0:e} does not",
         min = TOLERANCES.0, max = TOLERANCES.1
     )]
     Tolerance(f64),
@@ -113,6 +113,8 @@ pub struct Run {
     pub work: Work,
     /// Name of the memory in use at the end.
     pub memory: &'static str,
+    /// Why that one.
+    pub memory_reason: String,
     /// Whether the observer stopped it before `until`.
     pub interrupted: bool,
 }
@@ -247,5 +249,19 @@ pub fn run_observed(
     let trajectory = Trajectory::new(scenario.model.r(), steps);
     let outcome = classify(&trajectory, &scenario.model, scenario.tolerance);
     let (work, memory) = (integrator.work(), integrator.memory().name());
-    Ok(Run { trajectory, outcome, work, memory, interrupted })
+    let memory_reason = scenario.memory.reason(memory);
+    Ok(Run { trajectory, outcome, work, memory, memory_reason, interrupted })
+}
+
+impl MemoryChoice {
+    /// Why this choice came to the memory that was used.
+    fn reason(self, used: &str) -> String {
+        match self {
+            Self::Direct | Self::Fft => "asked for".into(),
+            Self::Auto if used == "direct" => {
+                format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
+            }
+            Self::Auto => format!("more than {CROSSOVER_NODES} nodes lay within reach"),
+        }
+    }
 }

@@ -25,26 +25,40 @@ impl CubicSpline {
         self.x[self.x.len() - 1]
     }
 
-    pub(crate) fn mean_interval(&self) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "a count of knots")]
-        let intervals = (self.x.len() - 1) as f64;
-        (self.last() - self.first()) / intervals
-    }
-
     pub(crate) fn value(&self, x: f64) -> f64 {
         self.jet(x).0
     }
 
-    /// Value, first and second derivative at x within [`Self::first`, `Self::last`]; the end pieces
-    /// continue beyond.
+    /// Value, first and second derivative at x; the end pieces continue beyond the ends.
     pub(crate) fn jet(&self, x: f64) -> (f64, f64, f64) {
-        let i = self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1);
-        let h = self.x[i] - self.x[i - 1];
-        let (b, a) = ((x - self.x[i - 1]) / h, (self.x[i] - x) / h);
-        let (y0, y1, m0, m1) = (self.y[i - 1], self.y[i], self.m[i - 1], self.m[i]);
+        self.jet_on(self.piece_of(x), x)
+    }
+
+    /// The same on the polynomial of the given piece, wherever x is.
+    pub(crate) fn jet_on(&self, piece: usize, x: f64) -> (f64, f64, f64) {
+        let (low, high) = self.ends_of(piece);
+        let h = high - low;
+        let (b, a) = ((x - low) / h, (high - x) / h);
+        let (y0, y1) = (self.y[piece], self.y[piece + 1]);
+        let (m0, m1) = (self.m[piece], self.m[piece + 1]);
         let value = a * y0 + b * y1 + ((a * a * a - a) * m0 + (b * b * b - b) * m1) * h * h / 6.0;
         let slope = (y1 - y0) / h + ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0) * h / 6.0;
         (value, slope, a * m0 + b * m1)
+    }
+
+    /// The piece between knots that x lies in, the nearest one outside.
+    pub(crate) fn piece_of(&self, x: f64) -> usize {
+        self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1) - 1
+    }
+
+    /// The knots at both ends of a piece.
+    pub(crate) fn ends_of(&self, piece: usize) -> (f64, f64) {
+        (self.x[piece], self.x[piece + 1])
+    }
+
+    /// The first knot above x, infinity if there is none.
+    pub(crate) fn next_knot(&self, x: f64) -> f64 {
+        self.x.get(self.x.partition_point(|knot| *knot <= x)).copied().unwrap_or(f64::INFINITY)
     }
 }
 

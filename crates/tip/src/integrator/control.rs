@@ -96,7 +96,9 @@ impl Control {
             self.just_rejected = true;
             return Err(h * factor.min(SAFETY));
         }
-        self.next = h * if self.just_rejected { factor.min(1.0) } else { factor };
+        // A step cut short by a knot or a break says nothing against the length that was planned.
+        let planned = if h < self.next { self.next } else { 0.0 };
+        self.next = if self.just_rejected { h * factor.min(1.0) } else { planned.max(h * factor) };
         self.just_rejected = false;
         self.last = Some((strayed, h));
         Ok(())

@@ -9,10 +9,12 @@ mod stage_equations;
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::history::Step;
+use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
+use crate::roots::bisect;
 use crate::{Force, InitialSurface, Model};
 use control::Control;
-use stage_equations::StageEquations;
+use stage_equations::{Solution, StageEquations};
 use thiserror::Error;
 
 /// What the integrator did, in counts that do not depend on the machine.
@@ -56,6 +58,8 @@ pub struct Integrator<'a> {
     velocity: f64,
     /// u_xx at the tip: minus the stiffness that the groove adds.
     curvature: f64,
+    /// u0' and Fext as `velocity` has them: where they jump, the next step begins with others.
+    limits_from_before: (f64, f64),
     last: Option<Step>,
     work: Work,
 }
@@ -83,6 +87,7 @@ impl<'a> Integrator<'a> {
             extension,
             velocity: -slope + extension + force.value(t),
             curvature,
+            limits_from_before: (slope, force.value(t)),
             last: None,
             work: Work::default(),
         }
@@ -124,7 +129,9 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// The tolerance cannot be met.
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
-        let mut h = self.control.proposal(self.length_limit(), self.distance_to_break(until));
+        let stretch = self.enter_stretch();
+        let limit = self.length_limit(&stretch);
+        let mut h = self.control.proposal(limit, self.force.next_break(self.t).min(until) - self.t);
         loop {
             // The difference of two representable times: t loses nothing as it grows.
             h = (self.t + h) - self.t;
@@ -132,36 +139,65 @@ impl<'a> Integrator<'a> {
                 let tolerance = self.control.tolerance();
                 return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
             }
-            match self.attempt(h) {
+            match self.attempt(h, &stretch) {
                 Ok(step) => return Ok(step),
-                Err(shorter) => {
+                Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
                     h = shorter;
                 }
+                Err(Retry::ToKnot(shorter)) => h = shorter,
             }
         }
     }
 
+    /// The stretch of u0 ahead, and the velocity with which the tip enters it.
+    fn enter_stretch(&mut self) -> Stretch {
+        let x = self.position();
+        let stretch = self.surface.stretch(x, self.velocity >= 0.0);
+        let slope = self.surface.slope_and_curvature_on(&stretch, x).0;
+        let force = self.force.value(self.t.next_up());
+        self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
+        stretch
+    }
+
     /// A step of length h, accepted, or the shorter length to try instead.
-    fn attempt(&mut self, h: f64) -> Result<Step, f64> {
+    fn attempt(&mut self, h: f64, stretch: &Stretch) -> Result<Step, Retry> {
         let longest = self.longest_displacement();
         let guess = self.predict(h, longest);
-        let target = self.control.target();
-        let (model, surface, force) = (self.model, self.surface, self.force);
-        let equations = StageEquations::new(model, surface, force, (self.t, h, self.extension));
-        let most = control::OVERSHOOT * longest;
+        let enough = 0.01 * self.control.target();
+        let (surface, force) = ((self.surface, stretch), self.force);
+        let equations =
+            StageEquations::new(self.model, surface, force, (self.t, h, self.extension));
         let look = longest_look(self.model.tip());
-        let solved = equations.solve(self.memory.as_mut(), guess, 0.01 * target, look);
+        let solved = equations.solve(self.memory.as_mut(), guess, enough, look);
         self.work.newton_iterations += solved.iterations;
-        let Some(solution) = solved.solution else { return Err(0.3 * h) };
+        let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
         let displacement = solution.displacement;
         let moved = displacement.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+        let most = control::OVERSHOOT * longest;
         if moved > most && !self.control.is_fixed() {
-            return Err(h * (0.8 * most / moved).max(0.1));
+            return Err(Retry::Shorter(h * (0.8 * most / moved).max(0.1)));
+        }
+        if let Some(tau) = self.leaves(stretch, &displacement) {
+            return Err(Retry::ToKnot(tau * h));
         }
         let stiffness = (1.0 + self.curvature).max(0.0);
-        self.control.judge(self.defect(&displacement, h), h, stiffness)?;
-        Ok(self.accept(h, displacement, solution.curvature_at_end))
+        let defect = self.defect(&displacement, h);
+        self.control.judge(defect, h, stiffness).map_err(Retry::Shorter)?;
+        Ok(self.accept(h, &solution, stretch))
+    }
+
+    /// The fraction of the step at which the tip leaves the stretch, if it does.
+    fn leaves(&self, stretch: &Stretch, displacement: &Stages) -> Option<f64> {
+        let x = self.position();
+        let (low, high) = (stretch.low - x, stretch.high - x);
+        let outside = |d: f64| d < low - stretch.slack() || d > high + stretch.slack();
+        let at = |tau: f64| RADAU.value(displacement, tau);
+        let after = (0..STAGES).find(|&i| outside(displacement[i]))?;
+        let before = if after == 0 { 0.0 } else { RADAU.c[after - 1] };
+        let knot = if displacement[after] > high { high } else { low };
+        let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
+        Some(bisect(beyond, before, RADAU.c[after]))
     }
 
     /// Defect of the stage polynomial at the start of the step, where the true velocity is known from
@@ -172,16 +208,24 @@ impl<'a> Integrator<'a> {
         slope / h - self.velocity
     }
 
-    fn accept(&mut self, h: f64, displacement: Stages, curvature: f64) -> Step {
+    fn accept(&mut self, h: f64, solution: &Solution, stretch: &Stretch) -> Step {
+        let displacement = solution.displacement;
         let step = Step { t: self.t, h, extension: self.extension, displacement };
         self.memory.remember(&displacement, &RADAU.b().map(|b| b * h));
         self.t = step.end();
         self.extension = step.extension_at_end(self.model.r());
         self.velocity = apply(&RADAU.derivative, &displacement)[STAGES - 1] / h;
-        self.curvature = curvature;
+        self.curvature = solution.curvature_at_end;
+        let slope = self.surface.slope_and_curvature_on(stretch, self.position()).0;
+        self.limits_from_before = (slope, self.force.value(self.t.next_down()));
         self.last = Some(step);
         self.work.steps += 1;
         step
+    }
+
+    /// x0 now.
+    fn position(&self) -> f64 {
+        self.model.r() * self.t - self.extension
     }
 
     /// The last stage polynomial continued, where it can be trusted to; else a straight line.
@@ -197,20 +241,29 @@ impl<'a> Integrator<'a> {
         RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
     }
 
-    /// The longest displacement that a step may make: the step's own indentation must remain a smooth
-    /// function of its stages, and no feature of u0 may be jumped over.
+    /// The longest displacement that a step is planned to make: the step's own indentation must remain
+    /// a smooth function of its stages.
     fn longest_displacement(&self) -> f64 {
-        let x0 = self.model.r() * self.t - self.extension;
-        let own = control::BANDS_PER_STEP / self.model.tip().band();
-        own.min(control::LONGEST_DISPLACEMENT).min(self.surface.longest_displacement(x0))
+        (control::BANDS_PER_STEP / self.model.tip().band()).min(control::LONGEST_DISPLACEMENT)
     }
 
-    fn length_limit(&self) -> f64 {
+    /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
+    fn length_limit(&self, stretch: &Stretch) -> f64 {
         let speed = self.velocity.abs().max(1e-300);
-        self.force.longest_step(self.t).min(self.longest_displacement() / speed)
+        let ahead = if self.velocity >= 0.0 {
+            stretch.high - self.position()
+        } else {
+            self.position() - stretch.low
+        };
+        let distance = self.longest_displacement().min(1.2 * ahead.max(stretch.slack()));
+        self.force.longest_step(self.t).min(distance / speed)
     }
+}
 
-    fn distance_to_break(&self, until: f64) -> f64 {
-        self.force.next_break(self.t).min(until) - self.t
-    }
+/// Why an attempt is repeated with a shorter step.
+enum Retry {
+    /// It erred too much.
+    Shorter(f64),
+    /// It passed a knot of u0: it is to end there.
+    ToKnot(f64),
 }

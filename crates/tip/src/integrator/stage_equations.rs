@@ -1,6 +1,7 @@
 //! The s equations for the tip's displacement at the nodes of one step, and their Newton iteration.
 
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::initial_surface::Stretch;
 use crate::memory::Memory;
 use crate::{Force, InitialSurface, Model};
 use nalgebra::{SMatrix, SVector};
@@ -10,6 +11,7 @@ use nalgebra::{SMatrix, SVector};
 pub(super) struct StageEquations<'a> {
     model: &'a Model,
     surface: &'a InitialSurface,
+    stretch: &'a Stretch,
     h: f64,
     /// Position of the tip at the start of the step.
     x: f64,
@@ -40,13 +42,15 @@ impl<'a> StageEquations<'a> {
     /// For the step (t, h) that begins with the spring extended by the third number, rt - x0.
     pub(super) fn new(
         model: &'a Model,
-        surface: &'a InitialSurface,
+        (surface, stretch): (&'a InitialSurface, &'a Stretch),
         force: &Force,
         (t, h, extension): (f64, f64, f64),
     ) -> Self {
         let r = model.r();
-        let pull = RADAU.c.map(|c| extension + r * h * c + force.value(t + h * c));
-        Self { model, surface, h, x: r * t - extension, pull }
+        // At the end of a step the force is its limit from before: it may jump there.
+        let last = (t + h).next_down();
+        let pull = RADAU.c.map(|c| extension + r * h * c + force.value((t + h * c).min(last)));
+        Self { model, surface, stretch, h, x: r * t - extension, pull }
     }
 
     /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
@@ -100,7 +104,8 @@ impl<'a> StageEquations<'a> {
         let mut velocity_derivative = own_derivative * alpha;
         let mut curvature_at_end = 0.0;
         for i in 0..STAGES {
-            let (u0_slope, u0_curvature) = self.surface.slope_and_curvature(self.x + d[i]);
+            let (u0_slope, u0_curvature) =
+                self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
             velocity[i] = self.pull[i] - d[i] - u0_slope + alpha * (past_slope[i] + own[i]);
             velocity_derivative[(i, i)] += alpha * past_curvature[i] - u0_curvature - 1.0;
             curvature_at_end = u0_curvature - alpha * past_curvature[i];

@@ -16,7 +16,7 @@ enum Now {
 }
 
 /// Nodes within reach from which a step with `fft` is the cheaper one: benches/memory.rs.
-const CROSSOVER_NODES: usize = 48;
+pub const CROSSOVER_NODES: usize = 48;
 
 impl Auto {
     /// Nothing remembered yet.

@@ -8,7 +8,7 @@ mod auto;
 mod direct;
 mod fft;
 
-pub use auto::Auto;
+pub use auto::{Auto, CROSSOVER_NODES};
 pub use direct::Direct;
 pub use fft::Fft;
 

@@ -1,6 +1,7 @@
 //! Maxima and minima of l(t), looked for from the end of a run backwards.
 
 use crate::collocation::{RADAU, apply};
+use crate::roots::bisect;
 use crate::{Step, Trajectory};
 
 /// A time and the value of l there.
@@ -56,14 +57,4 @@ fn turning_points(trajectory: &Trajectory, step: &Step) -> Vec<Extremum> {
         before = after;
     }
     found
-}
-
-/// The zero of a function that changes sign between a and b, to round-off.
-pub(super) fn bisect(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    let sign = f(a).signum();
-    for _ in 0..52 {
-        let middle = 0.5 * (a + b);
-        *(if f(middle) * sign > 0.0 { &mut a } else { &mut b }) = middle;
-    }
-    0.5 * (a + b)
 }

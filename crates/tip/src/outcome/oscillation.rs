@@ -1,7 +1,8 @@
 //! Period and amplitude of a motion that repeats itself.
 
-use super::extrema::{Extrema, Extremum, bisect};
+use super::extrema::{Extrema, Extremum};
 use crate::Trajectory;
+use crate::roots::bisect;
 
 /// The periodic motion at the end of a run. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Copy, PartialEq)]

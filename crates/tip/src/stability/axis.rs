@@ -11,8 +11,9 @@ use std::f64::consts::PI;
 const SAMPLES_PER_PERIOD: f64 = 8.0;
 /// A scan never takes more samples than this.
 const MOST_SAMPLES: f64 = 2e5;
-/// c below this fraction of its largest so far, for [`FADED_SPAN`] periods on end, has faded for good.
-const FADED: f64 = 1e-14;
+/// The c of a table below this fraction of its largest is its round-off.
+const ROUNDOFF: f64 = 1e-12;
+/// After so many samples of nothing else the table has no more to say.
 const FADED_SPAN: usize = 64;
 
 /// c and s at one Ω, with their derivatives.
@@ -46,6 +47,8 @@ pub(super) struct Axis {
     tip: TipFunction,
     transform: CurvatureTransform,
     samples: Vec<AxisPoint>,
+    /// c below this is round-off.
+    least: f64,
 }
 
 impl Axis {
@@ -53,13 +56,15 @@ impl Axis {
         let transform = CurvatureTransform::new(tip);
         let reach = tip.reach().unwrap_or(1.0);
         let step = (2.0 * PI / (SAMPLES_PER_PERIOD * reach)).max(tip.band() / MOST_SAMPLES);
-        let mut axis = Self { tip: tip.clone(), transform, samples: Vec::new() };
+        let roundoff = if transform.is_closed_form() { 0.0 } else { ROUNDOFF };
+        let mut axis = Self { tip: tip.clone(), transform, samples: Vec::new(), least: 0.0 };
         let (mut largest, mut faded, mut wave_number) = (0.0_f64, 0, 0.0);
         while wave_number < tip.band() && faded < FADED_SPAN {
             wave_number += step;
             let point = axis.at(wave_number);
             largest = largest.max(point.cosine.abs());
-            faded = if point.cosine.abs() < FADED * largest { faded + 1 } else { 0 };
+            axis.least = roundoff * largest;
+            faded = if point.cosine.abs() < axis.least { faded + 1 } else { 0 };
             axis.samples.push(point);
         }
         axis
@@ -108,7 +113,7 @@ impl Axis {
             }
             before = here;
         }
-        zeros.retain(|p| p.cosine > 0.0 && p.sine > 0.0);
+        zeros.retain(|p| p.cosine > self.least && p.sine > 0.0);
         zeros
     }
 
@@ -150,7 +155,7 @@ impl Axis {
                 lo = x
             }
             let newton = x - value / slope;
-            let next = if newton > lo && newton < hi { newton } else { 0.5 * (lo + hi) };
+            let next = if newton >= lo && newton <= hi { newton } else { 0.5 * (lo + hi) };
             let done = (next - x).abs() <= 4.0 * f64::EPSILON * x;
             x = next;
             point = self.at(x);

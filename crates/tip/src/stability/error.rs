@@ -25,6 +25,41 @@ pub enum StabilityError {
         /// The indentation rate asked for.
         alpha: f64,
     },
+    /// The bound on Re λ must be finite.
+    #[error("the bound on Re λ is {0}: it must be a finite number")]
+    Bound(f64),
+    /// A root lies on the line along which roots are counted.
+    #[error("a root lies on the line Re λ = {re}, or too close to it to count: move the bound")]
+    RootOnContour {
+        /// Where.
+        re: f64,
+    },
+    /// Fewer roots found than counted.
+    #[error(
+        "{counted} roots were counted but {found} found: they lie too close together, move the bound"
+    )]
+    RootsMissing {
+        /// By the argument principle.
+        counted: usize,
+        /// By Newton's method.
+        found: usize,
+    },
+    /// The coefficients of the amplitude equation are infinite or vanish.
+    #[error("the bifurcation at r = {r} is degenerate: its leading order says nothing there")]
+    DegenerateOnset {
+        /// The support velocity asked for.
+        r: f64,
+    },
+    /// A pulse that is none.
+    #[error(
+        "pulse number {index}: amplitude, center and width must be finite and the width, {width}, above 0"
+    )]
+    Pulse {
+        /// Counted from 1.
+        index: usize,
+        /// As given.
+        width: f64,
+    },
     /// p ∫e^{-ps}(-f')ds is nowhere positive: nothing can hold the tip.
     #[error("this tip function cannot trap the tip at any alpha")]
     NoTrapping,

@@ -13,12 +13,31 @@
 //! derives all of it. Nothing here integrates (18) in time, so either can judge the other.
 
 mod axis;
+mod bessel_roots;
+mod boundary;
+mod cell;
+mod certificate;
+mod characteristic;
 mod critical;
 mod error;
+mod newton;
+mod onset;
+mod response;
 mod scaled_erfc;
+mod spectrum;
 mod transform;
 mod trapping;
+mod winding;
 
+#[cfg(test)]
+#[path = "../../tests/stability_tables/mod.rs"]
+mod tables;
+
+pub use boundary::{Boundary, Branch};
+pub use certificate::{Certificate, Region, certify};
 pub use critical::{Critical, critical, critical_r};
 pub use error::StabilityError;
+pub use onset::{Criticality, Onset, onset, onset_at};
+pub use response::{Response, ResponseMode, response};
+pub use spectrum::{Spectrum, leading_roots, roots, unstable_count};
 pub use trapping::{creep_rates, trapping_alpha};

@@ -15,6 +15,8 @@ const PANEL_NODES: usize = 32;
 const PANEL_PHASE: f64 = 17.0;
 /// The quadrature serves |Λ| up to this many bands; beyond, the closed form does.
 const BANDS_SERVED: f64 = 1.5;
+/// The quadrature covers so many widths of each Gaussian: exp(-13²/2) = 2e-37.
+const WIDTHS_INTEGRATED: f64 = 13.0;
 /// Exponents above this are carried in [`Scaled::log_scale`].
 const LARGEST_EXPONENT: f64 = 300.0;
 
@@ -53,7 +55,9 @@ impl CurvatureTransform {
             TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
                 Kind::ClosedForms(sum.terms().to_vec())
             }
-            TipFunction::Gaussians(sum) => Kind::Quadrature(Panels::new(tip), sum.terms().to_vec()),
+            TipFunction::Gaussians(sum) => {
+                Kind::Quadrature(Panels::new(sum.terms(), tip.band()), sum.terms().to_vec())
+            }
         };
         Self { kind }
     }
@@ -149,6 +153,17 @@ pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
     (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
 }
 
+/// f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
+fn curvature(terms: &[Gaussian], y: f64) -> f64 {
+    let scaled = |g: &Gaussian| (y - g.center) / g.width;
+    let near = terms.iter().filter(|g| scaled(g).abs() < WIDTHS_INTEGRATED);
+    let term = |g: &Gaussian| {
+        let z2 = scaled(g).powi(2);
+        g.amplitude / (g.width * g.width) * (z2 - 1.0) * (-0.5 * z2).exp()
+    };
+    near.map(term).sum()
+}
+
 /// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip.
 #[derive(Debug, Clone)]
 struct Panels {
@@ -161,10 +176,11 @@ struct Panels {
 }
 
 impl Panels {
-    fn new(tip: &TipFunction) -> Self {
-        let reach = tip.reach().unwrap_or(1.0);
-        let largest_lambda = BANDS_SERVED * tip.band();
-        let phase = tip.band() + largest_lambda;
+    fn new(terms: &[Gaussian], band: f64) -> Self {
+        let far = |g: &Gaussian| g.center.abs() + WIDTHS_INTEGRATED * g.width;
+        let reach = terms.iter().map(far).fold(0.0, f64::max);
+        let largest_lambda = BANDS_SERVED * band;
+        let phase = band + largest_lambda;
         let panels = (0.5 * reach * phase / PANEL_PHASE).ceil().max(1.0);
         let width = reach / panels;
         let rule =
@@ -176,9 +192,8 @@ impl Panels {
         let starts = (0..panels as u32).map(|i| f64::from(i) * width);
         let weighted = starts
             .flat_map(|start| {
-                let node = |(x, w): (&f64, &(f64, f64))| {
-                    0.5 * width * w.1 * tip.slope_and_curvature(start + x).1
-                };
+                let node =
+                    |(x, w): (&f64, &(f64, f64))| 0.5 * width * w.1 * curvature(terms, start + x);
                 offsets.iter().zip(&pairs).map(node).collect::<Vec<_>>()
             })
             .collect();
@@ -213,5 +228,33 @@ impl Panels {
             start += self.width;
         }
         Scaled { value, derivative, log_scale }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_derivative_agrees_with_differences() {
+        let tips = [
+            TipFunction::gaussian(1.0).unwrap(),
+            TipFunction::triple_gaussian(0.7, 0.4).unwrap(),
+            TipFunction::Bessel,
+        ];
+        let points = [(0.0, 0.75), (0.3, 0.2), (-2.0, 1.0), (-3.5, 0.3), (4.0, 7.0), (0.0, 3.0)];
+        for tip in &tips {
+            let transform = CurvatureTransform::new(tip);
+            for lambda in points.map(|(re, im)| Complex64::new(re, im)) {
+                let at = |h: f64| transform.at(lambda + h).value;
+                let h = 1e-3;
+                let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
+                let g = transform.at(lambda);
+                assert!(
+                    (difference - g.derivative).norm() < 1e-9 * g.derivative.norm(),
+                    "{tip:?} {lambda}"
+                );
+            }
+        }
     }
 }

@@ -1,0 +1,42 @@
+# The verbs of the project. `make` alone lists them.
+
+CARGO ?= cargo
+PLOT ?= run.svg
+
+.DEFAULT_GOAL := help
+.PHONY: help run test check bench doc install clean
+
+help: ## list these verbs
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a picture
+	$(CARGO) run --release --locked --quiet -- run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT)
+	$(CARGO) run --release --locked --quiet -- surface run.json --at 457 --range 400,470 --spacing 0.02 -o surface.csv
+	@ls -l run.json surface.csv $(PLOT)
+
+test: ## all tests of the workspace
+	$(CARGO) test --workspace --locked
+
+check: ## what a change must pass: format, clippy, tests, docs, benches compile
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	$(CARGO) test --workspace --locked
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
+	$(CARGO) bench --workspace --locked --no-run
+
+bench: ## measure: cost per step, whole runs, surfaces
+	@echo "memory: cost of a step against the history within reach; fft is flat, direct is linear"
+	$(CARGO) bench --locked --bench memory
+	@echo "runs: whole runs of the regimes, by tolerance"
+	$(CARGO) bench --locked --bench runs
+	@echo "surface: reconstruction against the number of points, fft and direct"
+	$(CARGO) bench --locked --bench surface
+
+doc: ## the libraries' documentation, in target/doc
+	$(CARGO) doc --workspace --no-deps --locked
+
+install: ## put `stickslip` among cargo's binaries
+	$(CARGO) install --locked --path .
+
+clean: ## remove what building made
+	$(CARGO) clean

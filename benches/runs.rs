@@ -1,0 +1,38 @@
+//! Whole runs of the regimes, over the tolerance, for each memory.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, run};
+
+/// (name, β, α, r, kick, until)
+const CASES: [(&str, f64, f64, f64, f64, f64); 5] = [
+    ("onset", 1.0, 1.079_036_174_947, 1.0, 0.01, 457.0),
+    ("stick-slip", 1.0, 1.2, 1.0, 0.05, 76.0),
+    ("period-doubled", 1.0, 1.62, 1.0, 0.05, 76.0),
+    ("trapped", 1.0, 4.0, 1.0, 0.01, 457.0),
+    ("small-r", 0.9, 0.05, 0.1, 0.01, 400.0),
+];
+
+fn whole_runs(criterion: &mut Criterion) {
+    for (name, beta, alpha, r, kick, until) in CASES {
+        let mut group = criterion.benchmark_group(format!("runs/{name}"));
+        group.sample_size(10);
+        let tip = TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip");
+        let model = Model::new(tip, alpha, r).expect("a valid model");
+        for (memory, label) in [(MemoryChoice::Auto, "auto"), (MemoryChoice::Direct, "direct")] {
+            for digits in [5, 7, 9, 11] {
+                let tolerance = 10.0_f64.powi(-digits);
+                let scenario =
+                    Scenario { kick, tolerance, memory, ..Scenario::new(model.clone(), until) };
+                let id = BenchmarkId::new(label, format!("1e-{digits:02}"));
+                group.bench_function(id, |bencher| {
+                    bencher.iter(|| run(black_box(&scenario)).expect("a run that ends"));
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, whole_runs);
+criterion_main!(benches);

@@ -1,0 +1,148 @@
+//! `stickslip run`.
+
+use super::ModelArguments;
+use clap::{Args, ValueEnum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum StartName {
+    /// The steady state, as after an infinite past.
+    Steady,
+    /// A flat surface, the spring relaxed, the support above the tip.
+    Flat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum MemoryName {
+    /// The cheaper one: direct while few points lie within reach of the tip, then fft.
+    Auto,
+    /// A sum over the history within reach: the definition, slow for long histories.
+    Direct,
+    /// FFT convolution with the residence density: the same cost for any history.
+    Fft,
+}
+
+/// Integrate the tip's motion, and say what became of it.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Time at which the run ends (it starts when the support has pulled the tip to its start position:
+    /// about t = 16 by default), in Γ/k.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(crate) until: f64,
+
+    /// What the tip finds at the start.
+    #[arg(long, value_enum, default_value = "steady", help_heading = "Start")]
+    pub(crate) start: StartName,
+
+    /// Position of the tip at the start, in σ.
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 14.0,
+        allow_negative_numbers = true,
+        help_heading = "Start"
+    )]
+    pub(crate) start_position: f64,
+
+    /// The tip starts at X - D, so that l is D above its start value.
+    #[arg(
+        long,
+        value_name = "D",
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        help_heading = "Start"
+    )]
+    pub(crate) kick: f64,
+
+    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them.
+    #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Start")]
+    pub(crate) noise: Option<f64>,
+
+    /// Spacing of the noise grid, in σ [default: 0.1]. It is part of the start: white noise has no
+    /// limit as the spacing goes to 0.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "noise",
+        allow_negative_numbers = true,
+        help_heading = "Start"
+    )]
+    pub(crate) noise_spacing: Option<f64>,
+
+    /// Seed of the noise [default: 1].
+    #[arg(long, value_name = "N", requires = "noise", help_heading = "Start")]
+    pub(crate) seed: Option<u64>,
+
+    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside.
+    #[arg(long, value_name = "FILE", help_heading = "Start")]
+    pub(crate) initial_surface: Option<PathBuf>,
+
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
+    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
+    pub(crate) pulse: Vec<String>,
+
+    /// External force from a file: CSV `t,force`, a cubic spline through it, 0 outside.
+    #[arg(long, value_name = "FILE", help_heading = "Force")]
+    pub(crate) force_file: Option<PathBuf>,
+
+    /// How the past is remembered. All memories give the same motion to the tolerance.
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Accuracy")]
+    pub(crate) memory: MemoryName,
+
+    /// Error of l(t) and x0(t) asked for, in σ; from 1e-13 to 1e-2.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 1e-9,
+        allow_negative_numbers = true,
+        help_heading = "Accuracy"
+    )]
+    pub(crate) tolerance: f64,
+
+    /// Sample every DT [default: 2,000 intervals over the run].
+    #[arg(
+        long,
+        value_name = "DT",
+        conflicts_with = "sample_at",
+        allow_negative_numbers = true,
+        help_heading = "Output"
+    )]
+    pub(crate) sample_every: Option<f64>,
+
+    /// Sample at these times.
+    #[arg(
+        long,
+        value_name = "T1,T2,…",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        help_heading = "Output"
+    )]
+    pub(crate) sample_at: Option<Vec<f64>>,
+
+    /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
+    /// arrays; `-` is JSON on standard output.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    /// Draw l(t), the tip's velocity and the surface at the end to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  The paper's Fig. 1, just above onset:
+    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  Its own start, noise on the surface:
+    stickslip run --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 457 -o run.json
+  A tip of your own, two pulses, samples as CSV:
+    stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
+  A trapped tip:
+    stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json";

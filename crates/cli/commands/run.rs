@@ -1,0 +1,210 @@
+//! `stickslip run`.
+
+pub(crate) mod document;
+mod samples;
+
+use super::model::model;
+use super::progress::Progress;
+use crate::arguments::{MemoryName, RunArguments, StartName};
+use crate::documents::RunDocument;
+use crate::failure::Failure;
+use crate::files::input::read_columns;
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::interrupt::Interrupt;
+use crate::plot::{self, PlotFormat};
+use document::Inputs;
+use std::ops::ControlFlow;
+use std::time::Instant;
+use stickslip_surface::Surface;
+use stickslip_tip::{
+    Force, MemoryChoice, Noise, Pulse, Run, RunError, Scenario, Start, run_observed,
+};
+
+const DEFAULT_NOISE_SPACING: f64 = 0.1;
+const DEFAULT_SEED: u64 = 1;
+
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let plot_format = arguments.plot.as_deref().map(plot_format).transpose()?;
+    let inputs = read_inputs(arguments)?;
+    let scenario = scenario(arguments, &inputs)?;
+    scenario.validate().map_err(|error| explain(&error, arguments))?;
+    let times = samples::times(arguments, &scenario)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let plot = arguments.plot.as_deref().map(|path| Output::open("--plot", path)).transpose()?;
+
+    let (finished, seconds, signal) = integrate(&scenario)?;
+    let document = document::of(arguments, &scenario, &inputs, &finished, &times, seconds)?;
+    write(&document, format, output)?;
+    if let (Some(plot), Some(format)) = (plot, plot_format) {
+        plot.write_bytes(&draw(&document, &scenario, &finished, format)?)?;
+    }
+    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+}
+
+fn plot_format(path: &std::path::Path) -> Result<PlotFormat, Failure> {
+    PlotFormat::of(path)
+        .map_err(|error| Failure::input(format!("--plot {}", path.display()), error))
+}
+
+fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
+    let read = |option, path: &Option<std::path::PathBuf>, heading| {
+        path.as_deref().map(|path| read_columns(option, path, heading)).transpose()
+    };
+    Ok(Inputs {
+        profile: read("--initial-surface", &arguments.initial_surface, "x,u")?,
+        force: read("--force-file", &arguments.force_file, "t,force")?,
+        pulses: arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?,
+    })
+}
+
+fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[amplitude, time, width]) => Ok(Pulse { amplitude, time, width }),
+        _ => Err(Failure::input(
+            format!("--pulse {text}"),
+            "needs three numbers A,T,W: amplitude, time and width, such as --pulse 2,30,0.5",
+        )),
+    }
+}
+
+fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failure> {
+    let model = model(&arguments.model)?;
+    let force = Force::new(inputs.pulses.clone(), inputs.force.clone()).map_err(|error| {
+        use stickslip_tip::ForceError as E;
+        let option = if matches!(error, E::Table(_)) { "--force-file" } else { "--pulse" };
+        Failure::input(option, error)
+    })?;
+    let noise = arguments.noise.map(|amplitude| Noise {
+        amplitude,
+        spacing: arguments.noise_spacing.unwrap_or(DEFAULT_NOISE_SPACING),
+        seed: arguments.seed.unwrap_or(DEFAULT_SEED),
+    });
+    Ok(Scenario {
+        start: match arguments.start {
+            StartName::Steady => Start::Steady,
+            StartName::Flat => Start::Flat,
+        },
+        start_position: arguments.start_position,
+        kick: arguments.kick,
+        noise,
+        profile: inputs.profile.clone(),
+        force,
+        tolerance: arguments.tolerance,
+        memory: match arguments.memory {
+            MemoryName::Auto => MemoryChoice::Auto,
+            MemoryName::Direct => MemoryChoice::Direct,
+            MemoryName::Fft => MemoryChoice::Fft,
+        },
+        ..Scenario::new(model, arguments.until)
+    })
+}
+
+/// Names the option that an error of the library is about.
+fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
+    let option = match error {
+        RunError::StartPosition(x) => format!("--start-position {x}"),
+        RunError::Kick(kick) => format!("--kick {kick}"),
+        RunError::Until { until, .. } => format!("--until {until}"),
+        RunError::Tolerance(tolerance) => format!("--tolerance {tolerance}"),
+        RunError::Noise { noise, .. } => {
+            format!("--noise {} --noise-spacing {}", noise.amplitude, noise.spacing)
+        }
+        RunError::Profile(_) => {
+            let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
+            format!("--initial-surface {}", path.display())
+        }
+        RunError::Integration(_) => return Failure::Run(error.to_string()),
+    };
+    Failure::input(option, error)
+}
+
+/// The run, the seconds that it took, and the signal that stopped it.
+fn integrate(scenario: &Scenario) -> Result<(Run, f64, Option<u8>), Failure> {
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let mut progress = Progress::new(scenario.start_time(), scenario.until);
+    let started = Instant::now();
+    let run = run_observed(scenario, |step| {
+        progress.reached(step.end());
+        if interrupt.signal().is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    let seconds = started.elapsed().as_secs_f64();
+    let run = run.map_err(|error| Failure::Run(error.to_string()))?;
+    let signal = interrupt.signal().filter(|_| run.interrupted);
+    Ok((run, seconds, signal))
+}
+
+fn write(document: &RunDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
+    let samples = &document.samples;
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => output.write_csv(
+            "t,l,x0,velocity",
+            &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
+        ),
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("t", &samples.t)?;
+            npz.vector("l", &samples.l)?;
+            npz.vector("x0", &samples.x0)?;
+            npz.vector("velocity", &samples.velocity)?;
+            npz.vector("history_nodes", &document.history.nodes)?;
+            npz.vector("history_weights", &document.history.weights)?;
+            npz.vector("history_t", &document.history.t)?;
+            npz.vector("history_extension", &document.history.extension)?;
+            npz.matrix("history_displacement", &document.history.displacement)?;
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+/// Points of the drawn surface.
+const DRAWN_POINTS: usize = 4000;
+
+fn draw(
+    document: &RunDocument,
+    scenario: &Scenario,
+    run: &Run,
+    format: PlotFormat,
+) -> Result<Vec<u8>, Failure> {
+    let failed = |error: &dyn std::fmt::Display| Failure::Run(format!("cannot draw: {error}"));
+    let initial = scenario.initial_surface().map_err(|error| failed(&error))?;
+    let (end, start) = (run.trajectory.end(), run.trajectory.start());
+    let (low, high) = super::surface::default_range(&run.trajectory);
+    let x = super::surface::evenly(low, high, DRAWN_POINTS);
+    let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
+    let u = surface.heights(end, &x).map_err(|error| failed(&error))?.to_vec();
+    let before = surface.heights(start, &x).map_err(|error| failed(&error))?.to_vec();
+    let title = title(document);
+    let svg = plot::run(&plot::RunFigure {
+        title: &title,
+        t: &document.samples.t,
+        l: &document.samples.l,
+        velocity: &document.samples.velocity,
+        steady_l: document.steady_state.l,
+        r: scenario.model.r(),
+        x: &x,
+        u: &u,
+        u_initial: Some(&before),
+        t_of_surface: end,
+    });
+    plot::encode(&svg, format).map_err(|error| failed(&error))
+}
+
+fn title(document: &RunDocument) -> String {
+    let model = &document.parameters.model;
+    let regime = match document.regime {
+        crate::documents::RegimeName::Steady => "steady",
+        crate::documents::RegimeName::StickSlip => "stick-slip",
+        crate::documents::RegimeName::Trapped => "trapped",
+        crate::documents::RegimeName::Transient => "transient",
+    };
+    format!("α = {:.6}, r = {}: {regime}", model.alpha, model.r)
+}

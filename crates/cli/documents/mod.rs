@@ -1,0 +1,49 @@
+//! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
+
+mod model;
+mod run;
+mod surface;
+
+pub(crate) use model::ModelParameters;
+pub(crate) use run::{
+    ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
+    RegimeName, RunDocument, RunParameters, Samples, SteadyState, WorkDocument,
+};
+pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+
+use clap::ValueEnum;
+use schemars::{JsonSchema, Schema, schema_for};
+use serde::{Deserialize, Serialize};
+
+/// Version of all documents; it changes when a reader of the old ones would misread the new.
+pub(crate) const FORMAT_VERSION: u32 = 1;
+
+/// The program that wrote a document.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Software {
+    pub(crate) name: String,
+    pub(crate) version: String,
+}
+
+impl Software {
+    pub(crate) fn this() -> Self {
+        Self { name: "stickslip".into(), version: env!("CARGO_PKG_VERSION").into() }
+    }
+}
+
+/// Documents that have a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchemaName {
+    Run,
+    Surface,
+}
+
+impl SchemaName {
+    pub(crate) fn schema(self) -> Schema {
+        match self {
+            Self::Run => schema_for!(RunDocument),
+            Self::Surface => schema_for!(SurfaceDocument),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Files that users give: two-column CSV, tip functions, documents. All of it may be wrong.
+
+use crate::documents::{FORMAT_VERSION, RunDocument};
+use crate::failure::Failure;
+use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Two columns read from a CSV file.
+pub(crate) type Columns = (Vec<f64>, Vec<f64>);
+
+/// Measured series are small; this is a million rows and more.
+const LARGEST_TABLE: u64 = 64 << 20;
+/// A run of some ten million steps.
+const LARGEST_DOCUMENT: u64 = 4 << 30;
+
+/// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
+pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
+    let named = format!("{option} {}", path.display());
+    let mut text = String::new();
+    let read = if path == Path::new("-") {
+        io::stdin().lock().take(most + 1).read_to_string(&mut text)
+    } else {
+        File::open(path).and_then(|file| file.take(most + 1).read_to_string(&mut text))
+    };
+    match read {
+        Err(error) => Err(Failure::input(named, format!("cannot be read: {error}"))),
+        Ok(_) if text.len() as u64 > most => Err(Failure::input(
+            named,
+            format!("larger than {} MB, the most that is read", most >> 20),
+        )),
+        Ok(_) => Ok(text),
+    }
+}
+
+/// Two columns of numbers from CSV, a heading allowed, `#` comments skipped.
+pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<Columns, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    parse_columns(&text, heading)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let (mut first, mut second) = (vec![], vec![]);
+    for (index, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| format!("not CSV: {error}"))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let numbers: Result<Vec<f64>, _> = record.iter().map(str::parse).collect();
+        match numbers.as_deref() {
+            Ok([a, b]) => {
+                first.push(*a);
+                second.push(*b);
+            }
+            Err(_) if index == 0 => {}
+            _ => {
+                return Err(format!(
+                    "line {line} is not two numbers `{heading}` separated by a comma"
+                ));
+            }
+        }
+    }
+    Ok((first, second))
+}
+
+/// A tip file: JSON {"gaussians":[…]} or CSV `x,f`.
+pub(crate) enum TipFile {
+    Gaussians(Vec<GaussianEntry>),
+    Table(Columns),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TipJson {
+    gaussians: Vec<GaussianEntry>,
+}
+
+/// One Gaussian of a tip file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GaussianEntry {
+    pub(crate) amplitude: f64,
+    pub(crate) center: f64,
+    pub(crate) width: f64,
+}
+
+pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
+    const OPTION: &str = "--tip-file";
+    let text = read_text(OPTION, path, LARGEST_TABLE)?;
+    let refused = |message: String| Failure::input(format!("{OPTION} {}", path.display()), message);
+    if text.trim_start().starts_with('{') {
+        let tip: TipJson = serde_json::from_str(&text).map_err(|error| {
+            refused(format!(
+                "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
+            ))
+        })?;
+        return Ok(TipFile::Gaussians(tip.gaussians));
+    }
+    parse_columns(&text, "x,f").map(TipFile::Table).map_err(refused)
+}
+
+/// What every document begins with.
+#[derive(Debug, Deserialize)]
+struct Kind {
+    format: Option<String>,
+    format_version: Option<u32>,
+}
+
+/// A document that `stickslip run` wrote.
+pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
+    let text = read_text("RUN.json", path, LARGEST_DOCUMENT)?;
+    let refused = |message: String| Failure::input(format!("RUN.json {}", path.display()), message);
+    let kind: Kind = serde_json::from_str(&text).map_err(|error| {
+        refused(format!(
+            "not a whole JSON document ({error}); write it again with `stickslip run -o FILE.json`"
+        ))
+    })?;
+    match (kind.format.as_deref(), kind.format_version) {
+        (Some(RunDocument::FORMAT), Some(FORMAT_VERSION)) => {}
+        (Some(RunDocument::FORMAT), version) => {
+            let found = version.map_or("none".into(), |v| v.to_string());
+            return Err(refused(format!(
+                "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
+            )));
+        }
+        (format, _) => {
+            let found = format.unwrap_or("missing");
+            return Err(refused(format!(
+                "format is {found}, \"{}\" is needed",
+                RunDocument::FORMAT
+            )));
+        }
+    }
+    serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heading_and_comments_are_skipped() {
+        let (x, u) = parse_columns("# measured\nx,u\n0, 1\n2,3e-1\n", "x,u").unwrap();
+        assert_eq!(x.len(), 2);
+        assert!((u[1] - 0.3).abs() < 1e-16);
+    }
+
+    #[test]
+    fn a_line_that_is_not_two_numbers_is_named() {
+        for (text, line) in [("1,2\n3\n", 2), ("1,2\n3,4,5\n", 2), ("x,u\n1,2\nfoo,3\n", 3)] {
+            let message = parse_columns(text, "x,u").unwrap_err();
+            assert!(message.contains(&format!("line {line}")), "{message}");
+        }
+    }
+}

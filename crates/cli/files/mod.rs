@@ -1,0 +1,5 @@
+//! Files that come in and go out.
+
+pub(crate) mod input;
+pub(crate) mod npz;
+pub(crate) mod output;

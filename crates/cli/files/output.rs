@@ -1,0 +1,158 @@
+//! Results on their way out: opened before the work, put under their name when complete.
+
+use crate::failure::Failure;
+use serde::Serialize;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// What is written, by the extension of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OutputFormat {
+    Json,
+    Csv,
+    Npz,
+}
+
+impl OutputFormat {
+    /// # Errors
+    /// An extension that none of the formats has.
+    pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new("-") {
+            return Ok(Self::Json);
+        }
+        match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("json") => Ok(Self::Json),
+            Some("csv") => Ok(Self::Csv),
+            Some("npz") => Ok(Self::Npz),
+            _ if is_special(path) => Ok(Self::Json),
+            _ => Err(Failure::input(
+                format!("--output {}", path.display()),
+                "the extension says what is written: .json, .csv or .npz will do, or - for JSON on standard output",
+            )),
+        }
+    }
+}
+
+/// A place to write to, known to be writable.
+#[derive(Debug)]
+pub(crate) struct Output {
+    path: PathBuf,
+    sink: Sink,
+}
+
+#[derive(Debug)]
+enum Sink {
+    Stdout,
+    /// A device or a pipe, written to as it is.
+    Special(File),
+    /// A temporary file beside the target, renamed onto it once it is complete: a reader never sees
+    /// half a document, and a failure leaves what was there before.
+    Beside(NamedTempFile),
+}
+
+impl Output {
+    /// Opens the file (`-`: standard output) that `option` named.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
+        let refused = |error: io::Error| {
+            let advice = "choose a place that exists and can be written to";
+            Failure::input(
+                format!("{option} {}", path.display()),
+                format!("{}; {advice}", error.kind()),
+            )
+        };
+        if path == Path::new("-") {
+            return Ok(Self { path: path.into(), sink: Sink::Stdout });
+        }
+        if is_special(path) {
+            let file = OpenOptions::new().write(true).open(path).map_err(refused)?;
+            return Ok(Self { path: path.into(), sink: Sink::Special(file) });
+        }
+        if path.is_dir() {
+            return Err(refused(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        // The file itself where the name is a link; its folder must take a new file.
+        let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        if path.exists() {
+            OpenOptions::new().write(true).open(&path).map_err(refused)?;
+        }
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = beside(folder).map_err(refused)?;
+        Ok(Self { path, sink: Sink::Beside(file) })
+    }
+
+    /// Writes the document as JSON, with a line break at its end.
+    pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
+        self.write_with(|out| {
+            serde_json::to_writer(&mut *out, document)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    /// Writes bytes.
+    pub(crate) fn write_bytes(self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write_with(|out| out.write_all(bytes))
+    }
+
+    /// Writes columns of equal length as CSV under their headings.
+    pub(crate) fn write_csv(self, headings: &str, columns: &[&[f64]]) -> Result<(), Failure> {
+        self.write_with(|out| {
+            writeln!(out, "{headings}")?;
+            let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
+            for row in 0..rows {
+                let cells: Vec<String> = columns.iter().map(|c| c[row].to_string()).collect();
+                writeln!(out, "{}", cells.join(","))?;
+            }
+            Ok(())
+        })
+    }
+
+    fn write_with(
+        self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let target = match self.sink {
+            Sink::Stdout => "standard output".into(),
+            _ => self.path.display().to_string(),
+        };
+        let done = match self.sink {
+            Sink::Stdout => through(io::stdout().lock(), write),
+            Sink::Special(file) => through(file, write),
+            Sink::Beside(mut file) => through(file.as_file_mut(), write)
+                .and_then(|()| file.as_file().sync_all())
+                .and_then(|()| file.persist(&self.path).map(drop).map_err(|error| error.error)),
+        };
+        done.map_err(|error| Failure::Write { target, error })
+    }
+}
+
+fn through(
+    sink: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::new(sink);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// Whether the path is a device or a pipe, which must not be renamed over.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
+}
+
+#[cfg(unix)]
+fn beside(folder: &Path) -> io::Result<NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt;
+    // As any new file: what the umask leaves of it.
+    let permissions = std::fs::Permissions::from_mode(0o666);
+    tempfile::Builder::new().prefix(".stickslip-").permissions(permissions).tempfile_in(folder)
+}
+
+#[cfg(not(unix))]
+fn beside(folder: &Path) -> io::Result<NamedTempFile> {
+    tempfile::Builder::new().prefix(".stickslip-").tempfile_in(folder)
+}

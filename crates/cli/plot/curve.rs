@@ -1,0 +1,51 @@
+//! A curve or a cloud of points, and how it is drawn.
+
+use super::style::{BLACK, BLUE, PALETTE, VERMILLION};
+
+/// Points, and how to draw them.
+#[derive(Debug, Clone)]
+pub(super) struct Curve<'a> {
+    pub(super) x: &'a [f64],
+    pub(super) y: &'a [f64],
+    pub(super) pen: Pen,
+    /// Its name in the legend, if any.
+    pub(super) label: Option<String>,
+}
+
+/// How points are drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pen {
+    pub(super) colour: &'static str,
+    pub(super) mark: Mark,
+}
+
+/// A line of some width and dash pattern (SVG `stroke-dasharray`, empty: solid), or dots.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Mark {
+    Line { width: f64, dashes: &'static str },
+    Dots { radius: f64 },
+}
+
+impl Pen {
+    /// What a panel is about.
+    pub(super) const MAIN: Self = Self::line(BLUE, 1.6, "");
+    /// A constant to compare with.
+    pub(super) const REFERENCE: Self = Self::line(VERMILLION, 1.8, "9 5");
+    /// What was there before.
+    pub(super) const BEFORE: Self = Self::line(BLACK, 1.4, "2 4");
+
+    const fn line(colour: &'static str, width: f64, dashes: &'static str) -> Self {
+        Self { colour, mark: Mark::Line { width, dashes } }
+    }
+
+    pub(super) const fn dots(colour: &'static str) -> Self {
+        Self { colour, mark: Mark::Dots { radius: 5.0 } }
+    }
+
+    /// The pen of curve number `index`: colours first, then the same colours dashed.
+    pub(super) fn numbered(index: usize) -> Self {
+        const DASHES: [&str; 3] = ["", "9 5", "3 3"];
+        let dashes = DASHES[index / PALETTE.len() % DASHES.len()];
+        Self::line(PALETTE[index % PALETTE.len()], 1.6, dashes)
+    }
+}

@@ -1,0 +1,182 @@
+//! One set of axes with its curves, drawn by kuva.
+
+use super::axis::{Axis, Fit};
+use super::curve::{Curve, Mark};
+use super::legend::Legend;
+use super::style::{
+    GRID, LABEL_SIZE, MARGIN_BOTTOM, MARGIN_RIGHT, MARGIN_TOP, TICK_SIZE, WIDTH, text_width,
+};
+use super::thin::thin;
+use kuva::Theme;
+use kuva::prelude::{BandPlot, Layout, LinePlot, LineStyle, Plot, ScatterPlot, TickFormat};
+use kuva::render::annotations::{ShadedRegion, TextAnnotation};
+use kuva::render::render::{Primitive, Scene, TextAnchor, render_multiple};
+
+/// About how many points all curves of a panel may have together, so that a file of three panels
+/// stays below 300 kB (a point takes some 20 bytes; a panel of a run has two curves).
+const POINTS: usize = 12_000;
+
+/// Axes, labels and curves.
+pub(super) struct Panel<'a> {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    pub(super) x_label: &'a str,
+    pub(super) y_label: &'a str,
+    pub(super) height: f64,
+    /// Drawn in this order.
+    pub(super) curves: Vec<Curve<'a>>,
+    pub(super) shades: Vec<Shade<'a>>,
+    pub(super) notes: Vec<Note<'a>>,
+}
+
+/// An area in a light colour, behind the curves.
+pub(super) enum Shade<'a> {
+    /// Between two abscissas.
+    Columns(f64, f64, &'static str),
+    /// From a curve to the top of the panel.
+    Above(&'a [f64], &'a [f64], &'static str),
+}
+
+/// A text at a place of the panel.
+pub(super) struct Note<'a> {
+    pub(super) text: &'a str,
+    pub(super) x: f64,
+    pub(super) y: f64,
+}
+
+impl<'a> Panel<'a> {
+    /// A panel fitted to its curves: full width for the abscissas unless a curve winds back, air
+    /// for the ordinates, which have the size `natural` by nature (0: unknown).
+    pub(super) fn fitted(
+        labels: (&'a str, &'a str),
+        curves: Vec<Curve<'a>>,
+        height: f64,
+        natural: f64,
+    ) -> Self {
+        let abscissas = curves.iter().flat_map(|c| c.x.iter().copied());
+        let winding = curves.iter().any(|c| !c.x.is_sorted());
+        let padding = if winding { 0.06 } else { 0.0 };
+        let ordinates = curves.iter().flat_map(|c| c.y.iter().copied());
+        Self {
+            x: Axis::fit(abscissas, Fit { padding, natural: 0.0, ticks: 9.0 }),
+            y: Axis::fit(ordinates, Fit { padding: 0.06, natural, ticks: height / 65.0 }),
+            x_label: labels.0,
+            y_label: labels.1,
+            height,
+            curves,
+            shades: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Room that tick labels and axis label need on the left.
+    pub(super) fn margin_left(&self) -> f64 {
+        let labels = self.y.labels();
+        let widest = labels.iter().map(|l| text_width(l, TICK_SIZE)).fold(0.0, f64::max);
+        widest + 14.0 + 1.9 * f64::from(LABEL_SIZE)
+    }
+
+    /// Draws the panel, `left` pixels of it left of the axes.
+    pub(super) fn draw(&self, left: f64) -> Scene {
+        let legend = Legend::of(&self.curves, WIDTH - left - MARGIN_RIGHT);
+        let top = MARGIN_TOP + legend.height();
+        let shades = self.shades.iter().filter_map(|shade| self.band(shade));
+        let curves = self.curves.iter().map(|curve| self.plot(curve));
+        let mut scene = render_multiple(shades.chain(curves).collect(), self.layout(left, top));
+        legend.draw(left, MARGIN_TOP, &mut scene);
+        scene.add(self.y_title(top));
+        scene
+    }
+
+    fn layout(&self, left: f64, top: f64) -> Layout {
+        let (x, y) = (self.x.clone(), self.y.clone());
+        let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
+            .with_width(WIDTH)
+            .with_height(self.height)
+            .with_force_margins(left, MARGIN_RIGHT)
+            .with_force_margins_y(top, MARGIN_BOTTOM)
+            .with_x_axis_min(x.low)
+            .with_x_axis_max(x.high)
+            .with_y_axis_min(y.low)
+            .with_y_axis_max(y.high)
+            .with_x_tick_step(x.step)
+            .with_y_tick_step(y.step)
+            .with_x_tick_format(tick_format(x))
+            .with_y_tick_format(tick_format(y))
+            .with_box_axes()
+            .with_tick_size(TICK_SIZE)
+            .with_label_size(LABEL_SIZE)
+            .with_body_size(LABEL_SIZE)
+            .with_x_label(self.x_label)
+            .with_theme(Theme { grid_color: GRID.to_owned(), ..Theme::light() });
+        for shade in &self.shades {
+            if let Shade::Columns(from, to, colour) = *shade {
+                let region = ShadedRegion::vertical(from, to).with_color(colour);
+                layout = layout.with_shaded_region(region.with_opacity(SHADE_OPACITY));
+            }
+        }
+        for note in &self.notes {
+            let text = TextAnnotation::new(note.text, note.x, note.y);
+            layout = layout.with_annotation(text.with_font_size(LABEL_SIZE));
+        }
+        layout
+    }
+
+    fn plot(&self, curve: &Curve) -> Plot {
+        let points = thin(curve.x, curve.y, (self.x.low, self.x.high), self.columns());
+        match curve.pen.mark {
+            Mark::Line { width, dashes } if points.len() > 1 => Plot::Line(
+                LinePlot::new()
+                    .with_data(points)
+                    .with_color(curve.pen.colour)
+                    .with_stroke_width(width)
+                    .with_line_style(line_style(dashes)),
+            ),
+            // A line of a single point would not show.
+            Mark::Line { width: radius, .. } | Mark::Dots { radius } => Plot::Scatter(
+                ScatterPlot::new()
+                    .with_data(points)
+                    .with_color(curve.pen.colour)
+                    .with_size(radius.max(3.0)),
+            ),
+        }
+    }
+
+    /// A column for every pixel unless there are many curves.
+    fn columns(&self) -> usize {
+        (WIDTH as usize).min(POINTS / (2 * self.curves.len().max(1)))
+    }
+
+    fn band(&self, shade: &Shade) -> Option<Plot> {
+        let Shade::Above(x, y, colour) = *shade else { return None };
+        let points = thin(x, y, (self.x.low, self.x.high), WIDTH as usize);
+        let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        let top = vec![self.y.high; x.len()];
+        Some(Plot::Band(BandPlot::new(x, y, top).with_color(colour).with_opacity(SHADE_OPACITY)))
+    }
+
+    /// The label of the ordinates. Ours, because kuva puts it next to the tick labels, hence at
+    /// another place in every panel.
+    fn y_title(&self, top: f64) -> Primitive {
+        Primitive::Text {
+            x: 1.3 * f64::from(LABEL_SIZE),
+            y: 0.5 * (top + self.height - MARGIN_BOTTOM),
+            content: self.y_label.to_owned(),
+            size: LABEL_SIZE,
+            anchor: TextAnchor::Middle,
+            rotate: Some(-90.0),
+            bold: false,
+            color: None,
+        }
+    }
+}
+
+const SHADE_OPACITY: f64 = 0.16;
+
+fn line_style(dashes: &str) -> LineStyle {
+    if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_owned()) }
+}
+
+fn tick_format(axis: Axis) -> TickFormat {
+    TickFormat::Custom(std::sync::Arc::new(move |value| axis.label(value)))
+}

@@ -1,0 +1,246 @@
+//! All roots λ right of a line, with a certificate that none is missing.
+
+use super::StabilityError;
+use super::bessel_roots;
+use super::cell::Cell;
+use super::certificate::{Certificate, ROUNDOFF, Region};
+use super::characteristic::Characteristic;
+use super::newton::{another, polish};
+use super::winding::{argument_along, whole};
+use crate::{Model, TipFunction};
+use num_complex::Complex64;
+use std::f64::consts::PI;
+
+/// Roots of (29) and what is known about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectrum {
+    /// λ by falling real part, both of each conjugate pair (the one above the real axis first).
+    pub roots: Vec<Complex64>,
+    /// That none is missing.
+    pub certificate: Certificate,
+}
+
+/// A left edge on a root is moved this often, a little further each time.
+const MOST_SHIFTS: u32 = 8;
+
+/// All roots λ of (29) with Re λ ≥ `bound`.
+///
+/// The number of roots comes from the argument principle on a rectangle beyond whose other three
+/// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
+/// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
+/// finds fewer than were counted, from halving the rectangle. Each is polished to round-off. If a root
+/// lies on Re λ = `bound`, the edge is moved a little to the left: see the certificate's region.
+///
+/// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
+/// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
+/// and on it this makes no difference.
+///
+/// # Errors
+/// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`].
+pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
+    if !bound.is_finite() {
+        return Err(StabilityError::Bound(bound));
+    }
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::spectrum(model, Some(bound));
+    }
+    let h = Characteristic::new(model);
+    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
+    half_plane.spectrum(&h)
+}
+
+/// At least `count` leading roots: all those right of a line chosen so that there are so many.
+///
+/// Fewer only if there are no more (α = 0: the root -1 alone; J0), beyond Re Λ ≈ -60/width, and for a
+/// table beyond Re Λ = -24/reach, where the round-off of its entries, magnified by e^{-Λy}, would put
+/// roots of its own.
+///
+/// # Errors
+/// As [`roots`].
+pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::spectrum(model, None);
+    }
+    let h = Characteristic::new(model);
+    if h.ratio <= 0.0 {
+        return HalfPlane::counted(&h, -2.0 / h.r)?.spectrum(&h);
+    }
+    let mut left = -2.0 / h.length;
+    loop {
+        left = left.max(h.leftmost);
+        let half_plane = HalfPlane::counted(&h, left)?;
+        if half_plane.count >= count || left <= h.leftmost {
+            return half_plane.spectrum(&h);
+        }
+        left -= 1.0 / h.length;
+    }
+}
+
+/// How many roots lie right of the imaginary axis: 0 where steady motion is stable.
+///
+/// # Errors
+/// As [`roots`]; on the boundary itself the count is that of a line a little to the left.
+pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
+    }
+    let h = Characteristic::new(model);
+    Ok(HalfPlane::counted(&h, 0.0)?.count)
+}
+
+/// Re Λ ≥ `left`, in which all zeros lie in the rectangle up to `right` and `top`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HalfPlane {
+    left: f64,
+    right: f64,
+    top: f64,
+    pub(super) count: usize,
+}
+
+impl HalfPlane {
+    /// Counts, moving the edge off a root if need be.
+    pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
+        let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length;
+        let tries = (0..=MOST_SHIFTS).map(|n| Self::counted_at(h, left - shift(n)));
+        let counted = tries.into_iter().find_map(Result::ok);
+        counted.ok_or(StabilityError::RootOnContour { re: left * h.r })
+    }
+
+    fn counted_at(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
+        // A root -1/r of α = 0 lies within the first term of each, those of α > 0 within the second.
+        let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length);
+        let top = h.top_bound(left);
+        let corner = |re, im| Complex64::new(re, im);
+        let path = [corner(right, 0.0), corner(right, top), corner(left, top), corner(left, 0.0)];
+        // h is real on the real axis: half the contour turns h by half as much.
+        let turned = argument_along(|z| h.at(z), &path)?;
+        let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r })?;
+        Ok(Self { left, right, top, count })
+    }
+
+    pub(super) fn region(&self, r: f64) -> Region {
+        Region { re_min: r * self.left, re_max: r * self.right, im_max: r * self.top }
+    }
+
+    fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
+        let mut upper = self.by_deflation(h);
+        if total(&upper) != self.count {
+            upper = self.by_halving(h)?;
+        }
+        let roots = with_conjugates(&upper, h.r);
+        let certificate = Certificate::of(h, self.region(h.r), self.count, &roots);
+        if certificate.found != self.count {
+            let Certificate { counted, found, .. } = certificate;
+            return Err(StabilityError::RootsMissing { counted, found });
+        }
+        Ok(Spectrum { roots, certificate })
+    }
+
+    /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted.
+    fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
+        let mut upper = Vec::new();
+        for start in self.starts(h) {
+            if total(&upper) >= self.count {
+                break;
+            }
+            let found = another(|z| h.at(z), start, &upper, 2.0 / h.length);
+            let Some(zero) = found.map(|z| above_axis(h, z)) else { continue };
+            let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
+            let is_new = upper.iter().all(|k| (k - zero).norm() > 1e-8 / h.length);
+            if inside && is_new && h.relative_residual(zero) < 1e-9 {
+                upper.push(zero);
+            }
+        }
+        upper
+    }
+
+    /// The root of α = 0, that of large α, and a grid that widens upwards as the roots do.
+    fn starts(&self, h: &Characteristic) -> Vec<Complex64> {
+        let mut starts = vec![Complex64::new(0.0, 0.8 / h.length), Complex64::new(-1.0 / h.r, 0.0)];
+        starts.push(Complex64::new(self.right / 1.05, 0.01 / h.length));
+        let spacing = 0.8 / h.length;
+        let across = ((self.right.min(2.0 / h.length) - self.left) / spacing).clamp(1.0, 80.0);
+        let up = (self.top.min(2.0 / h.length - self.left) / spacing).clamp(1.0, 80.0);
+        let mut im = 0.1 * spacing;
+        while im < up * spacing {
+            let mut re = self.left;
+            while re < self.left + across * spacing {
+                starts.push(Complex64::new(re, im));
+                re += spacing;
+            }
+            im += spacing;
+        }
+        starts
+    }
+
+    /// Zeros with Im Λ ≥ 0 by halving a rectangle that reaches a little below the real axis.
+    pub(super) fn by_halving(&self, h: &Characteristic) -> Result<Vec<Complex64>, StabilityError> {
+        let at = |z| h.at(z);
+        for below in [0.0137, 0.0291, 0.0533] {
+            let cell = Cell {
+                lower_left: Complex64::new(self.left, -below / h.length),
+                upper_right: Complex64::new(self.right, self.top),
+            };
+            let Ok(count) = cell.count(&at) else { continue };
+            let mut zeros: Vec<Complex64> =
+                cell.zeros(&at, count)?.into_iter().map(|z| snapped(h, z)).collect();
+            // Those just below the axis are conjugates of others found.
+            zeros.retain(|z| z.im >= 0.0);
+            return Ok(zeros);
+        }
+        Err(StabilityError::RootOnContour { re: self.left * h.r })
+    }
+}
+
+/// Zeros that `upper` stands for: a conjugate pair each, one if real.
+fn total(upper: &[Complex64]) -> usize {
+    upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
+}
+
+fn above_axis(h: &Characteristic, z: Complex64) -> Complex64 {
+    let z = snapped(h, z);
+    Complex64::new(z.re, z.im.abs())
+}
+
+/// z, moved onto the real axis if it is a real root but for round-off.
+fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
+    if z.im.abs() > 1e-6 * (z.norm() + 1.0 / h.length) {
+        return z;
+    }
+    let real = polish(|z| h.at(Complex64::new(z.re, 0.0)), Complex64::new(z.re, 0.0));
+    let real = Complex64::new(real.re, 0.0);
+    let error = h.root_error(real, ROUNDOFF);
+    if (real - z).norm() <= 100.0 * error { real } else { z }
+}
+
+/// λ = rΛ of all roots, by falling real part, a conjugate after its twin.
+pub(super) fn with_conjugates(upper: &[Complex64], r: f64) -> Vec<Complex64> {
+    let mut upper = upper.to_vec();
+    upper.sort_by(|a, b| b.re.total_cmp(&a.re).then(a.im.total_cmp(&b.im)));
+    let both = |z: &Complex64| {
+        let lambda = z * r;
+        if z.im > 0.0 { vec![lambda, lambda.conj()] } else { vec![lambda] }
+    };
+    upper.iter().flat_map(both).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halving_finds_what_deflation_finds() {
+        for (beta, alpha, r) in [(1.0, 1.2, 1.0), (0.0, 0.05, 0.3), (0.4, 900.0, 5.0)] {
+            let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
+            let h = Characteristic::new(&Model::new(tip, alpha, r).unwrap());
+            let half_plane = HalfPlane::counted(&h, -2.7).unwrap();
+            let by_deflation = with_conjugates(&half_plane.by_deflation(&h), 1.0);
+            let by_halving = with_conjugates(&half_plane.by_halving(&h).unwrap(), 1.0);
+            assert_eq!(by_deflation.len(), half_plane.count);
+            assert_eq!(by_halving.len(), half_plane.count);
+            for (a, b) in by_deflation.iter().zip(&by_halving) {
+                assert!((a - b).norm() < 1e-11, "{a} {b}");
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! The argument principle: zeros inside a contour from the turns of h along it.
+
+use super::StabilityError;
+use super::transform::Scaled;
+use num_complex::Complex64;
+
+/// A step may turn h by at most about this angle, as foretold by h' at either end and as found.
+const TURN: f64 = 0.7;
+/// Steps below this fraction of a contour's side mean that a zero lies on it.
+const SHORTEST: f64 = 1e-13;
+/// More steps than this on one side of a contour are given up.
+const MOST_STEPS: usize = 1_000_000;
+
+/// Change of arg h along the straight line from `from` to `to`, in radians.
+///
+/// Steps are |h/h'| times 0.7, taken back until h' at the far end agrees and h itself turned and
+/// grew no more than that: a missed turn would need h' to vanish at both ends of a step and be large
+/// between them.
+///
+/// # Errors
+/// [`StabilityError::RootOnContour`] if h vanishes on the line.
+pub(super) fn argument_change(
+    h: impl Fn(Complex64) -> Scaled,
+    from: Complex64,
+    to: Complex64,
+) -> Result<f64, StabilityError> {
+    let length = (to - from).norm();
+    if length <= 0.0 {
+        return Ok(0.0);
+    }
+    let direction = (to - from) / length;
+    let (mut at, mut here) = (0.0, h(from));
+    let mut turned = 0.0;
+    for _ in 0..MOST_STEPS {
+        let mut step = TURN * reach(&here).min(length);
+        loop {
+            if step < SHORTEST * length {
+                return Err(StabilityError::RootOnContour { re: (from + direction * at).re });
+            }
+            let end = (at + step).min(length);
+            let there = h(from + direction * end);
+            let ratio = there.value / here.value * (there.log_scale - here.log_scale).exp();
+            if (ratio - 1.0).norm() < 1.2 * TURN && end - at < 1.5 * TURN * reach(&there) {
+                turned += ratio.arg();
+                (at, here) = (end, there);
+                break;
+            }
+            step *= 0.5;
+        }
+        if at >= length {
+            return Ok(turned);
+        }
+    }
+    Err(StabilityError::RootOnContour { re: (from + direction * at).re })
+}
+
+/// |h/h'|: how far h keeps its argument.
+fn reach(h: &Scaled) -> f64 {
+    h.value.norm() / h.derivative.norm().max(f64::MIN_POSITIVE)
+}
+
+/// Turns of h along the closed or open polygon through `corners`.
+pub(super) fn argument_along(
+    h: impl Fn(Complex64) -> Scaled,
+    corners: &[Complex64],
+) -> Result<f64, StabilityError> {
+    corners.windows(2).map(|side| argument_change(&h, side[0], side[1])).sum()
+}
+
+/// `turned` in units of `unit`, if that is a whole number ≥ 0.
+pub(super) fn whole(turned: f64, unit: f64) -> Option<usize> {
+    let count = turned / unit;
+    let rounded = count.round();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+    ((count - rounded).abs() < 1e-6 && rounded >= 0.0).then_some(rounded as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// e^{kz} - 1: zeros at 2πin/k, so that the number in a rectangle is known.
+    #[test]
+    fn zeros_of_an_exponential_are_counted() {
+        for k in [1.0, 7.3, 40.0] {
+            let h = |z: Complex64| {
+                let e = (z * k).exp();
+                Scaled { value: e - 1.0, derivative: e * k, log_scale: 0.0 }
+            };
+            let corner = |re, im| Complex64::new(re, im);
+            let (low, high) = (-0.4, 5.1);
+            let path = [
+                corner(-1.0, low),
+                corner(1.0, low),
+                corner(1.0, high),
+                corner(-1.0, high),
+                corner(-1.0, low),
+            ];
+            let spacing = 2.0 * PI / k;
+            let expected = (high / spacing).floor() - (low / spacing).ceil() + 1.0;
+            let turned = argument_along(h, &path).unwrap();
+            assert!((turned / (2.0 * PI) - expected).abs() < 1e-9, "{k}: {turned} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_zero_on_the_contour_is_refused() {
+        let h = |z: Complex64| Scaled { value: z, derivative: Complex64::ONE, log_scale: 0.0 };
+        let side = argument_change(h, Complex64::new(-1.0, 0.0), Complex64::new(1.0, 0.0));
+        assert!(matches!(side, Err(StabilityError::RootOnContour { .. })));
+    }
+
+    #[test]
+    fn a_scale_carried_apart_makes_no_difference() {
+        let plain = |z: Complex64| Scaled { value: z, derivative: Complex64::ONE, log_scale: 0.0 };
+        let scaled = |z: Complex64| {
+            let log_scale = 3.0 * z.re;
+            let down = (-log_scale).exp();
+            Scaled { value: z * down, derivative: Complex64::ONE * down, log_scale }
+        };
+        let (from, to) = (Complex64::new(-1.0, 0.3), Complex64::new(2.0, 0.1));
+        let turns = [argument_change(plain, from, to), argument_change(scaled, from, to)];
+        assert!((turns[0].unwrap() - turns[1].unwrap()).abs() < 1e-12);
+    }
+}

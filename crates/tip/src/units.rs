@@ -1,0 +1,362 @@
+//! SI quantities to the dimensionless numbers of the model, and back.
+//!
+//! A tip of width σ and friction Γ on a spring k, dragged at v0, indents at the rate N and is pushed
+//! down slopes with strength a, (1) to (7). In units of σ and Γ/k
+//!
+//! ```text
+//!     r = Γ v0/(kσ)    (12)        α = Γ N a/(σ²k²)    (13)        D = (Γ v0 + N a/v0)/k    (23)
+//! ```
+
+use crate::stability::{StabilityError, critical, critical_r};
+use crate::{Model, ModelError, TipFunction};
+use thiserror::Error;
+
+/// What is measured, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Physical {
+    /// Γ in kg/s: friction of the tip, (1).
+    pub damping: f64,
+    /// k in N/m: spring constant, (3).
+    pub stiffness: f64,
+    /// σ in m: width of the tip, (7).
+    pub tip_width: f64,
+    /// N in m/s: indentation rate, (7).
+    pub indentation_rate: f64,
+    /// a in N: force per slope, (4).
+    pub slope_force: f64,
+    /// v0 in m/s: velocity of the support, (3).
+    pub velocity: f64,
+}
+
+/// What one unit of the model is in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// σ in m, for x, l and x0.
+    pub length: f64,
+    /// Γ/k in s.
+    pub time: f64,
+    /// kσ²/a in m, for the surface u.
+    pub height: f64,
+    /// kσ in N, for Fext.
+    pub force: f64,
+}
+
+/// Why SI quantities were refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum UnitsError {
+    /// Not a number with a unit.
+    #[error("`{text}` is not a quantity in {unit}: write a number and a unit, such as {example}")]
+    Syntax {
+        /// As given.
+        text: String,
+        /// What was expected.
+        unit: Unit,
+        /// One that will do.
+        example: &'static str,
+    },
+    /// A quantity that must be positive.
+    #[error("{name} is {value} in SI units: it must be a finite number > 0")]
+    NotPositive {
+        /// Which.
+        name: &'static str,
+        /// As given.
+        value: f64,
+    },
+    /// The dimensionless numbers are out of range.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// No critical point.
+    #[error(transparent)]
+    Stability(#[from] StabilityError),
+}
+
+/// The units that quantities are read in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// kg/s, or N·s/m
+    Damping,
+    /// N/m
+    Stiffness,
+    /// m
+    Length,
+    /// m/s
+    Velocity,
+    /// N
+    Force,
+}
+
+impl std::fmt::Display for Unit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.spellings()[0])
+    }
+}
+
+impl Unit {
+    fn spellings(self) -> &'static [&'static str] {
+        match self {
+            Self::Damping => &["kg/s", "Ns/m", "N s/m", "N*s/m", "N·s/m"],
+            Self::Stiffness => &["N/m"],
+            Self::Length => &["m"],
+            Self::Velocity => &["m/s"],
+            Self::Force => &["N"],
+        }
+    }
+
+    fn example(self) -> &'static str {
+        match self {
+            Self::Damping => "20ug/s or 1e-8kg/s",
+            Self::Stiffness => "0.5N/m",
+            Self::Length => "50nm",
+            Self::Velocity => "1um/s",
+            Self::Force => "10nN",
+        }
+    }
+
+    /// The value in SI units of a number with this unit and prefixes, such as `50nm`, `0.5 N/m`,
+    /// `1um/s`, `3µm/s` or `2mN/mm`. A bare number is taken to be in SI units.
+    ///
+    /// # Errors
+    /// [`UnitsError::Syntax`].
+    pub fn parse(self, text: &str) -> Result<f64, UnitsError> {
+        let error =
+            || UnitsError::Syntax { text: text.to_owned(), unit: self, example: self.example() };
+        let trimmed = text.trim();
+        let (number, suffix) = number_and_suffix(trimmed).ok_or_else(error)?;
+        if suffix.is_empty() {
+            return Ok(number);
+        }
+        let scale = self.spellings().iter().find_map(|unit| scale_of(suffix, unit));
+        scale.map(|scale| number * scale).filter(|v| v.is_finite()).ok_or_else(error)
+    }
+}
+
+/// The longest start of `text` that reads as a finite number, and what follows it.
+fn number_and_suffix(text: &str) -> Option<(f64, &str)> {
+    let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
+    let end = text.find(|c| !plain(c)).unwrap_or(text.len());
+    (1..=end).rev().find_map(|end| {
+        let number: f64 = text[..end].parse().ok()?;
+        number.is_finite().then(|| (number, text[end..].trim_start()))
+    })
+}
+
+/// The factor that turns `suffix` into `unit`: a prefix before the numerator, and before the
+/// denominator, where there is one.
+fn scale_of(suffix: &str, unit: &str) -> Option<f64> {
+    match (suffix.split_once('/'), unit.split_once('/')) {
+        (Some((above, below)), Some((unit_above, unit_below))) => {
+            Some(prefixed(above.trim(), unit_above)? / prefixed(below.trim(), unit_below)?)
+        }
+        (None, None) => prefixed(suffix, unit),
+        _ => None,
+    }
+}
+
+/// The factor of an SI prefix before `unit`. Grams are taken as 1e-3 kg.
+fn prefixed(text: &str, unit: &str) -> Option<f64> {
+    if unit == "kg" {
+        return Some(prefixed(text, "g")? * 1e-3);
+    }
+    // The prefix of a product is that of its first factor, and of a second, that of the unit.
+    match text.strip_suffix(unit)? {
+        "" => Some(1.0),
+        "f" => Some(1e-15),
+        "p" => Some(1e-12),
+        "n" => Some(1e-9),
+        "u" | "µ" | "μ" => Some(1e-6),
+        "m" => Some(1e-3),
+        "c" => Some(1e-2),
+        "k" => Some(1e3),
+        "M" => Some(1e6),
+        "G" => Some(1e9),
+        _ => None,
+    }
+}
+
+impl Physical {
+    /// # Errors
+    /// [`UnitsError::NotPositive`]; N may be 0.
+    pub fn validated(self) -> Result<Self, UnitsError> {
+        let positive = [
+            ("the damping Γ", self.damping),
+            ("the spring constant k", self.stiffness),
+            ("the tip width σ", self.tip_width),
+            ("the slope force a", self.slope_force),
+            ("the velocity v0", self.velocity),
+        ];
+        for (name, value) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(UnitsError::NotPositive { name, value });
+            }
+        }
+        if !(self.indentation_rate.is_finite() && self.indentation_rate >= 0.0) {
+            let (name, value) = ("the indentation rate N", self.indentation_rate);
+            return Err(UnitsError::NotPositive { name, value });
+        }
+        Ok(self)
+    }
+
+    /// r, (12).
+    #[must_use]
+    pub fn r(&self) -> f64 {
+        self.damping * self.velocity / (self.stiffness * self.tip_width)
+    }
+
+    /// α, (13).
+    #[must_use]
+    pub fn alpha(&self) -> f64 {
+        self.damping * self.indentation_rate * self.slope_force
+            / (self.tip_width * self.stiffness).powi(2)
+    }
+
+    /// The dimensionless model with this tip function.
+    ///
+    /// # Errors
+    /// α or r beyond the range of floating point.
+    pub fn model(&self, tip: TipFunction) -> Result<Model, UnitsError> {
+        Ok(Model::new(tip, self.alpha(), self.r())?)
+    }
+
+    /// D in m, (23): by how much the tip lags behind the support in steady motion. The paper's Na/v0 is
+    /// N a f(0)/v0 where f(0) is not 1.
+    #[must_use]
+    pub fn lag(&self, tip: &TipFunction) -> f64 {
+        let groove = self.indentation_rate * self.slope_force * tip.value(0.0) / self.velocity;
+        (self.damping * self.velocity + groove) / self.stiffness
+    }
+
+    /// SI values of the model's units.
+    #[must_use]
+    pub fn scales(&self) -> Scales {
+        Scales {
+            length: self.tip_width,
+            time: self.damping / self.stiffness,
+            height: self.stiffness * self.tip_width.powi(2) / self.slope_force,
+            force: self.stiffness * self.tip_width,
+        }
+    }
+
+    /// The indentation rate N in m/s at which stick-slip sets in, all else as it is.
+    ///
+    /// # Errors
+    /// As [`critical`].
+    pub fn critical_indentation_rate(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
+        let alpha = critical(tip, self.r())?.alpha;
+        Ok(self.with_alpha_r(alpha, self.r()).indentation_rate)
+    }
+
+    /// The velocity v0 in m/s below which stick-slip sets in, all else as it is.
+    ///
+    /// # Errors
+    /// As [`critical_r`].
+    pub fn critical_velocity(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
+        let r = critical_r(tip, self.alpha())?.r;
+        Ok(self.with_alpha_r(self.alpha(), r).velocity)
+    }
+
+    /// The way back: N and v0 that give α and r, with Γ, k, σ and a as they are.
+    #[must_use]
+    pub fn with_alpha_r(&self, alpha: f64, r: f64) -> Self {
+        let stiffness_length = self.stiffness * self.tip_width;
+        Self {
+            indentation_rate: alpha * stiffness_length * stiffness_length
+                / (self.damping * self.slope_force),
+            velocity: r * stiffness_length / self.damping,
+            ..*self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, wanted: f64) {
+        assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{found} for {wanted}");
+    }
+
+    fn example() -> Physical {
+        Physical {
+            damping: 1e-6,
+            stiffness: 0.5,
+            tip_width: 50e-9,
+            indentation_rate: 20e-9,
+            slope_force: 30e-9,
+            velocity: 1e-6,
+        }
+    }
+
+    #[test]
+    fn quantities_are_read_with_prefixes() {
+        let read = [
+            (Unit::Length, "50nm", 50e-9),
+            (Unit::Length, " 0.05 µm ", 50e-9),
+            (Unit::Length, "5e-8m", 50e-9),
+            (Unit::Length, "5e-8", 50e-9),
+            (Unit::Stiffness, "0.5N/m", 0.5),
+            (Unit::Stiffness, "0.5 nN/nm", 0.5),
+            (Unit::Stiffness, "500mN/m", 0.5),
+            (Unit::Velocity, "1um/s", 1e-6),
+            (Unit::Velocity, "2mm/ms", 2.0),
+            (Unit::Force, "10nN", 1e-8),
+            (Unit::Force, "-3pN", -3e-12),
+            (Unit::Damping, "20ug/s", 2e-8),
+            (Unit::Damping, "1e-8kg/s", 1e-8),
+            (Unit::Damping, "1uNs/m", 1e-6),
+            (Unit::Damping, "1 mN s/m", 1e-3),
+        ];
+        for (unit, text, wanted) in read {
+            close(unit.parse(text).unwrap(), wanted);
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        for text in ["", "nm", "50 apples", "50N", "50nm/s", "1e999m", "NaN m", "inf"] {
+            assert!(Unit::Length.parse(text).is_err(), "{text}");
+        }
+        let message = Unit::Length.parse("50 apples").unwrap_err().to_string();
+        assert!(message.contains("50 apples") && message.contains("50nm"), "{message}");
+    }
+
+    /// (12), (13), (23) worked out by hand for the example.
+    #[test]
+    fn dimensionless_numbers_follow_their_definitions() {
+        let physical = example().validated().unwrap();
+        close(physical.r(), 4e-5);
+        close(physical.alpha(), 9.6e-7);
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        close(physical.lag(&tip), 1.2e-9 + 2e-12);
+        // The same lag from the model: r + l0, in units of σ.
+        let model = physical.model(tip).unwrap();
+        close(model.steady_lag() * physical.scales().length, 1.202e-9);
+    }
+
+    #[test]
+    fn the_way_back_gives_the_quantities_again() {
+        let there = example();
+        let back = Physical { indentation_rate: 1.0, velocity: 1.0, ..there }
+            .with_alpha_r(there.alpha(), there.r());
+        close(back.indentation_rate, there.indentation_rate);
+        close(back.velocity, there.velocity);
+    }
+
+    #[test]
+    fn at_the_critical_rate_and_velocity_the_model_is_critical() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let physical = example().with_alpha_r(0.9, 0.7);
+        let rate = physical.critical_indentation_rate(&tip).unwrap();
+        let at = Physical { indentation_rate: rate, ..physical };
+        close(at.alpha(), critical(&tip, at.r()).unwrap().alpha);
+        let velocity = physical.critical_velocity(&tip).unwrap();
+        let at = Physical { velocity, ..physical };
+        assert!((critical(&tip, at.r()).unwrap().alpha / at.alpha() - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn a_quantity_that_is_not_positive_is_named() {
+        let wrong = Physical { stiffness: 0.0, ..example() };
+        let error = wrong.validated().unwrap_err();
+        assert!(error.to_string().contains("spring constant k is 0"), "{error}");
+    }
+}

@@ -1,0 +1,90 @@
+//! Do the memories give the same motion? `fft` judged by `direct`, which is the definition.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod common;
+
+use common::{Acceptance, largest_difference};
+use stickslip_tip::{Force, MemoryChoice, Model, Pulse, Scenario, Start, TipFunction, run};
+
+/// Both runs are within the tolerance of the truth; steps may differ by a rounding.
+const AGREE: Acceptance = Acceptance { floor: 1e-12, slack: 1.0 };
+
+fn triple(alpha: f64, r: f64) -> Model {
+    Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), alpha, r).unwrap()
+}
+
+fn judge(name: &str, scenario: Scenario) {
+    for tolerance in [1e-6, 1e-9, 1e-11] {
+        let with = |memory| run(&Scenario { memory, tolerance, ..scenario.clone() }).unwrap();
+        let (direct, fft) = (with(MemoryChoice::Direct), with(MemoryChoice::Fft));
+        assert_eq!((direct.memory, fft.memory), ("direct", "fft"));
+        let range = (direct.trajectory.start(), direct.trajectory.end());
+        let difference =
+            largest_difference(|t| direct.trajectory.l(t), |t| fft.trajectory.l(t), range, 5000);
+        AGREE.judge(&format!("{name}, {tolerance:e}"), difference, tolerance);
+    }
+}
+
+#[test]
+fn on_stick_slip() {
+    judge("stick-slip", Scenario { kick: 0.05, ..Scenario::new(triple(1.2, 1.0), 76.0) });
+}
+
+#[test]
+fn on_a_flat_start() {
+    let flat = Scenario { start: Start::Flat, ..Scenario::new(triple(0.75, 0.6), 90.0) };
+    judge("flat start", flat);
+}
+
+#[test]
+fn on_pulses_that_push_the_tip_backwards() {
+    let pulse = |time| Pulse { amplitude: -8.0, time, width: 0.5 };
+    let force = Force::new(vec![pulse(25.0), pulse(33.0)], None).unwrap();
+    let scenario = Scenario { force, ..Scenario::new(triple(0.9, 1.0), 60.0) };
+    let trajectory = run(&scenario).unwrap().trajectory;
+    let furthest_back = (0..400).map(|i| trajectory.velocity(24.0 + 0.05 * f64::from(i)));
+    assert!(furthest_back.fold(0.0, f64::min) < -2.0, "the pulses do push it backwards");
+    judge("pulses", scenario);
+}
+
+#[test]
+fn on_an_initial_bump() {
+    let x: Vec<f64> = (0..=80).map(|i| 18.0 + 0.1 * f64::from(i)).collect();
+    let u = x.iter().map(|x| 0.6 * (-(x - 22.0_f64).powi(2)).exp()).collect();
+    judge("bump", Scenario { profile: Some((x, u)), ..Scenario::new(triple(0.9, 1.0), 60.0) });
+}
+
+#[test]
+fn on_a_narrower_gaussian() {
+    let model = Model::new(TipFunction::gaussian(0.8).unwrap(), 1.6, 1.0).unwrap();
+    judge("gaussian 0.8", Scenario { kick: 0.05, ..Scenario::new(model, 76.0) });
+}
+
+#[test]
+fn on_a_footprint_that_never_fades() {
+    let model = Model::new(TipFunction::Bessel, 1.1, 1.0).unwrap();
+    judge("bessel", Scenario { kick: 0.05, ..Scenario::new(model, 116.0) });
+}
+
+#[test]
+fn on_a_tip_from_a_table() {
+    let x: Vec<f64> = (0..40).map(|i| 0.2 * f64::from(i)).collect();
+    let f: Vec<f64> = x.iter().map(|x| (1.0 - 0.2 * x * x) * (-x * x / 2.0).exp()).collect();
+    let model = Model::new(TipFunction::table(&x, &f).unwrap(), 1.0, 0.8).unwrap();
+    judge("table", Scenario { kick: 0.05, ..Scenario::new(model, 50.0) });
+}
+
+#[test]
+fn auto_begins_with_direct_and_goes_over_to_fft_without_a_trace() {
+    let scenario =
+        Scenario { kick: 0.05, tolerance: 1e-11, ..Scenario::new(triple(1.2, 1.0), 76.0) };
+    let auto = run(&scenario).unwrap();
+    assert_eq!(auto.memory, "fft");
+    assert_eq!(run(&Scenario { until: 16.5, ..scenario.clone() }).unwrap().memory, "direct");
+    let direct = run(&Scenario { memory: MemoryChoice::Direct, ..scenario }).unwrap();
+    let range = (auto.trajectory.start(), auto.trajectory.end());
+    let difference =
+        largest_difference(|t| direct.trajectory.l(t), |t| auto.trajectory.l(t), range, 5000);
+    AGREE.judge("auto", difference, 1e-11);
+}

@@ -1,0 +1,63 @@
+//! Is the tolerance asked for honoured, and not paid for twice? Judged by a run of the same integrator
+//! at 1e-13 with the `direct` memory; tests/convergence.rs and tests/regimes.rs tie that to the outside.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod common;
+
+use common::{Acceptance, largest_difference};
+use stickslip_tip::{MemoryChoice, Model, Run, Scenario, TipFunction, run};
+
+/// Errors of 60 time units add up and are amplified by the slips; 5e-13 is what round-off makes of the
+/// reference itself.
+const LADDER: Acceptance = Acceptance { floor: 5e-13, slack: 10.0 };
+
+fn stick_slip(tolerance: f64, memory: MemoryChoice) -> Run {
+    let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.2, 1.0).unwrap();
+    let start = 14.0 + model.steady_lag();
+    let scenario = Scenario { kick: 0.05, tolerance, memory, ..Scenario::new(model, start + 60.0) };
+    run(&scenario).unwrap()
+}
+
+fn error(run: &Run, reference: &Run) -> f64 {
+    let range = (run.trajectory.start(), run.trajectory.end());
+    largest_difference(|t| run.trajectory.l(t), |t| reference.trajectory.l(t), range, 30_000)
+}
+
+#[test]
+fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_12() {
+    let reference = stick_slip(1e-13, MemoryChoice::Direct);
+    for memory in [MemoryChoice::Direct, MemoryChoice::Fft] {
+        for digits in 4..=12 {
+            let tolerance = 10.0_f64.powi(-digits);
+            let run = stick_slip(tolerance, memory);
+            let name = format!("{}, {tolerance:e}, {} steps", run.memory, run.work.steps);
+            LADDER.judge(&name, error(&run, &reference), tolerance);
+        }
+    }
+}
+
+/// A run at tolerance e that errs by less than e could have been asked for less. The steps that a run
+/// with an error as large as e needs are found on a fine ladder of looser tolerances.
+#[test]
+fn at_most_twice_the_steps_that_the_error_needs() {
+    let reference = stick_slip(1e-13, MemoryChoice::Fft);
+    let ladder: Vec<(u64, f64)> = (0..=48)
+        .map(|i| {
+            let run = stick_slip(10.0_f64.powf(-2.0 - 0.21 * f64::from(i)), MemoryChoice::Fft);
+            (run.work.steps, error(&run, &reference))
+        })
+        .collect();
+    for digits in 4..=12 {
+        let tolerance = 10.0_f64.powi(-digits);
+        let asked = stick_slip(tolerance, MemoryChoice::Fft).work.steps;
+        let enough =
+            ladder.iter().filter(|(_, error)| *error <= tolerance).map(|(steps, _)| *steps);
+        let needed = enough.min().unwrap();
+        println!(
+            "{tolerance:e}: {asked} steps, {needed} would do, ratio {:.2}",
+            asked as f64 / needed as f64
+        );
+        assert!(asked <= 2 * needed, "{tolerance:e}: {asked} steps where {needed} do");
+    }
+}

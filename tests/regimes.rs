@@ -1,6 +1,6 @@
-//! Does a run end where it must, and does it say so? Judged by figures that were computed for the
-//! project's design by other means (30-digit collocation for the limit cycle, a separate prototype for
-//! the long stick-slip), quoted with the digits given there.
+//! Does a run end where it must, and does it say so? Judged by figures that were computed by other means
+//! and are kept with their origin in data/: the limit cycle by 30-digit collocation and, independently,
+//! harmonic balance; the long stick-slip by an integration of another method.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -23,8 +23,8 @@ fn just_above_onset_the_limit_cycle_has_its_known_period_and_amplitude() {
     assert_eq!(outcome.regime, Regime::StickSlip);
     let cycle = outcome.oscillation.unwrap();
     println!("period {:.10}, amplitude {:.10}", cycle.period, cycle.amplitude_x0);
-    assert!((cycle.period - 6.693_688_892_159).abs() < 1e-6);
-    assert!((cycle.amplitude_x0 - 0.196_381_792_945).abs() < 1e-6);
+    assert!((cycle.period - 6.693_688_892_159).abs() < 1e-9);
+    assert!((cycle.amplitude_x0 - 0.196_381_798_100).abs() < 1e-9);
     assert_eq!(cycle.slips, 1);
 }
 
@@ -38,7 +38,7 @@ fn a_groove_is_remembered_however_old_it_is() {
     let at = |i: u32| start + (end - start) * f64::from(i) / 400_000.0;
     let largest = (0..=400_000).map(|i| run.trajectory.l(at(i))).fold(0.0, f64::max);
     println!("period {:.6}, largest l {largest:.6}", cycle.period);
-    assert!((cycle.period - 47.617).abs() < 0.005);
+    assert!((cycle.period - 47.614_16).abs() < 1e-4);
     assert!((largest - 39.5047).abs() < 0.005);
 }
 

@@ -26,6 +26,8 @@ pub(crate) struct Collocation {
     /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): what a defect at the start of a step, times
     /// its length, amounts to within the step.
     pub(crate) defect_to_error: f64,
+    /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation, per divided difference.
+    largest_node_product: f64,
 }
 
 /// The method, built once.
@@ -57,7 +59,14 @@ impl Collocation {
                 };
             }
         }
-        Self { c, a, derivative, derivative_at_start, defect_to_error: defect_to_error(&c) }
+        let node_product = |tau: f64| c.iter().map(|c| tau - c).product::<f64>();
+        let largest = |error: &dyn Fn(f64) -> f64| {
+            (0..=200).map(|i| error(f64::from(i) / 200.0).abs()).fold(0.0, f64::max)
+        };
+        let from_defect = largest(&|tau| integral(tau, node_product));
+        let defect_to_error = from_defect / node_product(0.0).abs();
+        let largest_node_product = largest(&|tau| tau * node_product(tau));
+        Self { c, a, derivative, derivative_at_start, defect_to_error, largest_node_product }
     }
 
     /// Quadrature weights over the whole step, `b_j` = `a_sj`.
@@ -69,6 +78,13 @@ impl Collocation {
     pub(crate) fn value(&self, values: &Stages, tau: f64) -> f64 {
         let basis = |i: usize| tau / self.c[i] * lagrange(&self.c, i, tau);
         (0..STAGES).map(|i| values[i] * basis(i)).sum()
+    }
+
+    /// The largest error on the unit step of the polynomial as an interpolant, from its miss of a value
+    /// known at another τ: both are the same divided difference times a product of node distances.
+    pub(crate) fn interpolation_error(&self, values: &Stages, tau: f64, known: f64) -> f64 {
+        let product: f64 = tau * self.c.iter().map(|c| tau - c).product::<f64>();
+        (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
     }
 
     /// Its derivative at τ.
@@ -130,12 +146,6 @@ fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rule = gauss();
     let term = |(x, w): &(f64, f64)| 0.5 * end * w * f(0.5 * end * (1.0 + x));
     rule.as_node_weight_pairs().iter().map(term).sum()
-}
-
-fn defect_to_error(c: &Stages) -> f64 {
-    let n = |tau: f64| c.iter().map(|c| tau - c).product::<f64>();
-    let largest = (0..=200).map(|i| integral(f64::from(i) / 200.0, n).abs()).fold(0.0, f64::max);
-    largest / n(0.0).abs()
 }
 
 #[cfg(test)]

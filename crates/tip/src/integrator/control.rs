@@ -73,21 +73,28 @@ impl Control {
         }
     }
 
-    /// Accepts a step of length h whose stage polynomial starts with this defect (its velocity less
-    /// the true one), or says what length to try instead.
+    /// Accepts a step of length h, or says what length to try instead, from two signs of its error: the
+    /// defect with which its stage polynomial starts (its velocity less the true one), and its error as
+    /// an interpolant.
     ///
-    /// The error within the step follows e' = Je + defect N(τ)/N(0), N vanishing at the nodes; a groove
-    /// of `stiffness` -J above 1/h damps it.
-    pub(super) fn judge(&mut self, defect: f64, h: f64, stiffness: f64) -> Result<(), f64> {
+    /// As long as the groove's `stiffness` is small against 1/h, the error follows from the defect, which
+    /// is δ N(τ)/N(0), N vanishing at the nodes. Where it is large, the stages are exact, velocities are
+    /// not, and the stage polynomial errs by interpolation.
+    pub(super) fn judge(
+        &mut self,
+        (defect, interpolation): (f64, f64),
+        h: f64,
+        stiffness: f64,
+    ) -> Result<(), f64> {
         if self.fixed {
             return Ok(());
         }
         let strayed = h * defect;
         let expected = |(last, h_last): (f64, f64)| last * (h / h_last).powi(ORDER_WITHIN_A_STEP);
         let change = self.last.map_or(0.0, |last| strayed - expected(last));
-        let k = RADAU.defect_to_error;
-        let error =
-            k * (strayed.abs() + WEIGHT_OF_CHANGE * change.abs()) / (1.0 + k * h * stiffness);
+        let from_defect = strayed.abs() + WEIGHT_OF_CHANGE * change.abs();
+        let soft = 1.0 / (1.0 + RADAU.defect_to_error * h * stiffness);
+        let error = soft * RADAU.defect_to_error * from_defect + (1.0 - soft) * interpolation;
         let ratio = (self.target() / error.max(1e-300)).powf(1.0 / f64::from(ORDER_WITHIN_A_STEP));
         // An error that is NaN has the largest shrinkage: max and clamp would let it pass.
         let factor = if ratio.is_nan() { LARGEST_SHRINKAGE } else { SAFETY * ratio };

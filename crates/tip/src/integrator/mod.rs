@@ -182,8 +182,8 @@ impl<'a> Integrator<'a> {
             return Err(Retry::ToKnot(tau * h));
         }
         let stiffness = (1.0 + self.curvature).max(0.0);
-        let defect = self.defect(&displacement, h);
-        self.control.judge(defect, h, stiffness).map_err(Retry::Shorter)?;
+        let signs = (self.defect(&displacement, h), self.interpolation_error(&displacement, h));
+        self.control.judge(signs, h, stiffness).map_err(Retry::Shorter)?;
         Ok(self.accept(h, &solution, stretch))
     }
 
@@ -206,6 +206,14 @@ impl<'a> Integrator<'a> {
         let slope: f64 =
             RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
         slope / h - self.velocity
+    }
+
+    /// Error of the stage polynomial as an interpolant, from its continuation back into the last step.
+    fn interpolation_error(&self, displacement: &Stages, h: f64) -> f64 {
+        let Some(last) = self.last else { return 0.0 };
+        let [.., before, end] = last.displacement;
+        let tau = (RADAU.c[STAGES - 2] - 1.0) * last.h / h;
+        RADAU.interpolation_error(displacement, tau, before - end)
     }
 
     fn accept(&mut self, h: f64, solution: &Solution, stretch: &Stretch) -> Step {

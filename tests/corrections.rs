@@ -211,7 +211,7 @@ fn white_noise_grows_steeper_on_a_finer_grid() {
     };
     let (coarse, fine) = (steepness(0.01), steepness(0.001));
     assert!((fine / coarse - 10.0).abs() < 0.5, "{}", fine / coarse);
-    // On the paper's Δx = 0.001, heights of 1e-4 are no small disturbance: forces of 0.1 kσ.
+    // Heights of 1e-4 on the paper's Δx = 0.001: forces of 0.09 kσ, root mean square.
     assert!(fine > 0.05, "{fine}");
 }
 

@@ -3,6 +3,10 @@
 CARGO ?= cargo
 PLOT ?= run.svg
 
+comma := ,
+# Shows the command as a user would type it, and runs it.
+stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
+
 .DEFAULT_GOAL := help
 .PHONY: help run test check bench doc install clean
 
@@ -10,9 +14,8 @@ help: ## list these verbs
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a picture
-	$(CARGO) run --release --locked --quiet -- run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT)
-	$(CARGO) run --release --locked --quiet -- surface run.json --at 457 --range 400,470 --spacing 0.02 -o surface.csv
-	@ls -l run.json surface.csv $(PLOT)
+	@$(call stickslip,run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT))
+	@$(call stickslip,surface run.json --at 457 --range 400$(comma)470 --spacing 0.02 -o surface.csv)
 
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked

@@ -16,7 +16,7 @@ pub enum Method {
 
 /// Pairs of source and target that cost as much as one of either by FFT; measured with
 /// benches/surface.rs, flat within a factor of two.
-const PAIRS_PER_POINT: f64 = 4.0;
+const PAIRS_PER_POINT: f64 = 16.0;
 /// Cells of the lattice that cost as much as one point.
 const CELLS_PER_POINT: f64 = 2.0;
 

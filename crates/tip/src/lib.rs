@@ -40,3 +40,8 @@ pub use outcome::{Oscillation, Outcome, Regime, classify};
 pub use run::{MemoryChoice, Run, RunError, Scenario, Start, TOLERANCES, run, run_observed};
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};
+
+/// The README's example is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Acceptance, largest_difference};
-use stickslip_tip::{Force, MemoryChoice, Model, Pulse, Scenario, Start, TipFunction, run};
+use stickslip_tip::{Force, MemoryChoice, Model, Noise, Pulse, Scenario, Start, TipFunction, run};
 
 /// Both runs are within the tolerance of the truth; steps may differ by a rounding.
 const AGREE: Acceptance = Acceptance { floor: 1e-12, slack: 1.0 };
@@ -53,6 +53,18 @@ fn on_an_initial_bump() {
     let x: Vec<f64> = (0..=80).map(|i| 18.0 + 0.1 * f64::from(i)).collect();
     let u = x.iter().map(|x| 0.6 * (-(x - 22.0_f64).powi(2)).exp()).collect();
     judge("bump", Scenario { profile: Some((x, u)), ..Scenario::new(triple(0.9, 1.0), 60.0) });
+}
+
+#[test]
+fn on_noise_whose_knots_lie_closer_than_steps() {
+    let noise = |spacing| Some(Noise { amplitude: 1e-4, spacing, seed: 7 });
+    judge("noise", Scenario { noise: noise(0.1), ..Scenario::new(triple(1.1, 1.0), 32.0) });
+    // Each knot costs a step or two, whatever its distance to the next.
+    let fine =
+        run(&Scenario { noise: noise(0.005), ..Scenario::new(triple(1.1, 1.0), 32.0) }).unwrap();
+    let knots = (fine.trajectory.end() - fine.trajectory.start()) / 0.005;
+    println!("{knots} knots, {:?}", fine.work);
+    assert!((fine.work.steps as f64) < 3.0 * knots);
 }
 
 #[test]

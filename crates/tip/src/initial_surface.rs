@@ -45,12 +45,17 @@ pub(crate) struct Stretch {
     /// Its ends.
     pub(crate) low: f64,
     pub(crate) high: f64,
+    /// How far beyond an end a step may go and still count as ending there.
+    pub(crate) slack: f64,
     /// Pieces of the profile and of the noise, `None` outside of them.
     pieces: [Option<usize>; 2],
 }
 
-/// A knot within this fraction of an interval counts as reached.
+/// A knot within this fraction of an interval counts as reached,
 const AT_A_KNOT: f64 = 1e-9;
+/// or within this many roundings of x; but never within more than this fraction of an interval.
+const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
+const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl InitialSurface {
     /// u0 = 0.
@@ -103,7 +108,7 @@ impl InitialSurface {
     /// u0'(x) and u0''(x).
     #[must_use]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        self.slope_and_curvature_on(&self.stretch(x, true), x)
+        self.slope_and_curvature_on(&self.stretch(x, true, 0.0), x)
     }
 
     /// u0' and u0'' of the function that u0 is on the stretch, wherever x is: within a step that begins
@@ -123,14 +128,25 @@ impl InitialSurface {
         sum
     }
 
-    /// The stretch that a tip at x is on, or about to enter if it is at a knot.
-    pub(crate) fn stretch(&self, x: f64, forward: bool) -> Stretch {
-        let mut all = Stretch { low: f64::NEG_INFINITY, high: f64::INFINITY, pieces: [None; 2] };
+    /// The stretch that a tip at x is on, or about to enter if it is at a knot; x is known to `accuracy`.
+    pub(crate) fn stretch(&self, x: f64, forward: bool, accuracy: f64) -> Stretch {
+        let mut all = Stretch {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+            slack: f64::INFINITY,
+            pieces: [None; 2],
+        };
         for (spline, piece) in self.splines().into_iter().zip(&mut all.pieces) {
             let Some(spline) = spline else { continue };
+            let (low, high) = spline.ends_of(spline.piece_of(x));
+            let interval = high - low;
+            let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
+            let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
+            // What ended within the slack before a knot begins beyond it.
             let (low, high);
-            (low, high, *piece) = stretch_of(spline, x, forward);
+            (low, high, *piece) = stretch_of(spline, if forward { x + slack } else { x - slack });
             (all.low, all.high) = (all.low.max(low), all.high.min(high));
+            all.slack = all.slack.min(0.5 * slack);
         }
         all
     }
@@ -140,11 +156,8 @@ impl InitialSurface {
     }
 }
 
-/// Ends and piece of one spline at x, or just ahead of it.
-fn stretch_of(spline: &CubicSpline, x: f64, forward: bool) -> (f64, f64, Option<usize>) {
-    let (low, high) = spline.ends_of(spline.piece_of(x));
-    let slack = AT_A_KNOT * (high - low);
-    let x = if forward { x + slack } else { x - slack };
+/// Ends and piece of one spline at x.
+fn stretch_of(spline: &CubicSpline, x: f64) -> (f64, f64, Option<usize>) {
     if x < spline.first() {
         (f64::NEG_INFINITY, spline.first(), None)
     } else if x >= spline.last() {
@@ -153,13 +166,5 @@ fn stretch_of(spline: &CubicSpline, x: f64, forward: bool) -> (f64, f64, Option<
         let piece = spline.piece_of(x);
         let (low, high) = spline.ends_of(piece);
         (low, high, Some(piece))
-    }
-}
-
-impl Stretch {
-    /// How far beyond an end a step may go and still count as ending there.
-    pub(crate) fn slack(&self) -> f64 {
-        // Infinite stretches end at one knot at most, of unit scale.
-        0.5 * AT_A_KNOT * (self.high - self.low).min(1.0)
     }
 }

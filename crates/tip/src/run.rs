@@ -98,7 +98,8 @@ pub enum RunError {
 /// Tolerances that can be met: below 1e-13 round-off of positions takes over.
 pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
 
-const MOST_NOISE_POINTS: f64 = 2e8;
+/// Some 600 MB of splines.
+const MOST_NOISE_POINTS: f64 = 2e7;
 /// Noise reaches this far behind the start and ahead of the support's last position.
 const NOISE_BEYOND: f64 = 30.0;
 

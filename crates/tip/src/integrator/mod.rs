@@ -153,7 +153,7 @@ impl<'a> Integrator<'a> {
     /// The stretch of u0 ahead, and the velocity with which the tip enters it.
     fn enter_stretch(&mut self) -> Stretch {
         let x = self.position();
-        let stretch = self.surface.stretch(x, self.velocity >= 0.0);
+        let stretch = self.surface.stretch(x, self.velocity >= 0.0, self.control.target());
         let slope = self.surface.slope_and_curvature_on(&stretch, x).0;
         let force = self.force.value(self.t.next_up());
         self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
@@ -191,7 +191,7 @@ impl<'a> Integrator<'a> {
     fn leaves(&self, stretch: &Stretch, displacement: &Stages) -> Option<f64> {
         let x = self.position();
         let (low, high) = (stretch.low - x, stretch.high - x);
-        let outside = |d: f64| d < low - stretch.slack() || d > high + stretch.slack();
+        let outside = |d: f64| d < low - stretch.slack || d > high + stretch.slack;
         let at = |tau: f64| RADAU.value(displacement, tau);
         let after = (0..STAGES).find(|&i| outside(displacement[i]))?;
         let before = if after == 0 { 0.0 } else { RADAU.c[after - 1] };
@@ -263,7 +263,7 @@ impl<'a> Integrator<'a> {
         } else {
             self.position() - stretch.low
         };
-        let distance = self.longest_displacement().min(1.2 * ahead.max(stretch.slack()));
+        let distance = self.longest_displacement().min(1.2 * ahead.max(stretch.slack));
         self.force.longest_step(self.t).min(distance / speed)
     }
 }

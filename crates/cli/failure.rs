@@ -1,8 +1,19 @@
 //! Why a command failed, and the exit status that says so.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::io;
 use thiserror::Error;
+
+/// A number in a message, as one would type it: `1e300` rather than three hundred digits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Typed(pub(crate) f64);
+
+impl Display for Typed {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (digits, exponent) = (self.0.to_string(), format!("{:e}", self.0));
+        out.write_str(if digits.len() > exponent.len() + 4 { &exponent } else { &digits })
+    }
+}
 
 /// A command that did not end as asked.
 #[derive(Debug, Error)]
@@ -47,5 +58,18 @@ impl Failure {
     /// A reader that closed its end of the pipe has what it wanted.
     pub(crate) fn is_silent(&self) -> bool {
         matches!(self, Self::Write { error, .. } if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_shown_as_one_would_type_it() {
+        let shown: Vec<String> = [0.5, 16.037597660116063, 2000.0, 1e-20, -1e300, f64::NAN]
+            .map(|number| Typed(number).to_string())
+            .into();
+        assert_eq!(shown, ["0.5", "16.037597660116063", "2000", "1e-20", "-1e300", "NaN"]);
     }
 }

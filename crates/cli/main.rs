@@ -22,6 +22,10 @@ fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
         Command::Surface(arguments) => commands::surface::surface(arguments),
+        Command::Stability(arguments) => commands::stability::stability(arguments),
+        Command::Boundary(arguments) => commands::boundary::boundary(arguments),
+        Command::Response(arguments) => commands::response::response(arguments),
+        Command::Units(arguments) => commands::units::units(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };
     match done {

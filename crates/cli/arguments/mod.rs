@@ -1,12 +1,20 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
+mod boundary;
 mod model;
+mod response;
 mod run;
+mod stability;
 mod surface;
+mod units;
 
-pub(crate) use model::{ModelArguments, TipName};
+pub(crate) use boundary::BoundaryArguments;
+pub(crate) use model::{ModelArguments, TipArguments, TipName};
+pub(crate) use response::ResponseArguments;
 pub(crate) use run::{MemoryName, RunArguments, StartName};
+pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
+pub(crate) use units::UnitsArguments;
 
 use crate::documents::SchemaName;
 use clap::{Args, Parser, Subcommand};
@@ -26,6 +34,10 @@ pub(crate) struct Cli {
 const EXAMPLES: &str = "Examples:
   stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
   stickslip surface run.json --at 457 --range -5,460 --spacing 0.02 -o surface.csv
+  stickslip stability --r 1
+  stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
+  stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip schema run
 
 `stickslip COMMAND --help` explains each command and gives examples.";
@@ -34,6 +46,10 @@ const EXAMPLES: &str = "Examples:
 pub(crate) enum Command {
     Run(RunArguments),
     Surface(SurfaceArguments),
+    Stability(StabilityArguments),
+    Boundary(BoundaryArguments),
+    Response(ResponseArguments),
+    Units(UnitsArguments),
     Schema(SchemaArguments),
 }
 

@@ -1,4 +1,4 @@
-//! Tip, r and α: the options of every command that needs a model.
+//! Tip, r and α: the options of every command that needs a model, or only a tip.
 
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -15,33 +15,41 @@ pub(crate) enum TipName {
 
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
-pub(crate) struct ModelArguments {
+pub(crate) struct TipArguments {
     /// Footprint f(x) of the tip [default: triple-gaussian].
     #[arg(long, value_enum, value_name = "NAME")]
     pub(crate) tip: Option<TipName>,
 
     /// Side lobes of the triple Gaussian; 1 keeps the volume [default: 1].
-    #[arg(long, value_name = "B", allow_negative_numbers = true)]
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
     pub(crate) beta: Option<f64>,
 
     /// Width of either Gaussian: f(x/W) [default: 1].
-    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W", allow_hyphen_values = true)]
     pub(crate) width: Option<f64>,
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f`
     /// sampled on x ≥ 0.
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
+}
+
+/// Commands that cannot do without r add `mut_arg("r", |r| r.required(true))`.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Model")]
+pub(crate) struct ModelArguments {
+    #[command(flatten)]
+    pub(crate) tip: TipArguments,
 
     /// Dimensionless support velocity Γ v0/(k σ), (12); above 0.
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
-    pub(crate) r: f64,
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    pub(crate) r: Option<f64>,
 
     /// Dimensionless indentation rate Γ N a/(σ² k²), (13); 0 or above.
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub(crate) alpha: Option<f64>,
 
     /// Indentation rate given as αc(r) + D, D above the critical one (below, if negative).
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub(crate) alpha_above: Option<f64>,
 }

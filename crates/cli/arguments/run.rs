@@ -28,14 +28,14 @@ pub(crate) enum MemoryName {
 
 /// Integrate the tip's motion, and say what became of it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
     /// Time at which the run ends (it starts when the support has pulled the tip to its start position:
     /// about t = 16 by default), in Γ/k.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: f64,
 
     /// What the tip finds at the start.
@@ -47,7 +47,7 @@ pub(crate) struct RunArguments {
         long,
         value_name = "X",
         default_value_t = 14.0,
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Start"
     )]
     pub(crate) start_position: f64,
@@ -57,13 +57,13 @@ pub(crate) struct RunArguments {
         long,
         value_name = "D",
         default_value_t = 0.0,
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Start"
     )]
     pub(crate) kick: f64,
 
     /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them.
-    #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Start")]
+    #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) noise: Option<f64>,
 
     /// Spacing of the noise grid, in σ [default: 0.1]. It is part of the start: white noise has no
@@ -72,13 +72,19 @@ pub(crate) struct RunArguments {
         long,
         value_name = "S",
         requires = "noise",
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Start"
     )]
     pub(crate) noise_spacing: Option<f64>,
 
     /// Seed of the noise [default: 1].
-    #[arg(long, value_name = "N", requires = "noise", help_heading = "Start")]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "noise",
+        allow_hyphen_values = true,
+        help_heading = "Start"
+    )]
     pub(crate) seed: Option<u64>,
 
     /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside.
@@ -102,7 +108,7 @@ pub(crate) struct RunArguments {
         long,
         value_name = "E",
         default_value_t = 1e-9,
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Accuracy"
     )]
     pub(crate) tolerance: f64,
@@ -112,7 +118,7 @@ pub(crate) struct RunArguments {
         long,
         value_name = "DT",
         conflicts_with = "sample_at",
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Output"
     )]
     pub(crate) sample_every: Option<f64>,

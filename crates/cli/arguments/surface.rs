@@ -24,7 +24,7 @@ pub(crate) struct SurfaceArguments {
     pub(crate) range: Option<Vec<f64>>,
 
     /// Distance of the positions in the range [default: 0.05].
-    #[arg(long, value_name = "DX", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DX", allow_hyphen_values = true)]
     pub(crate) spacing: Option<f64>,
 
     /// Only what the tip has carved, as the surface is left far behind it, (35): without the initial

@@ -1,8 +1,14 @@
 //! One file per command.
 
+pub(crate) mod boundary;
 pub(crate) mod model;
+pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod stability;
 pub(crate) mod surface;
+pub(crate) mod units;
 
+mod figure;
 mod progress;
+mod roots;

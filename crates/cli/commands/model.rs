@@ -1,26 +1,33 @@
 //! From the model's options to a model.
 
-use crate::arguments::{ModelArguments, TipName};
-use crate::failure::Failure;
+use crate::arguments::{ModelArguments, TipArguments, TipName};
+use crate::failure::{Failure, Typed};
 use crate::files::input::{TipFile, read_tip};
 use stickslip_tip::{Gaussian, Model, ModelError, TipFunction, stability};
 
+/// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
+/// holds the groove.
+const MOST_DETAILS: f64 = 1e5;
+
 /// The model that the options ask for.
 pub(crate) fn model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    let tip = tip(arguments)?;
-    let alpha = alpha(arguments, &tip)?;
-    Model::new(tip, alpha, arguments.r).map_err(|error| match error {
-        ModelError::R(r) => Failure::input(format!("--r {r}"), error),
+    let r = arguments
+        .r
+        .ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))?;
+    let tip = tip(&arguments.tip)?;
+    let alpha = alpha(arguments, &tip, r)?;
+    Model::new(tip, alpha, r).map_err(|error| match error {
+        ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
         ModelError::Alpha(_) => match (arguments.alpha, arguments.alpha_above) {
-            (_, Some(above)) => Failure::input(format!("--alpha-above {above}"), error),
-            _ => Failure::input(format!("--alpha {alpha}"), error),
+            (_, Some(above)) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
+            _ => Failure::input(format!("--alpha {}", Typed(alpha)), error),
         },
     })
 }
 
 /// The footprint that the options ask for.
-pub(crate) fn tip(arguments: &ModelArguments) -> Result<TipFunction, Failure> {
-    let ModelArguments { tip, beta, width, tip_file, .. } = arguments;
+pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
+    let TipArguments { tip, beta, width, tip_file } = arguments;
     let unused = |option: String, with: &str| {
         Failure::input(option, format!("has no meaning with {with}: leave one of them out"))
     };
@@ -29,27 +36,41 @@ pub(crate) fn tip(arguments: &ModelArguments) -> Result<TipFunction, Failure> {
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        return from_file(read_tip(path)?).map_err(|error| Failure::input(named, error));
+        let tip = from_file(read_tip(path)?).map_err(|error| Failure::input(&named, error))?;
+        return if details(&tip) <= MOST_DETAILS {
+            Ok(tip)
+        } else {
+            let advice = "its widest parts reach too many times as far as its narrowest are wide: \
+                          more than fit in memory; leave one or the other out";
+            Err(Failure::input(named, advice))
+        };
     }
     let name = tip.unwrap_or(TipName::TripleGaussian);
     if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {
-        return Err(unused(format!("--beta {beta}"), "a tip without side lobes"));
+        return Err(unused(format!("--beta {}", Typed(beta)), "a tip without side lobes"));
     }
     if let Some(width) = width.filter(|_| name == TipName::Bessel) {
-        return Err(unused(format!("--width {width}"), "--tip bessel"));
+        return Err(unused(format!("--width {}", Typed(width)), "--tip bessel"));
     }
     let (b, w) = (beta.unwrap_or(1.0), width.unwrap_or(1.0));
     if !(w.is_finite() && w > 0.0) {
-        return Err(Failure::input(format!("--width {w}"), "must be a finite number above 0"));
+        return Err(Failure::input(
+            format!("--width {}", Typed(w)),
+            "must be a finite number above 0",
+        ));
     }
     match name {
         TipName::Bessel => Ok(TipFunction::Bessel),
-        TipName::Gaussian => {
-            TipFunction::gaussian(w).map_err(|error| Failure::input(format!("--width {w}"), error))
-        }
+        TipName::Gaussian => TipFunction::gaussian(w)
+            .map_err(|error| Failure::input(format!("--width {}", Typed(w)), error)),
         TipName::TripleGaussian => TipFunction::triple_gaussian(b, w)
-            .map_err(|error| Failure::input(format!("--beta {b}"), error)),
+            .map_err(|error| Failure::input(format!("--beta {}", Typed(b)), error)),
     }
+}
+
+/// Half-waves at the band limit of f within its reach.
+fn details(tip: &TipFunction) -> f64 {
+    tip.reach().map_or(0.0, |reach| reach * tip.band())
 }
 
 fn from_file(file: TipFile) -> Result<TipFunction, stickslip_tip::TipFunctionError> {
@@ -64,17 +85,21 @@ fn from_file(file: TipFile) -> Result<TipFunction, stickslip_tip::TipFunctionErr
     }
 }
 
-fn alpha(arguments: &ModelArguments, tip: &TipFunction) -> Result<f64, Failure> {
+/// The α that the options ask for at this r.
+fn alpha(arguments: &ModelArguments, tip: &TipFunction, r: f64) -> Result<f64, Failure> {
     match (arguments.alpha, arguments.alpha_above) {
         (Some(alpha), None) => Ok(alpha),
         (None, Some(above)) => {
             // A bad r is reported as such when the model is made.
-            if !(arguments.r.is_finite() && arguments.r > 0.0) {
+            if !(r.is_finite() && r > 0.0) {
                 return Ok(0.0);
             }
-            let critical = stability::critical(tip, arguments.r).map_err(|error| {
+            let critical = stability::critical(tip, r).map_err(|error| {
                 let advice = "give --alpha instead";
-                Failure::input(format!("--alpha-above {above}"), format!("{error}; {advice}"))
+                Failure::input(
+                    format!("--alpha-above {}", Typed(above)),
+                    format!("{error}; {advice}"),
+                )
             })?;
             Ok(critical.alpha + above)
         }

@@ -1,19 +1,22 @@
 //! `stickslip run`.
 
 pub(crate) mod document;
-mod samples;
+mod limits;
+pub(crate) mod samples;
 
 use super::model::model;
 use super::progress::Progress;
 use crate::arguments::{MemoryName, RunArguments, StartName};
 use crate::documents::RunDocument;
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::input::read_columns;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
 use crate::plot::{self, PlotFormat};
 use document::Inputs;
+use limits::within_range;
+use samples::Sampling;
 use std::ops::ControlFlow;
 use std::time::Instant;
 use stickslip_surface::Surface;
@@ -29,14 +32,19 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let plot_format = arguments.plot.as_deref().map(plot_format).transpose()?;
     let inputs = read_inputs(arguments)?;
     let scenario = scenario(arguments, &inputs)?;
+    within_range(arguments, &scenario)?;
     scenario.validate().map_err(|error| explain(&error, arguments))?;
-    let times = samples::times(arguments, &scenario)?;
+    let sampling = Sampling { every: arguments.sample_every, at: arguments.sample_at.as_deref() };
+    let times = samples::times(&sampling, (scenario.start_time(), scenario.until), "the run")?;
     let output = Output::open("--output", &arguments.output)?;
     let plot = arguments.plot.as_deref().map(|path| Output::open("--plot", path)).transpose()?;
 
-    let (finished, seconds, signal) = integrate(&scenario)?;
+    let (finished, seconds, signal) = integrate(arguments, &scenario)?;
     let document = document::of(arguments, &scenario, &inputs, &finished, &times, seconds)?;
     write(&document, format, output)?;
+    if arguments.output != std::path::Path::new("-") {
+        eprintln!("{}", summary(&document));
+    }
     if let (Some(plot), Some(format)) = (plot, plot_format) {
         plot.write_bytes(&draw(&document, &scenario, &finished, format)?)?;
     }
@@ -59,13 +67,19 @@ fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
     })
 }
 
-fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
+/// A, T and W of `--pulse`.
+pub(crate) fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
-        Ok(&[amplitude, time, width]) => Ok(Pulse { amplitude, time, width }),
+        Ok(&[amplitude, time, width])
+            if amplitude.is_finite() && time.is_finite() && width.is_finite() && width > 0.0 =>
+        {
+            Ok(Pulse { amplitude, time, width })
+        }
         _ => Err(Failure::input(
             format!("--pulse {text}"),
-            "needs three numbers A,T,W: amplitude, time and width, such as --pulse 2,30,0.5",
+            "needs three finite numbers A,T,W: amplitude, time and width, the width above 0, such as \
+             --pulse 2,30,0.5",
         )),
     }
 }
@@ -74,8 +88,11 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
     let model = model(&arguments.model)?;
     let force = Force::new(inputs.pulses.clone(), inputs.force.clone()).map_err(|error| {
         use stickslip_tip::ForceError as E;
-        let option = if matches!(error, E::Table(_)) { "--force-file" } else { "--pulse" };
-        Failure::input(option, error)
+        let path = arguments.force_file.as_deref().unwrap_or(std::path::Path::new(""));
+        match error {
+            E::Table(error) => Failure::input(format!("--force-file {}", path.display()), error),
+            error => Failure::input("--pulse", error),
+        }
     })?;
     let noise = arguments.noise.map(|amplitude| Noise {
         amplitude,
@@ -105,12 +122,16 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
 /// Names the option that an error of the library is about.
 fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
     let option = match error {
-        RunError::StartPosition(x) => format!("--start-position {x}"),
-        RunError::Kick(kick) => format!("--kick {kick}"),
-        RunError::Until { until, .. } => format!("--until {until}"),
-        RunError::Tolerance(tolerance) => format!("--tolerance {tolerance}"),
+        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
+        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
+        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
+        RunError::Tolerance(tolerance) => format!("--tolerance {}", Typed(*tolerance)),
+        RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
+            format!("--start-position {}", arguments.start_position)
+        }
+        RunError::TooFar { tolerance, .. } => format!("--tolerance {tolerance}"),
         RunError::Noise { noise, .. } => {
-            format!("--noise {} --noise-spacing {}", noise.amplitude, noise.spacing)
+            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
         }
         RunError::Profile(_) => {
             let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
@@ -122,7 +143,10 @@ fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
 }
 
 /// The run, the seconds that it took, and the signal that stopped it.
-fn integrate(scenario: &Scenario) -> Result<(Run, f64, Option<u8>), Failure> {
+fn integrate(
+    arguments: &RunArguments,
+    scenario: &Scenario,
+) -> Result<(Run, f64, Option<u8>), Failure> {
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
     let mut progress = Progress::new(scenario.start_time(), scenario.until);
@@ -136,7 +160,7 @@ fn integrate(scenario: &Scenario) -> Result<(Run, f64, Option<u8>), Failure> {
         }
     });
     let seconds = started.elapsed().as_secs_f64();
-    let run = run.map_err(|error| Failure::Run(error.to_string()))?;
+    let run = run.map_err(|error| explain(&error, arguments))?;
     let signal = interrupt.signal().filter(|_| run.interrupted);
     Ok((run, seconds, signal))
 }
@@ -200,11 +224,22 @@ fn draw(
 
 fn title(document: &RunDocument) -> String {
     let model = &document.parameters.model;
-    let regime = match document.regime {
-        crate::documents::RegimeName::Steady => "steady",
-        crate::documents::RegimeName::StickSlip => "stick-slip",
-        crate::documents::RegimeName::Trapped => "trapped",
-        crate::documents::RegimeName::Transient => "transient",
-    };
-    format!("α = {:.6}, r = {}: {regime}", model.alpha, model.r)
+    format!("α = {:.6}, r = {}: {}", model.alpha, model.r, document.regime)
+}
+
+/// One line for a person who sent the document to a file.
+fn summary(document: &RunDocument) -> String {
+    let work = &document.work;
+    let motion = document.oscillation.as_ref().map_or(String::new(), |o| {
+        let (period, amplitude) = (o.period, o.amplitude_x0);
+        format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
+    });
+    format!(
+        "{}{motion}: t = {} reached in {} steps with {}, {:.1} ms",
+        document.regime,
+        document.history.t.last().copied().unwrap_or_default(),
+        work.steps,
+        work.memory,
+        1e3 * work.seconds
+    )
 }

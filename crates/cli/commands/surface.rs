@@ -6,7 +6,7 @@ use crate::documents::{
     FORMAT_VERSION, RunDocument, RunParameters, Software, SurfaceCurve, SurfaceDocument,
     SurfaceParameters,
 };
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::input::read_run;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
@@ -33,8 +33,8 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             format!("damaged: {message}"),
         )
     };
-    let trajectory = document::trajectory(&document).map_err(damaged)?;
     let model = document.parameters.model.model().map_err(damaged)?;
+    let trajectory = document::trajectory(&document).map_err(damaged)?;
     let initial = initial_surface(&document.parameters, &model).map_err(damaged)?;
     let times = times(arguments, &trajectory)?;
     let x = positions(arguments, &trajectory, times.len())?;
@@ -88,7 +88,7 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
     match times.iter().find(|t| !(start..=end).contains(*t)) {
         None => Ok(times),
         Some(t) => Err(Failure::input(
-            format!("--at {t}"),
+            format!("--at {}", Typed(*t)),
             format!("outside of the run, which lasts from {start} to {end}"),
         )),
     }
@@ -102,26 +102,26 @@ fn positions(
     if let Some(x) = &arguments.x {
         return match x.iter().find(|x| !x.is_finite()) {
             None => Ok(x.clone()),
-            Some(x) => Err(Failure::input(format!("--x {x}"), "must be finite numbers")),
+            Some(x) => Err(Failure::input(format!("--x {}", Typed(*x)), "must be finite numbers")),
         };
     }
     let (low, high) = match arguments.range.as_deref() {
         None => default_range(trajectory),
         Some(&[low, high]) if low.is_finite() && high.is_finite() && low < high => (low, high),
         Some(range) => {
-            let typed: Vec<String> = range.iter().map(f64::to_string).collect();
+            let typed: Vec<String> = range.iter().map(|x| Typed(*x).to_string()).collect();
             let advice = "needs two finite numbers LO,HI with LO below HI";
             return Err(Failure::input(format!("--range {}", typed.join(",")), advice));
         }
     };
     let spacing = arguments.spacing.unwrap_or(DEFAULT_SPACING);
-    let named = format!("--spacing {spacing}");
+    let named = format!("--spacing {}", Typed(spacing));
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(Failure::input(named, "must be a finite number above 0"));
     }
     let points = (high - low) / spacing * times as f64;
     if points > MOST_POINTS {
-        let least = (high - low) * times as f64 / MOST_POINTS;
+        let least = (high - low) / MOST_POINTS * times as f64;
         return Err(Failure::input(
             named,
             format!(

@@ -1,15 +1,30 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
+mod boundary;
 mod model;
+mod response;
 mod run;
+mod stability;
 mod surface;
+mod units;
 
-pub(crate) use model::ModelParameters;
+pub(crate) use boundary::{
+    BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub(crate) use model::{ModelParameters, TipDocument};
+pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
     RegimeName, RunDocument, RunParameters, Samples, SteadyState, WorkDocument,
 };
+pub(crate) use stability::{
+    CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
+    StabilityParameters, TrappingDocument,
+};
 pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use units::{
+    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
+};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};
@@ -37,6 +52,10 @@ impl Software {
 pub(crate) enum SchemaName {
     Run,
     Surface,
+    Stability,
+    Boundary,
+    Response,
+    Units,
 }
 
 impl SchemaName {
@@ -44,6 +63,10 @@ impl SchemaName {
         match self {
             Self::Run => schema_for!(RunDocument),
             Self::Surface => schema_for!(SurfaceDocument),
+            Self::Stability => schema_for!(StabilityDocument),
+            Self::Boundary => schema_for!(BoundaryDocument),
+            Self::Response => schema_for!(ResponseDocument),
+            Self::Units => schema_for!(UnitsDocument),
         }
     }
 }

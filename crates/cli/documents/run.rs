@@ -159,6 +159,17 @@ pub(crate) enum RegimeName {
     Transient,
 }
 
+impl std::fmt::Display for RegimeName {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::Steady => "steady",
+            Self::StickSlip => "stick-slip",
+            Self::Trapped => "trapped",
+            Self::Transient => "transient",
+        })
+    }
+}
+
 /// The periodic motion at the end of the run. Amplitudes are half peak-to-peak.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -58,7 +58,7 @@ fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
                 first.push(*a);
                 second.push(*b);
             }
-            Err(_) if index == 0 => {}
+            Err(_) if index == 0 && is_heading(&record) => {}
             _ => {
                 return Err(format!(
                     "line {line} is not two numbers `{heading}` separated by a comma"
@@ -67,6 +67,11 @@ fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
         }
     }
     Ok((first, second))
+}
+
+/// A first line without any number; a mistyped row is none.
+fn is_heading(record: &csv::StringRecord) -> bool {
+    record.iter().all(|field| field.parse::<f64>().is_err())
 }
 
 /// A tip file: JSON {"gaussians":[…]} or CSV `x,f`.
@@ -153,7 +158,9 @@ mod tests {
 
     #[test]
     fn a_line_that_is_not_two_numbers_is_named() {
-        for (text, line) in [("1,2\n3\n", 2), ("1,2\n3,4,5\n", 2), ("x,u\n1,2\nfoo,3\n", 3)] {
+        for (text, line) in
+            [("1,2\n3\n", 2), ("1,2\n3,4,5\n", 2), ("x,u\n1,2\nfoo,3\n", 3), ("1,2e\n3,4\n", 1)]
+        {
             let message = parse_columns(text, "x,u").unwrap_err();
             assert!(message.contains(&format!("line {line}")), "{message}");
         }

@@ -72,8 +72,13 @@ impl Output {
             let file = OpenOptions::new().write(true).open(path).map_err(refused)?;
             return Ok(Self { path: path.into(), sink: Sink::Special(file) });
         }
-        if path.is_dir() {
+        if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
             return Err(refused(io::Error::from(io::ErrorKind::IsADirectory)));
+        }
+        // A name that is too long, say, is no name that a file can get later.
+        match path.symlink_metadata() {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(refused(error)),
+            _ => {}
         }
         // The file itself where the name is a link; its folder must take a new file.
         let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());

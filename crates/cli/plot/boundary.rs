@@ -6,13 +6,24 @@ use super::panel::{Note, Panel, Shade};
 use super::sheet::sheet;
 use super::style::{TALL, VERMILLION};
 
-/// The critical α over r, both positive, the unstable region above it shaded. An SVG document.
-pub(crate) fn boundary(title: &str, r: &[f64], alpha: &[f64]) -> String {
+/// The critical α over r, both positive, the unstable region above it shaded, and the lines within
+/// that where further pairs of roots cross. An SVG document.
+pub(crate) fn boundary(
+    title: &str,
+    r: &[f64],
+    alpha: &[f64],
+    further: &[(&[f64], &[f64])],
+) -> String {
     let label = Some("boundary, α = αc(r)".to_owned());
     let curves = vec![Curve { x: r, y: alpha, pen: Pen::MAIN, label }];
     let labels = ("r = Γv₀/(kσ)", "α = ΓNa/(k²σ²)");
-    let fitted = Panel::fitted(labels, curves, TALL, 1.0);
-    let x = Axis::new(0.0, fitted.x.high, 9.0);
+    let mut fitted = Panel::fitted(labels, curves, TALL, 1.0);
+    // They may go to infinity: the axes are those of the boundary.
+    for (i, (r, alpha)) in further.iter().enumerate() {
+        let label = (i == 0).then(|| "where pairs of roots cross".to_owned());
+        fitted.curves.push(Curve { x: r, y: alpha, pen: Pen::BEFORE, label });
+    }
+    let x = Axis::new(fitted.x.low, fitted.x.high, 9.0);
     let y = Axis::new(0.0, fitted.y.high, 8.0);
     let shades = vec![Shade::Above(r, alpha, VERMILLION)];
     let notes = notes(r, alpha, &x, &y);

@@ -128,6 +128,14 @@ impl InitialSurface {
         sum
     }
 
+    /// What the rounding of x may amount to in u0', per unit of curvature: 0 where u0 is flat.
+    pub(crate) fn rounding(&self, x: f64) -> f64 {
+        let over_the_past = self.steady.as_ref().is_some_and(|s| (x - s.position).abs() < s.reach);
+        let inside = |s: &CubicSpline| (s.first()..=s.last()).contains(&x);
+        let textured = over_the_past || self.splines().into_iter().flatten().any(inside);
+        if textured { f64::EPSILON * x.abs() } else { 0.0 }
+    }
+
     /// The stretch that a tip at x is on, or about to enter if it is at a knot; x is known to `accuracy`.
     pub(crate) fn stretch(&self, x: f64, forward: bool, accuracy: f64) -> Stretch {
         let mut all = Stretch {

@@ -76,6 +76,17 @@ pub enum RunError {
         min = TOLERANCES.0, max = TOLERANCES.1
     )]
     Tolerance(f64),
+    /// Positions so far out that the initial surface there cannot be resolved.
+    #[error(
+        "at x = {x:e} positions are rounded to {rounding:.1e}, too coarse for a tolerance of {tolerance:e} on the initial surface there: ask for a tolerance of {least:.1e} or above, or stay nearer to 0",
+        rounding = f64::EPSILON * x, least = f64::EPSILON * x / SHARE_OF_ROUNDING
+    )]
+    TooFar {
+        /// Farthest position of the initial surface.
+        x: f64,
+        /// As asked.
+        tolerance: f64,
+    },
     /// Noise that is not finite, of no spacing, or on too many points.
     #[error(
         "noise of amplitude {} on a spacing of {}: both must be finite, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
@@ -100,6 +111,8 @@ pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
 
 /// Some 600 MB of splines.
 const MOST_NOISE_POINTS: f64 = 2e7;
+/// Roundings of a position may take up this share of the tolerance.
+const SHARE_OF_ROUNDING: f64 = 0.05;
 /// Noise reaches this far behind the start and ahead of the support's last position.
 const NOISE_BEYOND: f64 = 30.0;
 
@@ -191,6 +204,12 @@ impl Scenario {
         }
         if !(TOLERANCES.0..=TOLERANCES.1).contains(&self.tolerance) {
             return Err(RunError::Tolerance(self.tolerance));
+        }
+        let textured = self.noise.is_some() || self.profile.is_some();
+        let last = if textured { self.model.r() * until } else { 0.0 };
+        let x = self.start_position.abs().max(last);
+        if f64::EPSILON * x > SHARE_OF_ROUNDING * self.tolerance {
+            return Err(RunError::TooFar { x, tolerance: self.tolerance });
         }
         if let Some(noise) = self.noise {
             let (from, to) = self.noise_range();

@@ -1,5 +1,6 @@
 //! From a finished run to its document, and back.
 
+use super::limits::FARTHEST;
 use crate::arguments::RunArguments;
 use crate::documents::{
     FORMAT_VERSION, ForceTable, History, ModelParameters, NoiseParameters, OscillationDocument,
@@ -122,7 +123,14 @@ fn oscillation(scenario: &Scenario, run: &Run) -> Result<Option<OscillationDocum
 
 /// The trajectory that a document holds.
 pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
-    let History { t, extension, displacement, .. } = &document.history;
+    let History { nodes, weights, t, extension, displacement } = &document.history;
+    let same = |a: &[f64], b: &[f64]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
+    };
+    let ours = nodes_and_weights();
+    if !(same(nodes, &ours.0) && same(weights, &ours.1)) {
+        return Err("history: nodes and weights are not those of this program".into());
+    }
     let steps = extension.len();
     if steps == 0 || t.len() != steps + 1 || displacement.len() != steps {
         return Err("history: t, extension and displacement do not have matching lengths".into());
@@ -133,12 +141,29 @@ pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
     let step = |i: usize| -> Result<Step, String> {
         let displacement = displacement[i].as_slice().try_into();
         let displacement = displacement.map_err(|_| {
-            format!("history: displacement {i} has {} entries", displacement_len(document, i))
+            let (found, needed) = (displacement_len(document, i), nodes.len());
+            format!("history: displacement {i} has {found} entries, {needed} are needed")
         })?;
         Ok(Step { t: t[i], h: t[i + 1] - t[i], extension: extension[i], displacement })
     };
     let steps: Vec<Step> = (0..steps).map(step).collect::<Result<_, _>>()?;
-    Ok(Trajectory::new(document.parameters.model.r, steps))
+    let r = document.parameters.model.r;
+    let far = |step: &Step| {
+        let sizes = [r * step.t, r * step.end(), step.extension];
+        !sizes.iter().chain(&step.displacement).all(|size| size.abs() <= FARTHEST)
+    };
+    if let Some(i) = steps.iter().position(far) {
+        return Err(format!("history: step {i} has numbers beyond {FARTHEST:e}"));
+    }
+    // As written, each step begins where the last one ended, to the last digit.
+    let breaks = |pair: &[Step]| {
+        let (end, next) = (pair[0].extension_at_end(r), pair[1].extension);
+        (end - next).abs() > 1e-9 * end.abs().max(1.0)
+    };
+    if let Some(i) = steps.windows(2).position(breaks) {
+        return Err(format!("history: step {} does not begin where step {i} ends", i + 1));
+    }
+    Ok(Trajectory::new(r, steps))
 }
 
 fn displacement_len(document: &RunDocument, i: usize) -> usize {

@@ -1,26 +1,36 @@
-//! The times at which a run is sampled.
+//! The times at which a motion is sampled.
 
-use crate::arguments::RunArguments;
-use crate::failure::Failure;
-use stickslip_tip::Scenario;
+use crate::failure::{Failure, Typed};
 
 const DEFAULT_INTERVALS: usize = 2000;
 /// Four columns of these are 1.3 GB, and four times as much as JSON.
 const MOST_SAMPLES: f64 = 4e7;
 
-/// The times asked for, all within the run.
-pub(super) fn times(arguments: &RunArguments, scenario: &Scenario) -> Result<Vec<f64>, Failure> {
-    let (start, end) = (scenario.start_time(), scenario.until);
-    if let Some(times) = &arguments.sample_at {
+/// The options of the samples.
+#[derive(Debug)]
+pub(crate) struct Sampling<'a> {
+    /// --sample-every
+    pub(crate) every: Option<f64>,
+    /// --sample-at
+    pub(crate) at: Option<&'a [f64]>,
+}
+
+/// The times asked for, all between the start and the end of `what`.
+pub(crate) fn times(
+    sampling: &Sampling,
+    (start, end): (f64, f64),
+    what: &str,
+) -> Result<Vec<f64>, Failure> {
+    if let Some(times) = sampling.at {
         return match times.iter().find(|t| !(start..=end).contains(*t)) {
-            None => Ok(times.clone()),
+            None => Ok(times.to_vec()),
             Some(t) => Err(Failure::input(
-                format!("--sample-at {t}"),
-                format!("outside of the run, which lasts from {start} to {end}"),
+                format!("--sample-at {}", Typed(*t)),
+                format!("outside of {what}, which lasts from {start} to {end}"),
             )),
         };
     }
-    let Some(every) = arguments.sample_every else {
+    let Some(every) = sampling.every else {
         return Ok(evenly_to(
             start,
             end,
@@ -28,7 +38,7 @@ pub(super) fn times(arguments: &RunArguments, scenario: &Scenario) -> Result<Vec
             DEFAULT_INTERVALS,
         ));
     };
-    let named = format!("--sample-every {every}");
+    let named = format!("--sample-every {}", Typed(every));
     if !(every.is_finite() && every > 0.0) {
         return Err(Failure::input(named, "must be a finite number above 0"));
     }
@@ -42,7 +52,8 @@ pub(super) fn times(arguments: &RunArguments, scenario: &Scenario) -> Result<Vec
             ),
         ));
     }
-    Ok(evenly_to(start, end, every, count.floor() as usize))
+    // The end itself is a sample where the interval divides the run, round-off aside.
+    Ok(evenly_to(start, end, every, (count + 1e-9).floor() as usize))
 }
 
 /// start, start + every, … up to `intervals` of them, and not beyond end.

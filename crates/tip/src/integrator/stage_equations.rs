@@ -64,6 +64,7 @@ impl<'a> StageEquations<'a> {
     ) -> Solved {
         let mut displacement = guess;
         let mut previous = f64::INFINITY;
+        let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
         for iterations in 1..=MOST_ITERATIONS {
             let (residual, jacobian, curvature_at_end) = self.linearise(memory, &displacement);
             let Some(correction) = jacobian.lu().solve(&residual) else {
@@ -76,10 +77,10 @@ impl<'a> StageEquations<'a> {
             let in_range = displacement.iter().all(|d| d.abs() <= most);
             // The next correction would be smaller by the square of this ratio: Newton is quadratic.
             let ratio = (size / previous).min(1.0);
-            if !in_range || (iterations > 3 && ratio > 0.9 && size > ROUND_OFF * 100.0) {
+            if !in_range || (iterations > 3 && ratio > 0.9 && size > 100.0 * round_off) {
                 return Solved { iterations, solution: None };
             }
-            if ratio * ratio * size <= enough.max(ROUND_OFF) && (iterations > 1 || size <= enough) {
+            if ratio * ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
                 return Solved {
                     iterations,
                     solution: Some(Solution { displacement, curvature_at_end }),

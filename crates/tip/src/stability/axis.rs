@@ -131,7 +131,15 @@ impl Axis {
             if at.1.0 * left.1.0 <= 0.0 {
                 return vec![self.refine(g, left, at), self.refine(g, at, right)];
             }
-            if at.1.1 * left.1.1 > 0.0 { lo = at } else { hi = at }
+            if at.1.1 * left.1.1 > 0.0 {
+                lo = at
+            } else {
+                hi = at
+            }
+            // The slopes at either side fall towards the extremum: it is out of reach of zero.
+            if at.1.0.abs() > 2.0 * (lo.1.1.abs() + hi.1.1.abs()) * (hi.0 - lo.0) {
+                break;
+            }
         }
         Vec::new()
     }

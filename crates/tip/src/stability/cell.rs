@@ -9,6 +9,8 @@ use std::f64::consts::PI;
 
 /// Rectangles smaller than this fraction of the first hold one multiple zero.
 const SMALLEST: f64 = 1e-7;
+/// Newton's method has arrived where its step is below this fraction of where it is.
+const ARRIVED: f64 = 1e-11;
 
 /// A rectangle of the Λ plane.
 #[derive(Debug, Clone, Copy)]
@@ -74,8 +76,9 @@ impl Cell {
             return Ok(vec![polish(h, center); count]);
         }
         if count == 1 {
-            let zero = polish(h, center);
-            if self.contains(zero) {
+            // Newton's method, given up on its way, may stop inside as well: twice as many steps.
+            let zero = polish(h, polish(h, center));
+            if self.contains(zero) && is_zero(h, zero) {
                 return Ok(vec![zero]);
             }
         }
@@ -100,4 +103,10 @@ impl Cell {
         }
         Err(last)
     }
+}
+
+/// Whether Newton's method has no way to go from z.
+fn is_zero(h: &impl Fn(Complex64) -> Scaled, z: Complex64) -> bool {
+    let at = h(z);
+    (at.value / at.derivative).norm() <= ARRIVED * z.norm()
 }

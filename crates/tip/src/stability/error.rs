@@ -13,14 +13,14 @@ pub enum StabilityError {
     Alpha(f64),
     /// No root reaches the imaginary axis, however large α.
     #[error(
-        "steady motion with this tip function at r = {r} is stable for every alpha: no root reaches the imaginary axis"
+        "steady motion with this tip function at r = {r:?} is stable for every alpha: no root reaches the imaginary axis"
     )]
     NoCrossing {
         /// The support velocity asked for.
         r: f64,
     },
     /// No support velocity loses stability at this α.
-    #[error("no r makes alpha = {alpha} critical for this tip function")]
+    #[error("no r makes alpha = {alpha:?} critical for this tip function")]
     NoCriticalR {
         /// The indentation rate asked for.
         alpha: f64,
@@ -29,10 +29,20 @@ pub enum StabilityError {
     #[error("the bound on Re λ is {0}: it must be a finite number")]
     Bound(f64),
     /// A root lies on the line along which roots are counted.
-    #[error("a root lies on the line Re λ = {re}, or too close to it to count: move the bound")]
+    #[error("a root lies on the line Re λ = {re:?}, or too close to it to count: move the bound")]
     RootOnContour {
         /// Where.
         re: f64,
+    },
+    /// α and r so far apart that the contour around the roots cannot be followed in floating point.
+    #[error(
+        "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: alpha/r² should be below 1e16"
+    )]
+    TooFarApart {
+        /// The indentation rate asked for.
+        alpha: f64,
+        /// The support velocity asked for.
+        r: f64,
     },
     /// Fewer roots found than counted.
     #[error(
@@ -45,7 +55,7 @@ pub enum StabilityError {
         found: usize,
     },
     /// The coefficients of the amplitude equation are infinite or vanish.
-    #[error("the bifurcation at r = {r} is degenerate: its leading order says nothing there")]
+    #[error("the bifurcation at r = {r:?} is degenerate: its leading order says nothing there")]
     DegenerateOnset {
         /// The support velocity asked for.
         r: f64,

@@ -20,6 +20,8 @@ pub struct Spectrum {
     pub certificate: Certificate,
 }
 
+/// Contours reach no further than this, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
+const FARTHEST: f64 = 1e9;
 /// A left edge on a root is moved this often, a little further each time.
 const MOST_SHIFTS: u32 = 8;
 
@@ -100,6 +102,9 @@ pub(super) struct HalfPlane {
 impl HalfPlane {
     /// Counts, moving the edge off a root if need be.
     pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
+        if !(h.right_bound() * h.length < FARTHEST && (left * h.length).abs() < FARTHEST) {
+            return Err(StabilityError::TooFarApart { alpha: h.ratio * h.r, r: h.r });
+        }
         let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length;
         let tries = (0..=MOST_SHIFTS).map(|n| Self::counted_at(h, left - shift(n)));
         let counted = tries.into_iter().find_map(Result::ok);
@@ -113,7 +118,7 @@ impl HalfPlane {
         let corner = |re, im| Complex64::new(re, im);
         let path = [corner(right, 0.0), corner(right, top), corner(left, top), corner(left, 0.0)];
         // h is real on the real axis: half the contour turns h by half as much.
-        let turned = argument_along(|z| h.at(z), &path)?;
+        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length))?;
         let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r })?;
         Ok(Self { left, right, top, count })
     }
@@ -123,12 +128,15 @@ impl HalfPlane {
     }
 
     fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
-        let mut upper = self.by_deflation(h);
-        if total(&upper) != self.count {
-            upper = self.by_halving(h)?;
+        let certified = |upper: &[Complex64]| {
+            let roots = with_conjugates(upper, h.r);
+            let certificate = Certificate::of(h, self.region(h.r), self.count, &roots);
+            (roots, certificate)
+        };
+        let (mut roots, mut certificate) = certified(&self.by_deflation(h));
+        if certificate.found != self.count {
+            (roots, certificate) = certified(&self.by_halving(h)?);
         }
-        let roots = with_conjugates(&upper, h.r);
-        let certificate = Certificate::of(h, self.region(h.r), self.count, &roots);
         if certificate.found != self.count {
             let Certificate { counted, found, .. } = certificate;
             return Err(StabilityError::RootsMissing { counted, found });
@@ -192,6 +200,25 @@ impl HalfPlane {
     }
 }
 
+/// Corners added to a path through the upper half-plane, so that h varies little from one to the next:
+/// over the tip's width, and over |Λ| where that is larger and no exponential of Λ² is left.
+fn resolved(path: &[Complex64], length: f64) -> Vec<Complex64> {
+    let spacing = |z: Complex64| {
+        let algebraic = z.im + 1.5 * z.re.min(0.0) > 10.0 / length || z.re > 0.0;
+        (0.3 / length).max(if algebraic { 0.2 * z.norm() } else { 0.0 })
+    };
+    let mut corners: Vec<Complex64> = path.iter().take(1).copied().collect();
+    for side in path.windows(2) {
+        let (mut at, to) = (side[0], side[1]);
+        while (to - at).norm() > spacing(at) {
+            at += (to - at) / (to - at).norm() * spacing(at);
+            corners.push(at);
+        }
+        corners.push(to);
+    }
+    corners
+}
+
 /// Zeros that `upper` stands for: a conjugate pair each, one if real.
 fn total(upper: &[Complex64]) -> usize {
     upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
@@ -240,6 +267,34 @@ mod tests {
             assert_eq!(by_halving.len(), half_plane.count);
             for (a, b) in by_deflation.iter().zip(&by_halving) {
                 assert!((a - b).norm() < 1e-11, "{a} {b}");
+            }
+        }
+    }
+    /// Between two places on the imaginary axis where h and h' were much the same, a step passed by the
+    /// pair that had just crossed it at r = 0.2.
+    #[test]
+    fn a_pair_just_across_the_axis_is_counted() {
+        for beta in [0.0, 0.5, 0.9, 1.0] {
+            let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
+            for r in [0.01, 0.05, 0.1, 0.2, 0.3, 0.7, 2.0, 10.0, 100.0] {
+                let alpha = super::super::critical(&tip, r).unwrap().alpha;
+                for (part, count) in [(0.5, 0), (0.99, 0), (0.9999, 0), (1.0001, 2), (1.01, 2)] {
+                    let model = Model::new(tip.clone(), part * alpha, r).unwrap();
+                    assert_eq!(unstable_count(&model), Ok(count), "{beta} {r} {part}");
+                }
+            }
+        }
+    }
+
+    /// Newton's method, stopped on its way within a rectangle that holds one root, was taken for it.
+    #[test]
+    fn hundreds_of_roots_are_found_as_counted() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        for alpha in [0.9, 1.2] {
+            for count in [80, 100, 300] {
+                let model = Model::new(tip.clone(), alpha, 1.0).unwrap();
+                let spectrum = leading_roots(&model, count).unwrap();
+                assert!(spectrum.roots.len() >= count && spectrum.certificate.is_complete());
             }
         }
     }

@@ -6,6 +6,8 @@ use num_complex::Complex64;
 
 /// A step may turn h by at most about this angle, as foretold by h' at either end and as found.
 const TURN: f64 = 0.7;
+/// The change of h over a step may differ by this part of h from what h' at its ends foretells.
+const AGREEMENT: f64 = 0.3;
 /// Steps below this fraction of a contour's side mean that a zero lies on it.
 const SHORTEST: f64 = 1e-13;
 /// More steps than this on one side of a contour are given up.
@@ -13,9 +15,10 @@ const MOST_STEPS: usize = 1_000_000;
 
 /// Change of arg h along the straight line from `from` to `to`, in radians.
 ///
-/// Steps are |h/h'| times 0.7, taken back until h' at the far end agrees and h itself turned and
-/// grew no more than that: a missed turn would need h' to vanish at both ends of a step and be large
-/// between them.
+/// Steps are |h/h'| times 0.7, taken back until h' at the far end agrees, h itself turned and grew no
+/// more than that, and the change of h is that of its slopes. A turn would be missed if h and h' were
+/// the same at both ends of a step and something else between them: where h is known to vary over a
+/// certain length, corners must be no further apart.
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`] if h vanishes on the line.
@@ -39,8 +42,13 @@ pub(super) fn argument_change(
             }
             let end = (at + step).min(length);
             let there = h(from + direction * end);
-            let ratio = there.value / here.value * (there.log_scale - here.log_scale).exp();
-            if (ratio - 1.0).norm() < 1.2 * TURN && end - at < 1.5 * TURN * reach(&there) {
+            let scale = (there.log_scale - here.log_scale).exp();
+            let ratio = there.value / here.value * scale;
+            let slopes = (here.derivative + there.derivative * scale) / here.value;
+            let foretold = slopes * direction * (0.5 * (end - at));
+            let agrees = (ratio - 1.0 - foretold).norm() < AGREEMENT * ratio.norm().min(1.0);
+            if agrees && (ratio - 1.0).norm() < 1.2 * TURN && end - at < 1.5 * TURN * reach(&there)
+            {
                 turned += ratio.arg();
                 (at, here) = (end, there);
                 break;

@@ -1,0 +1,58 @@
+//! `stickslip stability`.
+
+use super::ModelArguments;
+use clap::{Args, ValueEnum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum SolveFor {
+    /// αc at the r of --r.
+    Alpha,
+    /// rc at the α of --alpha.
+    R,
+}
+
+/// Where steady motion loses its stability, and all growth exponents.
+///
+/// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical
+/// point.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct StabilityArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Which of the two is varied to find the critical point.
+    #[arg(long, value_enum, default_value = "alpha", value_name = "NAME")]
+    pub(crate) solve_for: SolveFor,
+
+    /// At least N growth exponents: all those right of a line chosen so [default: 10].
+    #[arg(long, value_name = "N", conflicts_with = "re_above")]
+    pub(crate) roots: Option<usize>,
+
+    /// All growth exponents λ with Re λ of at least this, in k/Γ.
+    #[arg(long, value_name = "BOUND", allow_negative_numbers = true)]
+    pub(crate) re_above: Option<f64>,
+
+    /// File to write: .json for all, .csv or .npz for the growth exponents; `-` is JSON on standard
+    /// output.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    /// Draw the growth exponents in the complex plane to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  The critical α at r = 1, with the oscillation that is born there:
+    stickslip stability --r 1
+  The critical r at α = 1:
+    stickslip stability --alpha 1 --solve-for r
+  Is a motion stable? All that grows, or decays slower than e^(-3t):
+    stickslip stability --alpha 1.2 --r 1 --re-above=-3 --plot roots.svg
+  Thirty exponents of a Gaussian tip, as CSV:
+    stickslip stability --tip gaussian --width 0.7 --alpha-above=-0.1 --r 2 --roots 30 -o roots.csv";

@@ -1,0 +1,215 @@
+//! `stickslip response`.
+
+use super::figure::Figure;
+use super::model::model;
+use super::roots::{complex, failed, judge_count, remarks};
+use super::run::parse_pulse;
+use super::run::samples::{Sampling, times};
+use crate::arguments::ResponseArguments;
+use crate::documents::{
+    FORMAT_VERSION, ModeDocument, ModelParameters, PulseParameters, ResponseDocument,
+    ResponseParameters, ResponseSamples, Software, SteadyState,
+};
+use crate::failure::{Failure, Typed};
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::plot;
+use stickslip_tip::stability::{Response, ResponseMode, response as respond};
+use stickslip_tip::{Model, Pulse, Scenario, TipFunction};
+
+/// What the modes left out may add, relative to the leading one, where the sum counts as valid.
+const VALID_TO: f64 = 1e-6;
+/// exp(-5.5²/2) = 3e-7: after so many widths a pulse is over.
+const WIDTHS_OF_PULSE: f64 = 5.5;
+
+pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let asked = Asked::of(arguments)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+
+    let document = document(arguments, &asked)?;
+    if let Some(figure) = figure {
+        figure.write(&draw(&document))?;
+    }
+    write(&document, format, output)
+}
+
+/// The options, judged.
+struct Asked {
+    model: Model,
+    pulses: Vec<Pulse>,
+    /// When the samples are taken.
+    times: Vec<f64>,
+    /// Center of the last pulse.
+    origin: f64,
+}
+
+impl Asked {
+    fn of(arguments: &ResponseArguments) -> Result<Self, Failure> {
+        let model = model(&arguments.model)?;
+        let pulses: Vec<Pulse> =
+            arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?;
+        judge_count("--modes", arguments.modes)?;
+        let position = arguments.start_position;
+        if !position.is_finite() {
+            let message = "must be a finite number";
+            return Err(Failure::input(format!("--start-position {}", Typed(position)), message));
+        }
+        let until = arguments.until;
+        let scenario = Scenario { start_position: position, ..Scenario::new(model.clone(), until) };
+        let start = scenario.start_time();
+        if !(until.is_finite() && until > start) {
+            let message = format!("the samples start at t = {start}: it must be after that");
+            return Err(Failure::input(format!("--until {}", Typed(until)), message));
+        }
+        let sampling =
+            Sampling { every: arguments.sample_every, at: arguments.sample_at.as_deref() };
+        let times = times(&sampling, (start, until), "the response")?;
+        let origin = pulses.iter().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
+        Ok(Self { model, pulses, times, origin })
+    }
+
+    /// Modes with residues that refer to the origin: e^{-λT} of a late pulse overflows.
+    fn response(&self, modes: usize) -> Result<Response, Failure> {
+        let shifted: Vec<Pulse> =
+            self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p }).collect();
+        respond(&self.model, &shifted, modes).map_err(|error| {
+            let advice = "ask for another number with --modes";
+            failed(&error, advice)
+        })
+    }
+
+    /// When the modes beyond those of `listed` have faded against the leading one.
+    fn valid_from(&self, listed: &Response) -> Result<f64, Failure> {
+        let more = self.response(listed.modes.len() + 20)?;
+        let beyond = more.modes.get(listed.modes.len()..).unwrap_or_default();
+        let size =
+            |mode: &ResponseMode, since: f64| mode.residue.norm() * (mode.lambda.re * since).exp();
+        let fading = |since: f64| {
+            let leading = listed.modes.first().map_or(0.0, |mode| size(mode, since));
+            beyond.iter().map(|mode| size(mode, since)).sum::<f64>() <= VALID_TO * leading
+        };
+        let over = self.pulses.iter().map(|p| p.time - self.origin + WIDTHS_OF_PULSE * p.width);
+        let over = over.fold(0.0, f64::max);
+        if fading(over) {
+            return Ok(self.origin + over);
+        }
+        let doubled = (0..60).map(|n| 0.01 * 2.0_f64.powi(n)).find(|d| fading(over + d));
+        let (mut low, mut high) = (0.0, doubled.unwrap_or(0.0));
+        while high - low > 1e-3 * high {
+            let middle = 0.5 * (low + high);
+            if fading(over + middle) { high = middle } else { low = middle }
+        }
+        Ok(self.origin + over + high)
+    }
+}
+
+fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocument, Failure> {
+    let model = &asked.model;
+    let response = asked.response(arguments.modes)?;
+    let behind = model.steady_surface_behind();
+    let mut said = remarks(&response.spectrum, Some(arguments.modes), "modes");
+    if matches!(model.tip(), TipFunction::Bessel) {
+        let message = "modes: the branch points ±ir of J0 add a term that falls like t^(-3/2), \
+                       which is left out here and in valid_from";
+        said.push(message.into());
+    }
+    Ok(ResponseDocument {
+        format: ResponseDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: ResponseParameters {
+            model: ModelParameters::of(model, arguments.model.alpha_above),
+            pulses: asked.pulses.iter().map(pulse_parameters).collect(),
+            modes: arguments.modes,
+            start_position: arguments.start_position,
+            until: arguments.until,
+        },
+        steady_state: SteadyState {
+            l: model.steady_l(),
+            lag: model.steady_lag(),
+            surface_behind: behind.is_finite().then_some(behind),
+        },
+        modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
+        origin: asked.origin,
+        valid_from: asked.valid_from(&response)?,
+        valid_to: VALID_TO,
+        certificate: (&response.spectrum.certificate).into(),
+        samples: samples(asked, &response),
+        remarks: said,
+    })
+}
+
+fn pulse_parameters(pulse: &Pulse) -> PulseParameters {
+    PulseParameters { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
+}
+
+fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {
+    let ResponseMode { lambda, residue } = mode;
+    if !(residue.re.is_finite() && residue.im.is_finite()) {
+        let message = "a mode grows beyond all numbers between the first pulse and the last, or \
+                       within a pulse: bring the pulses nearer to each other, or make them shorter";
+        return Err(Failure::input("--pulse", message));
+    }
+    Ok(ModeDocument {
+        lambda: complex(lambda.re, lambda.im),
+        residue: complex(residue.re, residue.im),
+    })
+}
+
+fn samples(asked: &Asked, response: &Response) -> ResponseSamples {
+    let l0 = asked.model.steady_l();
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let deviation: Vec<Option<f64>> =
+        asked.times.iter().map(|t| finite(response.at(t - asked.origin))).collect();
+    ResponseSamples {
+        t: asked.times.clone(),
+        l: deviation.iter().map(|d| d.and_then(|d| finite(l0 + d))).collect(),
+        deviation,
+    }
+}
+
+/// Null as NaN, where a column of numbers must hold something.
+fn numbers(column: &[Option<f64>]) -> Vec<f64> {
+    column.iter().map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+fn write(document: &ResponseDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
+    let ResponseSamples { t, l, deviation } = &document.samples;
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => output.write_bytes(csv(&document.samples).as_bytes()),
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("t", t)?;
+            npz.vector("l", &numbers(l))?;
+            npz.vector("deviation", &numbers(deviation))?;
+            let mut column = |name: &str, of: fn(&ModeDocument) -> f64| {
+                npz.vector(name, &document.modes.iter().map(of).collect::<Vec<_>>())
+            };
+            column("lambda_re", |m| m.lambda.re)?;
+            column("lambda_im", |m| m.lambda.im)?;
+            column("residue_re", |m| m.residue.re)?;
+            column("residue_im", |m| m.residue.im)?;
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+/// An empty cell where there is no value.
+fn csv(samples: &ResponseSamples) -> String {
+    let cell = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
+    let row = |i: usize| {
+        format!("{},{},{}\n", samples.t[i], cell(samples.l[i]), cell(samples.deviation[i]))
+    };
+    std::iter::once("t,l,deviation\n".to_owned()).chain((0..samples.t.len()).map(row)).collect()
+}
+
+fn draw(document: &ResponseDocument) -> String {
+    let model = &document.parameters.model;
+    let title = format!("Linear response, α = {:.6}, r = {}", model.alpha, model.r);
+    let deviation = numbers(&document.samples.deviation);
+    let series = [(String::new(), document.samples.t.as_slice(), deviation.as_slice())];
+    plot::lines(&title, "t (Γ/k)", "l − l₀ (σ)", &series)
+}

@@ -1,0 +1,196 @@
+//! `stickslip stability`.
+
+use super::figure::Figure;
+use super::model::{model, tip};
+use super::roots::{complex, failed, judge_count, leftmost, remarks};
+use crate::arguments::{ModelArguments, SolveFor, StabilityArguments};
+use crate::documents::{
+    FORMAT_VERSION, ModelParameters, OnsetDocument, Software, StabilityDocument,
+    StabilityParameters, TrappingDocument,
+};
+use crate::failure::{Failure, Typed};
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::plot;
+use stickslip_tip::stability::{
+    Critical, Spectrum, StabilityError, creep_rates, critical, critical_r, leading_roots, onset_at,
+    roots, trapping_alpha, unstable_count,
+};
+use stickslip_tip::{Model, TipFunction};
+
+const DEFAULT_ROOTS: usize = 10;
+
+pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let point = Point::asked(arguments)?;
+    judge_extent(arguments, &point.model)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+
+    let document = document(arguments, &point)?;
+    if let Some(figure) = figure {
+        figure.write(&draw(&document))?;
+    }
+    write(&document, format, output)
+}
+
+/// The critical point, and the one whose roots are listed.
+struct Point {
+    /// Or why there is none.
+    critical: Result<Critical, StabilityError>,
+    model: Model,
+    /// Whether the two are the same for want of α or r.
+    at_critical: bool,
+}
+
+impl Point {
+    fn asked(arguments: &StabilityArguments) -> Result<Self, Failure> {
+        let tip = tip(&arguments.model.tip)?;
+        match arguments.solve_for {
+            SolveFor::Alpha => Self::for_alpha(&arguments.model, tip),
+            SolveFor::R => Self::for_r(&arguments.model, tip),
+        }
+    }
+
+    fn for_alpha(arguments: &ModelArguments, tip: TipFunction) -> Result<Self, Failure> {
+        let missing = "αc is a function of r: give --r R, or --alpha A --solve-for r for rc(α)";
+        let r = arguments.r.ok_or_else(|| Failure::input("--r", missing))?;
+        let critical = critical(&tip, r);
+        if let Err(error @ StabilityError::R(_)) = critical {
+            return Err(Failure::input(format!("--r {}", Typed(r)), error));
+        }
+        if arguments.alpha.is_some() || arguments.alpha_above.is_some() {
+            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+        }
+        let advice = "give --alpha A for the growth exponents there";
+        let at = critical.map_err(|error| {
+            Failure::input(format!("--r {}", Typed(r)), format!("{error}; {advice}"))
+        })?;
+        Self::at(at, tip)
+    }
+
+    fn for_r(arguments: &ModelArguments, tip: TipFunction) -> Result<Self, Failure> {
+        if let Some(above) = arguments.alpha_above {
+            let message = "αc is a function of r, which is solved for: give --alpha A";
+            return Err(Failure::input(format!("--alpha-above {}", Typed(above)), message));
+        }
+        let missing = "rc is a function of α: give --alpha A";
+        let alpha = arguments.alpha.ok_or_else(|| Failure::input("--alpha", missing))?;
+        let critical = critical_r(&tip, alpha);
+        if let Err(error @ StabilityError::Alpha(_)) = critical {
+            return Err(Failure::input(format!("--alpha {}", Typed(alpha)), error));
+        }
+        if arguments.r.is_some() {
+            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+        }
+        let advice = "give --r R for the growth exponents there";
+        let at = critical.map_err(|error| {
+            Failure::input(format!("--alpha {}", Typed(alpha)), format!("{error}; {advice}"))
+        })?;
+        Self::at(at, tip)
+    }
+
+    fn at(critical: Critical, tip: TipFunction) -> Result<Self, Failure> {
+        let model = Model::new(tip, critical.alpha, critical.r)
+            .map_err(|error| Failure::Run(error.to_string()))?;
+        Ok(Self { critical: Ok(critical), model, at_critical: true })
+    }
+
+    fn is_stable(&self) -> Result<bool, Failure> {
+        let advice = "move --alpha or --r a little";
+        Ok(!self.at_critical
+            && unstable_count(&self.model).map_err(|error| failed(&error, advice))? == 0)
+    }
+}
+
+fn judge_extent(arguments: &StabilityArguments, model: &Model) -> Result<(), Failure> {
+    let Some(bound) = arguments.re_above else {
+        return judge_count("--roots", arguments.roots.unwrap_or(DEFAULT_ROOTS));
+    };
+    let least = leftmost(model);
+    if bound.is_finite() && bound >= least {
+        return Ok(());
+    }
+    let message = format!("must be a finite number, {least:.3} or above here");
+    Err(Failure::input(format!("--re-above {}", Typed(bound)), message))
+}
+
+fn spectrum(arguments: &StabilityArguments, model: &Model) -> Result<Spectrum, Failure> {
+    match arguments.re_above {
+        Some(bound) => roots(model, bound)
+            .map_err(|error| Failure::input(format!("--re-above {}", Typed(bound)), error)),
+        None => leading_roots(model, arguments.roots.unwrap_or(DEFAULT_ROOTS))
+            .map_err(|error| failed(&error, "ask for another number with --roots")),
+    }
+}
+
+fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDocument, Failure> {
+    let Point { critical, model, .. } = point;
+    let spectrum = spectrum(arguments, model)?;
+    let asked = arguments.re_above.is_none().then(|| arguments.roots.unwrap_or(DEFAULT_ROOTS));
+    let trapping = trapping_alpha(model.tip(), model.r());
+    let onset = critical.and_then(|critical| onset_at(model.tip(), critical));
+    let why = |name: &str, error: Option<StabilityError>| error.map(|e| format!("{name}: {e}"));
+    let mut said: Vec<String> = why("critical", critical.err())
+        .into_iter()
+        .chain(why("onset", onset.err().filter(|_| critical.is_ok())))
+        .chain(why("trapping", trapping.err()))
+        .collect();
+    said.extend(remarks(&spectrum, asked, "roots"));
+    Ok(StabilityDocument {
+        format: StabilityDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: StabilityParameters {
+            model: ModelParameters::of(model, arguments.model.alpha_above),
+            solve_for: arguments.solve_for,
+            at_critical_point: point.at_critical,
+            roots: asked,
+            re_above: arguments.re_above,
+        },
+        critical: critical.as_ref().ok().map(Into::into),
+        stable: point.is_stable()?,
+        trapping: TrappingDocument {
+            alpha: trapping.ok(),
+            creep_rates: creep_rates(model).map(|(repelling, attracting)| [repelling, attracting]),
+        },
+        roots: spectrum.roots.iter().map(|z| complex(z.re, z.im)).collect(),
+        certificate: (&spectrum.certificate).into(),
+        onset: onset.as_ref().ok().map(OnsetDocument::from),
+        remarks: said,
+    })
+}
+
+fn columns(document: &StabilityDocument) -> (Vec<f64>, Vec<f64>) {
+    document.roots.iter().map(|z| (z.re, z.im)).unzip()
+}
+
+fn write(
+    document: &StabilityDocument,
+    format: OutputFormat,
+    output: Output,
+) -> Result<(), Failure> {
+    let (re, im) = columns(document);
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => output.write_csv("re,im", &[&re, &im]),
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("re", &re)?;
+            npz.vector("im", &im)?;
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+fn draw(document: &StabilityDocument) -> String {
+    let model = &document.parameters.model;
+    let what = match (document.parameters.at_critical_point, document.stable) {
+        (true, _) => "critical",
+        (_, true) => "stable",
+        (_, false) => "unstable",
+    };
+    let title = format!("α = {:.6}, r = {:.6}: {what}", model.alpha, model.r);
+    let (re, im) = columns(document);
+    plot::roots(&title, &re, &im)
+}

@@ -1,0 +1,182 @@
+//! `stickslip/stability`.
+
+use super::{ModelParameters, Software};
+use crate::arguments::SolveFor;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_tip::stability::{Certificate, Critical, Criticality, Onset};
+
+/// Linear stability of steady motion. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StabilityDocument {
+    /// "stickslip/stability"
+    pub(crate) format: String,
+    /// 1
+    pub(crate) format_version: u32,
+    /// The program that wrote it.
+    pub(crate) software: Software,
+    /// What was asked for.
+    pub(crate) parameters: StabilityParameters,
+    /// Where the first root reaches the imaginary axis; null where none does, see `remarks`.
+    pub(crate) critical: Option<CriticalDocument>,
+    /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the
+    /// critical point itself, false.
+    pub(crate) stable: bool,
+    /// The logarithmic creep of a tip that never gets free.
+    pub(crate) trapping: TrappingDocument,
+    /// Growth exponents λ at the α and r of `parameters`, by falling real part, the one above the real
+    /// axis first of each pair.
+    pub(crate) roots: Vec<ComplexDocument>,
+    /// That none is missing.
+    pub(crate) certificate: CertificateDocument,
+    /// What is born at the critical point; null where the leading order says nothing, see `remarks`.
+    pub(crate) onset: Option<OnsetDocument>,
+    /// Why something is null, short or inexact; empty if nothing is.
+    pub(crate) remarks: Vec<String>,
+}
+
+impl StabilityDocument {
+    pub(crate) const FORMAT: &'static str = "stickslip/stability";
+}
+
+/// The point whose growth exponents are listed, and what was asked.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub(crate) struct StabilityParameters {
+    /// Footprint, α and r.
+    #[serde(flatten)]
+    pub(crate) model: ModelParameters,
+    /// Which of α and r the critical point was solved for, at the given value of the other.
+    pub(crate) solve_for: SolveFor,
+    /// Whether α and r are those of the critical point, for want of one of them.
+    pub(crate) at_critical_point: bool,
+    /// Number of roots asked for; null where a bound was.
+    pub(crate) roots: Option<usize>,
+    /// Bound of Re λ asked for; null where a number was.
+    pub(crate) re_above: Option<f64>,
+}
+
+/// A complex number.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ComplexDocument {
+    pub(crate) re: f64,
+    pub(crate) im: f64,
+}
+
+/// A point of the stability boundary with the oscillation that is born there.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CriticalDocument {
+    /// αc, (43).
+    pub(crate) alpha: f64,
+    /// rc, (42).
+    pub(crate) r: f64,
+    /// Frequency ω in time, in k/Γ.
+    pub(crate) omega: f64,
+    /// 2π/ω
+    pub(crate) period: f64,
+    /// 2πr/ω
+    pub(crate) wavelength: f64,
+}
+
+/// The motion x0 ~ (1/p) ln t for ever.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TrappingDocument {
+    /// The smallest α at which there is such a motion at this r; null if there is none at any α.
+    pub(crate) alpha: Option<f64>,
+    /// The two p at the α and r of `parameters`, the repelling one first; null below the threshold.
+    pub(crate) creep_rates: Option<[f64; 2]>,
+}
+
+/// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, outside of which no root has a real part
+/// above re_min, and how many roots it holds.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CertificateDocument {
+    pub(crate) re_min: f64,
+    pub(crate) re_max: f64,
+    pub(crate) im_max: f64,
+    /// By the argument principle.
+    pub(crate) counted: usize,
+    /// Different ones among those listed that solve the equation.
+    pub(crate) found: usize,
+    /// Whether the two agree, and every listed root solves the equation.
+    pub(crate) complete: bool,
+    /// Largest residual of a listed root, relative to the terms of the equation.
+    pub(crate) largest_residual: f64,
+    /// Estimate of the largest error of a listed λ.
+    pub(crate) largest_error: f64,
+}
+
+/// On which side of the boundary the small oscillation exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum CriticalityName {
+    /// Stable and small, above the critical α.
+    Supercritical,
+    /// Unstable, below it.
+    Subcritical,
+}
+
+/// The small oscillation near the critical point, to leading order in α - αc.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OnsetDocument {
+    pub(crate) criticality: CriticalityName,
+    /// d(a²)/dα, a half the peak-to-peak of l.
+    pub(crate) amplitude_squared_slope: f64,
+    /// dT/dα along the branch.
+    pub(crate) period_slope: f64,
+    /// dω/dα along the branch.
+    pub(crate) omega_slope: f64,
+    /// d(Re λ)/dα of the critical pair.
+    pub(crate) growth_slope: f64,
+    /// First Lyapunov coefficient: A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
+    pub(crate) lyapunov: f64,
+}
+
+impl From<&Critical> for CriticalDocument {
+    fn from(critical: &Critical) -> Self {
+        let Critical { alpha, r, omega, period, wavelength } = *critical;
+        Self { alpha, r, omega, period, wavelength }
+    }
+}
+
+impl From<&Certificate> for CertificateDocument {
+    fn from(certificate: &Certificate) -> Self {
+        Self {
+            re_min: certificate.region.re_min,
+            re_max: certificate.region.re_max,
+            im_max: certificate.region.im_max,
+            counted: certificate.counted,
+            found: certificate.found,
+            complete: certificate.is_complete(),
+            largest_residual: certificate.largest_residual,
+            largest_error: certificate.largest_error,
+        }
+    }
+}
+
+impl From<Criticality> for CriticalityName {
+    fn from(criticality: Criticality) -> Self {
+        match criticality {
+            Criticality::Supercritical => Self::Supercritical,
+            Criticality::Subcritical => Self::Subcritical,
+        }
+    }
+}
+
+impl From<&Onset> for OnsetDocument {
+    fn from(onset: &Onset) -> Self {
+        Self {
+            criticality: onset.criticality.into(),
+            amplitude_squared_slope: onset.amplitude_squared_slope,
+            period_slope: onset.period_slope,
+            omega_slope: onset.omega_slope,
+            growth_slope: onset.growth_slope,
+            lyapunov: onset.lyapunov,
+        }
+    }
+}

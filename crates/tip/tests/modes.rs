@@ -29,8 +29,8 @@ fn footprints() -> Vec<(&'static str, TipFunction, f64)> {
     let lobes = [(1.0, 0.0, 1.0), (0.3, 3.0, 0.7), (0.3, -3.0, 0.7)];
     let uneven = lobes.map(|(amplitude, center, width)| Gaussian { amplitude, center, width });
     vec![
-        ("triple", triple(), 1e-12),
-        ("triple 0.5", TipFunction::triple_gaussian(0.5, 1.0).unwrap(), 1e-12),
+        ("triple", triple(), 1e-13),
+        ("triple 0.5", TipFunction::triple_gaussian(0.5, 1.0).unwrap(), 1e-13),
         ("wide triple", TipFunction::triple_gaussian(1.0, 3.0).unwrap(), 1e-12),
         ("gaussian", TipFunction::gaussian(1.0).unwrap(), 1e-12),
         ("gaussian 0.8", TipFunction::gaussian(0.8).unwrap(), 1e-12),
@@ -53,7 +53,7 @@ fn true_errors(tip: &TipFunction, fit: &Fit) -> (f64, f64) {
 #[test]
 fn the_certified_error_is_met_is_honest_and_not_far_off() {
     for (name, tip, finest) in footprints() {
-        for digits in 3..=12 {
+        for digits in 3..=13 {
             let wanted = 10_f64.powi(-digits);
             if wanted < 0.99 * finest {
                 continue;
@@ -67,7 +67,7 @@ fn the_certified_error_is_met_is_honest_and_not_far_off() {
             assert!(found.slope <= wanted, "{name}: {found:?}");
             assert!(slope <= found.slope + round_off, "{name}: {slope:e} above {found:?}");
             assert!(curvature <= found.curvature + 10.0 * round_off, "{name}: {curvature:e}");
-            assert!(found.slope <= 2.0 * slope + round_off, "{name}: {slope:e}, {found:?}");
+            assert!(found.slope <= 2.5 * slope + round_off, "{name}: {slope:e}, {found:?}");
             assert!(fit.terms().iter().all(|t| t.exponent.re < 0.0), "{name}");
         }
     }
@@ -78,7 +78,7 @@ fn the_default_tips_need_few_terms() {
     let terms = |tip: &TipFunction, wanted| Fit::new(tip, wanted).unwrap().terms().len();
     let gaussian = TipFunction::gaussian(1.0).unwrap();
     assert_eq!([1e-4, 1e-7, 1e-10].map(|wanted| terms(&triple(), wanted)), [5, 7, 11]);
-    assert_eq!([1e-4, 1e-7, 1e-10].map(|wanted| terms(&gaussian, wanted)), [4, 6, 8]);
+    assert_eq!([1e-4, 1e-7, 1e-10].map(|wanted| terms(&gaussian, wanted)), [4, 5, 7]);
 }
 
 /// Negative control: each term carries weight.
@@ -219,7 +219,10 @@ fn runs_with_modes_are_those_with_direct_to_the_tolerance() {
         ("table", scenario(table(), 1.0, 0.8, 50.0)),
     ];
     for (name, scenario) in cases {
-        for tolerance in [1e-5, 1e-7, 1e-9] {
+        for tolerance in [1e-5, 1e-7, 1e-9, 1e-10] {
+            if name == "table" && tolerance < 1e-9 {
+                continue;
+            }
             let with = |memory| run(&Scenario { memory, tolerance, ..scenario.clone() }).unwrap();
             let (modes, direct) = (with(MemoryChoice::Modes), with(MemoryChoice::Direct));
             let error = largest_difference(&modes, &direct);
@@ -242,7 +245,7 @@ fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_11() {
         let tolerance = 10_f64.powi(-digits);
         let error = largest_difference(&at(tolerance, MemoryChoice::Modes), &reference);
         println!("{tolerance:e}: {error:.2e}");
-        assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
+        assert!(error < (10.0 * tolerance).max(5e-13), "{tolerance:e}: {error:e}");
     }
 }
 
@@ -266,6 +269,6 @@ fn an_accuracy_out_of_reach_is_refused_with_what_can_be_had() {
     let RunError::Modes(FitError::NotMet { wanted: w, reached }) = refused else {
         panic!("{refused}")
     };
-    assert!((w / wanted - 1.0).abs() < 1e-12 && reached > wanted && reached < 1e-11);
+    assert!((w / wanted - 1.0).abs() < 1e-12 && reached > wanted && reached < 1e-12);
     assert_eq!(run(&tight).unwrap().memory, "fft");
 }

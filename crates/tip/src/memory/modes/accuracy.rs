@@ -3,7 +3,8 @@
 use crate::Model;
 
 /// The error of x0 that the fit may bring about, over the tolerance of the run.
-const SHARE: f64 = 0.1;
+/// Motions near onset amplify it a hundredfold, as they do the error of a step, of which they allow as much.
+const SHARE: f64 = 0.025;
 /// Errors of a fit change sign within about this distance, in widths of the apex: what a moving tip feels
 /// of them is that much at a time.
 const WIDTHS: f64 = 2.0;
@@ -15,7 +16,7 @@ const WIDTHS: f64 = 2.0;
 /// stiffness 1. A tip that sticks for a time T feels α ε T, but the groove that it made meanwhile has the
 /// stiffness α T |f''(0)|: it is shifted by ε/|f''(0)|, however long T is.
 ///
-/// In half decades, so that runs alike share a fit.
+/// In quarter decades, so that runs alike share a fit.
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
@@ -23,5 +24,5 @@ pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let moving = WIDTHS * width * model.alpha() / model.r();
     let stuck = if curvature > 0.0 { 1.0 / curvature } else { 0.0 };
     let largest = SHARE * tolerance / moving.max(stuck);
-    10_f64.powf((2.0 * largest.log10()).floor() / 2.0)
+    10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
 }

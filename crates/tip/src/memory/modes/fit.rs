@@ -49,7 +49,11 @@ pub enum FitError {
 /// Windows of samples for the pencil, their number and their length over reach and retreat, from the accuracy
 /// wanted on. Few, within reach, are soonest done and resolve three smooth lobes; where the accuracy nears
 /// round-off, the window must extend into what is zero, or the slowest term is left free to end there.
-const WINDOWS: [(usize, f64, f64); 3] = [(96, 1.0, 1e-10), (128, 1.25, 0.0), (192, 1.4, 0.0)];
+const WINDOWS: [(usize, f64, f64); 3] = [(96, 1.0, 1e-10), (128, 1.25, 2e-12), (192, 1.4, 2e-12)];
+/// Lattices of exponents for what is left, the period over reach and retreat and the damping over it.
+const LATTICES: [(f64, f64); 3] = [(1.6, 30.0), (2.0, 36.0), (2.4, 36.0)];
+/// A lattice with more exponents would cost more than `fft` does.
+const MOST_PAIRS: usize = 64;
 /// Least squares uses so many times the samples of the pencil.
 const FINER: usize = 2;
 /// The pencil is given up beyond this many terms (pairs count twice).
@@ -73,11 +77,14 @@ impl Fit {
                 return Ok(fit);
             }
         }
-        let fit = damped_fourier(tip, (reach, retreat)).filter(|fit| {
+        for lattice in LATTICES {
+            let Some(fit) = damped_fourier(tip, (reach, retreat), lattice) else { continue };
+            if fit.certificate.slope <= wanted {
+                return Ok(fit);
+            }
             reached = reached.min(fit.certificate.slope);
-            fit.certificate.slope <= wanted
-        });
-        fit.ok_or(FitError::NotMet { wanted, reached })
+        }
+        Err(FitError::NotMet { wanted, reached })
     }
 
     /// As [`new`](Self::new), or a fit made before for the same footprint and accuracy.
@@ -201,16 +208,19 @@ fn by_pencil(tip: &TipFunction, window: &Window, wanted: f64, reached: &mut f64)
 
 /// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
 /// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`.
-fn damped_fourier(tip: &TipFunction, (reach, retreat): (f64, f64)) -> Option<Fit> {
-    const PERIODS_OF_REACH: f64 = 1.6;
-    const DAMPING: f64 = 36.0;
-    const MOST_PAIRS: usize = 64;
-    let period = PERIODS_OF_REACH * (reach + retreat);
-    let (rate, lattice) = (-DAMPING / period, TAU / period);
+fn damped_fourier(
+    tip: &TipFunction,
+    (reach, retreat): (f64, f64),
+    (period, damping): (f64, f64),
+) -> Option<Fit> {
+    let period = period * (reach + retreat);
+    let (rate, lattice) = (-damping / period, TAU / period);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let pairs = (tip.band() / lattice).ceil() as usize;
-    let exponents: Vec<_> =
-        (0..=pairs.min(MOST_PAIRS)).map(|k| Complex::new(rate, k as f64 * lattice)).collect();
+    if pairs > MOST_PAIRS {
+        return None;
+    }
+    let exponents: Vec<_> = (0..=pairs).map(|k| Complex::new(rate, k as f64 * lattice)).collect();
     let samples = samples(tip, (retreat, period - retreat), 8 * exponents.len());
     Fit::with_exponents(tip, (reach, retreat), &exponents, &samples)
 }

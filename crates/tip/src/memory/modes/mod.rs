@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// As exact as the [`Fit`], as long as the tip looks no farther back than δ behind the farthest point that
 /// it has been to. A step that retreats further goes over to [`Fft`], which knows the past from a record
 /// kept beside the state; when the tip has regained its farthest point the state is summed afresh.
-/// The record spans 4096 bins, about as many widths; a tip that retreats beyond it is told so by
+/// The record spans 4096 bins, 2000 to 4000 widths; a tip that retreats beyond it is told so by
 /// [`Memory::forgotten`].
 pub struct Modes {
     tip: TipFunction,

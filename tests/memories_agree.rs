@@ -99,7 +99,7 @@ fn auto_begins_with_direct_where_modes_do_not_apply_and_goes_over_to_fft_without
     let scenario = Scenario { kick: 0.05, tolerance: 1e-11, ..Scenario::new(model, 76.0) };
     let auto = run(&scenario).unwrap();
     assert_eq!(auto.memory, "fft");
-    assert_eq!(run(&Scenario { until: 15.5, ..scenario.clone() }).unwrap().memory, "direct");
+    assert_eq!(run(&Scenario { until: 16.2, ..scenario.clone() }).unwrap().memory, "direct");
     let direct = run(&Scenario { memory: MemoryChoice::Direct, ..scenario }).unwrap();
     let range = (auto.trajectory.start(), auto.trajectory.end());
     let difference =

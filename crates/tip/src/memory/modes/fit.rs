@@ -62,7 +62,8 @@ const MOST_TERMS: usize = 40;
 const RETREAT: f64 = 0.5;
 
 impl Fit {
-    /// The fit with the fewest terms whose certified error of f' is at most `wanted`.
+    /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and the area of that
+    /// error at most 4 δ times that.
     ///
     /// # Errors
     /// A footprint that never fades, or an accuracy out of reach.
@@ -79,7 +80,7 @@ impl Fit {
         }
         for lattice in LATTICES {
             let Some(fit) = damped_fourier(tip, (reach, retreat), lattice) else { continue };
-            if fit.certificate.slope <= wanted {
+            if fit.meets(wanted) {
                 return Ok(fit);
             }
             reached = reached.min(fit.certificate.slope);
@@ -138,6 +139,12 @@ impl Fit {
         })
     }
 
+    /// Whether f' is as near as wanted, and the error not all of one sign: its area, over two widths or four
+    /// δ, is no larger.
+    fn meets(&self, wanted: f64) -> bool {
+        self.certificate.slope <= wanted && self.certificate.area <= 4.0 * self.retreat * wanted
+    }
+
     /// These exponents with the weights that least squares gives them.
     fn with_exponents(
         tip: &TipFunction,
@@ -194,7 +201,7 @@ fn by_pencil(tip: &TipFunction, window: &Window, wanted: f64, reached: &mut f64)
         let Some(fit) = fit else { continue };
         let error = fit.certificate.slope;
         *reached = reached.min(error);
-        if error <= wanted {
+        if fit.meets(wanted) {
             return Some(fit);
         }
         misses = if error < 0.7 * best { 0 } else { misses + 1 };

@@ -85,6 +85,15 @@ impl Fit {
             }
             reached = reached.min(fit.certificate.slope);
         }
+        if reached.is_infinite() {
+            // No lattice is fine enough: what can be had is what the pencil gives.
+            let (samples, length, _) = WINDOWS[WINDOWS.len() - 1];
+            let end = length * (reach + retreat) - retreat;
+            let window = Window { reach, retreat, end, samples };
+            if let Some(fit) = by_pencil(tip, &window, wanted, &mut reached) {
+                return Ok(fit);
+            }
+        }
         Err(FitError::NotMet { wanted, reached })
     }
 

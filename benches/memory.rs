@@ -1,20 +1,21 @@
 //! Cost of a step against the history within reach of the tip.
 //!
-//! A trapped tip piles up history in one place: 1e2 to 1e6 nodes within reach. `fft` must be flat,
-//! `direct` is linear. One step here is what the integrator asks of a memory: the groove at the stages
+//! A trapped tip piles up history in one place: 1e2 to 1e6 nodes within reach. `fft` and `modes` must be
+//! flat, `direct` is linear. One step here is what the integrator asks of a memory: the groove at the stages
 //! twice (Newton's iterations) and one step remembered.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use stickslip_tip::memory::{Direct, Fft, Memory};
+use stickslip_tip::memory::{Direct, Fft, Memory, Modes};
 use stickslip_tip::{STAGES, TipFunction, nodes_and_weights};
 
-/// A memory with this many nodes within reach, spread over two widths about the tip.
+/// A memory with this many nodes within reach, spread over a fifth of a width about the tip.
 fn filled(mut memory: Box<dyn Memory>, nodes: usize) -> Box<dyn Memory> {
     let (c, b) = nodes_and_weights();
     for step in 0..nodes / STAGES {
-        let length = if step % 2 == 0 { 1.0 } else { -1.0 };
+        // Forward only as far as the modes hold; the same to and fro for all.
+        let length = if step % 2 == 0 { 0.2 } else { -0.2 };
         memory.remember(&c.map(|c| length * c), &b.map(|b| 1e-3 * b));
     }
     memory
@@ -22,7 +23,7 @@ fn filled(mut memory: Box<dyn Memory>, nodes: usize) -> Box<dyn Memory> {
 
 fn a_step(memory: &mut dyn Memory, to_and_fro: f64) {
     let (c, b) = nodes_and_weights();
-    let at = c.map(|c| to_and_fro * 0.3 * c);
+    let at = c.map(|c| to_and_fro * 0.2 * c);
     let (mut slope, mut curvature) = ([0.0; STAGES], [0.0; STAGES]);
     for _ in 0..2 {
         memory.groove(black_box(&at), &mut slope, &mut curvature);
@@ -40,6 +41,7 @@ fn timed(name: &str, tip: &TipFunction, nodes: usize, steps: u64) -> Duration {
     while left > 0 {
         let empty: Box<dyn Memory> = match name {
             "fft" => Box::new(Fft::new(tip.clone())),
+            "modes" => Box::new(Modes::new(tip.clone(), 1e-10).expect("a fit")),
             _ => Box::new(Direct::new(tip.clone())),
         };
         let mut memory = filled(empty, nodes);
@@ -61,7 +63,7 @@ fn step_against_history(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("memory/step");
     group.sample_size(10);
     for nodes in [24, 48, 96, 1_000, 10_000, 100_000, 1_000_000] {
-        for name in ["fft", "direct"] {
+        for name in ["modes", "fft", "direct"] {
             group.bench_function(BenchmarkId::new(name, format!("{nodes:07}")), |bencher| {
                 bencher.iter_custom(|steps| timed(name, &tip, nodes, steps));
             });

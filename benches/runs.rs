@@ -19,7 +19,12 @@ fn whole_runs(criterion: &mut Criterion) {
         group.sample_size(10);
         let tip = TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip");
         let model = Model::new(tip, alpha, r).expect("a valid model");
-        for (memory, label) in [(MemoryChoice::Auto, "auto"), (MemoryChoice::Direct, "direct")] {
+        let memories = [
+            (MemoryChoice::Modes, "modes"),
+            (MemoryChoice::Fft, "fft"),
+            (MemoryChoice::Direct, "direct"),
+        ];
+        for (memory, label) in memories {
             for digits in [5, 7, 9, 11] {
                 let tolerance = 10.0_f64.powi(-digits);
                 let scenario =

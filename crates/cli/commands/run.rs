@@ -114,6 +114,7 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
             MemoryName::Auto => MemoryChoice::Auto,
             MemoryName::Direct => MemoryChoice::Direct,
             MemoryName::Fft => MemoryChoice::Fft,
+            MemoryName::Modes => MemoryChoice::Modes,
         },
         ..Scenario::new(model, arguments.until)
     })
@@ -133,6 +134,7 @@ fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
         RunError::Noise { noise, .. } => {
             format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
         }
+        RunError::Modes(_) => "--memory modes".into(),
         RunError::Profile(_) => {
             let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
             format!("--initial-surface {}", path.display())

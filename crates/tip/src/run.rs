@@ -1,7 +1,7 @@
 //! A run: a tip set going from a given start, integrated to a given time, and what became of it.
 
 use crate::integrator::{IntegrationError, Integrator, Work};
-use crate::memory::{Auto, CROSSOVER_NODES, Direct, Fft, Memory};
+use crate::memory::{Auto, Direct, Fft, FitError, Memory, Modes, accuracy_needed};
 use crate::outcome::{Outcome, classify};
 use crate::series::SeriesError;
 use crate::{Force, InitialSurface, Model, Noise, Step, Trajectory};
@@ -26,6 +26,8 @@ pub enum MemoryChoice {
     Direct,
     /// [`Fft`]
     Fft,
+    /// [`Modes`]
+    Modes,
 }
 
 /// Everything that defines a run. Lengths in σ, times in Γ/k, forces in kσ.
@@ -101,6 +103,9 @@ pub enum RunError {
     /// An initial surface that is no function of x.
     #[error("the initial surface: {0}")]
     Profile(SeriesError),
+    /// `modes` was asked for where it does not apply.
+    #[error(transparent)]
+    Modes(#[from] FitError),
     /// The integration could not go on.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
@@ -222,13 +227,15 @@ impl Scenario {
         Ok(())
     }
 
-    fn new_memory(&self) -> Box<dyn Memory> {
+    fn new_memory(&self) -> Result<Box<dyn Memory>, RunError> {
         let tip = self.model.tip().clone();
-        match self.memory {
+        let accuracy = accuracy_needed(&self.model, self.tolerance);
+        Ok(match self.memory {
             MemoryChoice::Auto => Box::new(Auto::new(tip)),
             MemoryChoice::Direct => Box::new(Direct::new(tip)),
             MemoryChoice::Fft => Box::new(Fft::new(tip)),
-        }
+            MemoryChoice::Modes => Box::new(Modes::new(tip, accuracy)?),
+        })
     }
 }
 
@@ -255,7 +262,7 @@ pub fn run_observed(
         &scenario.model,
         &surface,
         &scenario.force,
-        scenario.new_memory(),
+        scenario.new_memory()?,
         start,
         scenario.tolerance,
     );
@@ -269,19 +276,14 @@ pub fn run_observed(
     let trajectory = Trajectory::new(scenario.model.r(), steps);
     let outcome = classify(&trajectory, &scenario.model, scenario.tolerance);
     let (work, memory) = (integrator.work(), integrator.memory().name());
-    let memory_reason = scenario.memory.reason(memory);
+    let memory_reason = scenario.memory.reason(integrator.memory());
     Ok(Run { trajectory, outcome, work, memory, memory_reason, interrupted })
 }
 
 impl MemoryChoice {
-    /// Why this choice came to the memory that was used.
-    fn reason(self, used: &str) -> String {
-        match self {
-            Self::Direct | Self::Fft => "asked for".into(),
-            Self::Auto if used == "direct" => {
-                format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
-            }
-            Self::Auto => format!("more than {CROSSOVER_NODES} nodes lay within reach"),
-        }
+    /// Why this choice came to the memory that was used, and how that fared.
+    fn reason(self, used: &dyn Memory) -> String {
+        let asked = (self != Self::Auto).then(|| "asked for".to_string());
+        asked.into_iter().chain(used.note()).collect::<Vec<_>>().join("; ")
     }
 }

@@ -43,6 +43,16 @@ pub enum IntegrationError {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The tip came back to where it had been so long ago that the memory no longer knows it.
+    #[error(
+        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory fft, which keeps all"
+    )]
+    Forgotten {
+        /// Time reached.
+        t: f64,
+        /// Distance over which the past is kept.
+        kept: f64,
+    },
 }
 
 /// The state of a tip under way, and all that acts on it.
@@ -140,7 +150,12 @@ impl<'a> Integrator<'a> {
                 return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
             }
             match self.attempt(h, &stretch) {
-                Ok(step) => return Ok(step),
+                Ok(step) => {
+                    let t = self.t;
+                    let forgotten = self.memory.forgotten();
+                    return forgotten
+                        .map_or(Ok(step), |kept| Err(IntegrationError::Forgotten { t, kept }));
+                }
                 Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
                     h = shorter;

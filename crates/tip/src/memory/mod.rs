@@ -7,10 +7,12 @@
 mod auto;
 mod direct;
 mod fft;
+mod modes;
 
 pub use auto::{Auto, CROSSOVER_NODES};
 pub use direct::Direct;
 pub use fft::Fft;
+pub use modes::{Certificate, Fit, FitError, Modes, Term, accuracy_needed};
 
 use crate::TipFunction;
 use crate::collocation::Stages;
@@ -28,6 +30,17 @@ pub trait Memory {
 
     /// Its name on the command line and in documents.
     fn name(&self) -> &'static str;
+
+    /// What is worth knowing of how it fared.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
+    /// Whether the tip has come back to what was dropped as too far behind to matter, and how far the
+    /// past is kept: the motion since then is not to be trusted.
+    fn forgotten(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// The farthest from the tip that a memory is asked about the groove, ahead or behind: 4.6 widths of

@@ -1,0 +1,28 @@
+//! How well f' must be fitted for a run to keep its tolerance.
+
+use crate::Model;
+
+/// The error of x0 that the fit may bring about, over the tolerance of the run.
+/// Motions near onset amplify it a hundredfold, as they do the error of a step, of which they allow as much.
+const SHARE: f64 = 0.025;
+/// Errors of a fit change sign within about this distance, in widths of the apex: what a moving tip feels
+/// of them is that much at a time.
+const WIDTHS: f64 = 2.0;
+
+/// The largest error ε of f' that moves the tip by a small part of the tolerance.
+///
+/// ε shifts the force by α ε times the time spent within reach. A tip that moves on at about r spends
+/// 1/r per length, and the errors that it meets alternate: α ε times two widths over r, against a spring of
+/// stiffness 1. A tip that sticks for a time T feels α ε T, but the groove that it made meanwhile has the
+/// stiffness α T |f''(0)|: it is shifted by ε/|f''(0)|, however long T is.
+///
+/// In quarter decades, so that runs alike share a fit.
+#[must_use]
+pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
+    let curvature = model.tip().slope_and_curvature(0.0).1.abs();
+    let width = 8.7 / model.tip().band();
+    let moving = WIDTHS * width * model.alpha() / model.r();
+    let stuck = if curvature > 0.0 { 1.0 / curvature } else { 0.0 };
+    let largest = SHARE * tolerance / moving.max(stuck);
+    10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
+}

@@ -1,0 +1,233 @@
+//! The state of the sum: one complex number per term, `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'`.
+
+use super::fit::{Fit, Term};
+use crate::collocation::{STAGES, Stages};
+
+/// The terms in real arithmetic, in groups that fill the machine's vectors.
+#[derive(Debug, Clone)]
+pub(super) struct Bank {
+    groups: Vec<Group>,
+    /// `lengths[k]` is the distance up to which degree k + `LOWEST_DEGREE` expands every term.
+    lengths: Vec<f64>,
+}
+
+const LANES: usize = 4;
+type Lane = [f64; LANES];
+
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    exponent: (Lane, Lane),
+    weight: (Lane, Lane),
+    state: (Lane, Lane),
+}
+
+const LOWEST_DEGREE: usize = 3;
+const HIGHEST_DEGREE: usize = 40;
+/// Expansions err by at most this fraction of the fit.
+const SHARE_OF_EXPANSION: f64 = 0.01;
+
+/// The groove about a point near the tip: `Σ_k c_k (x - center)^k`.
+#[derive(Debug, Clone)]
+pub(super) struct LocalGroove {
+    center: f64,
+    radius: f64,
+    degree: usize,
+    coefficients: [f64; HIGHEST_DEGREE + 1],
+}
+
+impl Bank {
+    pub(super) fn new(fit: &Fit) -> Self {
+        let terms = fit.terms();
+        let group = |terms: &[Term]| {
+            let lane = |part: fn(&Term) -> f64, idle: f64| {
+                std::array::from_fn(|i| terms.get(i).map_or(idle, part))
+            };
+            Group {
+                exponent: (lane(|t| t.exponent.re, -1.0), lane(|t| t.exponent.im, 0.0)),
+                weight: (lane(|t| t.weight.re, 0.0), lane(|t| t.weight.im, 0.0)),
+                state: ([0.0; LANES], [0.0; LANES]),
+            }
+        };
+        let groups = terms.chunks(LANES).map(group).collect();
+        Self { groups, lengths: expansion_lengths(terms, fit.certificate().slope) }
+    }
+
+    /// Nothing remembered any more.
+    pub(super) fn clear(&mut self) {
+        for group in &mut self.groups {
+            group.state = ([0.0; LANES], [0.0; LANES]);
+        }
+    }
+
+    /// Adds a time spent at a displacement from the tip.
+    pub(super) fn add(&mut self, position: f64, weight: f64) {
+        for group in &mut self.groups {
+            let e = exp(group.exponent, -position);
+            for i in 0..LANES {
+                group.state.0[i] += weight * e.0[i];
+                group.state.1[i] += weight * e.1[i];
+            }
+        }
+    }
+
+    /// Remembers a step that ends at the last of its positions: `z_j ← e^{s_j Δ} z_j + Σ_k weight_k
+    /// e^{s_j (Δ - position_k)}`, the sum expanded about Δ/2 in powers of `s_j`.
+    pub(super) fn advance(&mut self, position: &Stages, weight: &Stages) {
+        let moved = position[STAGES - 1];
+        let half = 0.5 * moved;
+        let offset = position.map(|p| half - p);
+        let radius = offset.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+        let Some(degree) = self.degree(radius) else {
+            self.displace(moved);
+            position.iter().zip(weight).for_each(|(p, w)| self.add(p - moved, *w));
+            return;
+        };
+        // Σ_k weight_k offset_k^m / m!
+        let mut moments = [0.0; HIGHEST_DEGREE + 1];
+        let mut powers = *weight;
+        for (m, moment) in moments[..=degree].iter_mut().enumerate() {
+            *moment = powers.iter().sum();
+            let next = 1.0 / (m + 1) as f64;
+            powers.iter_mut().zip(&offset).for_each(|(p, u)| *p *= u * next);
+        }
+        for group in &mut self.groups {
+            let new = polynomial(&moments[..=degree], group.exponent);
+            let e = exp(group.exponent, half);
+            // e² z + e new
+            let z = product(e, group.state);
+            group.state = product(e, sum(z, new));
+        }
+    }
+
+    /// Moves the tip: `z_j ← e^{s_j Δ} z_j`.
+    fn displace(&mut self, moved: f64) {
+        for group in &mut self.groups {
+            group.state = product(exp(group.exponent, moved), group.state);
+        }
+    }
+
+    /// Slope and curvature of the groove at one displacement from the tip.
+    pub(super) fn at(&self, at: f64) -> (f64, f64) {
+        let (mut slope, mut curvature) = ([0.0; LANES], [0.0; LANES]);
+        for group in &self.groups {
+            let value = product(group.weight, product(exp(group.exponent, at), group.state));
+            let derivative = product(value, group.exponent);
+            for i in 0..LANES {
+                slope[i] += value.0[i];
+                curvature[i] += derivative.0[i];
+            }
+        }
+        (slope.iter().sum(), curvature.iter().sum())
+    }
+
+    /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there.
+    pub(super) fn expand(&self, center: f64, radius: f64, groove: &mut LocalGroove) -> bool {
+        let Some(degree) = self.degree(radius) else { return false };
+        (groove.center, groove.radius, groove.degree) = (center, radius, degree);
+        groove.coefficients[..=degree].fill(0.0);
+        for group in &self.groups {
+            let mut term = product(group.weight, product(exp(group.exponent, center), group.state));
+            for (k, coefficient) in groove.coefficients[..=degree].iter_mut().enumerate() {
+                *coefficient += (term.0[0] + term.0[1]) + (term.0[2] + term.0[3]);
+                let next = 1.0 / (k + 1) as f64;
+                term = product(term, group.exponent);
+                for i in 0..LANES {
+                    term.0[i] *= next;
+                    term.1[i] *= next;
+                }
+            }
+        }
+        true
+    }
+
+    /// The degree that expands every `e^{s_j y}` for |y| ≤ radius.
+    fn degree(&self, radius: f64) -> Option<usize> {
+        let k = self.lengths.partition_point(|length| *length < radius);
+        (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
+    }
+}
+
+impl LocalGroove {
+    /// None yet.
+    pub(super) fn nowhere() -> Self {
+        Self { center: 0.0, radius: -1.0, degree: 0, coefficients: [0.0; HIGHEST_DEGREE + 1] }
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.radius = -1.0;
+    }
+
+    pub(super) fn holds(&self, at: &Stages) -> bool {
+        at.iter().all(|at| (at - self.center).abs() <= self.radius)
+    }
+
+    /// Horner's rule for the polynomial and its derivative.
+    pub(super) fn read(&self, at: &Stages, slope: &mut Stages, curvature: &mut Stages) {
+        let y = at.map(|at| at - self.center);
+        (*slope, *curvature) = ([0.0; STAGES], [0.0; STAGES]);
+        for c in self.coefficients[..=self.degree].iter().rev() {
+            for i in 0..STAGES {
+                curvature[i] = curvature[i] * y[i] + slope[i];
+                slope[i] = slope[i] * y[i] + c;
+            }
+        }
+    }
+}
+
+/// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the error of
+/// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
+fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
+    let share = SHARE_OF_EXPANSION * error / terms.len() as f64;
+    let sizes = terms.iter().map(|t| (t.exponent.norm(), t.weight.norm().max(f64::MIN_POSITIVE)));
+    let allowed = (0.1 * error).max(2e-14);
+    let cancelling = |(s, w): (f64, f64)| (allowed / (f64::EPSILON * w)).ln().max(0.5) / s;
+    let longest = sizes.clone().map(cancelling).fold(f64::INFINITY, f64::min);
+    let log_factorial = |n: usize| (1..=n).map(|k| (k as f64).ln()).sum::<f64>();
+    let length = |degree: usize| {
+        let (n, factorial) = ((degree + 1) as f64, log_factorial(degree + 1));
+        let one = |(s, w): (f64, f64)| (((share / w).ln() + factorial) / n).exp() / s;
+        sizes.clone().map(one).fold(longest, f64::min)
+    };
+    (LOWEST_DEGREE..=HIGHEST_DEGREE).map(length).collect()
+}
+
+/// `e^{s x}`
+fn exp((re, im): (Lane, Lane), x: f64) -> (Lane, Lane) {
+    let mut e = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        let size = (re[i] * x).exp();
+        let (sin, cos) = (im[i] * x).sin_cos();
+        (e.0[i], e.1[i]) = (size * cos, size * sin);
+    }
+    e
+}
+
+/// `Σ_m c_m s^m`
+fn polynomial(c: &[f64], s: (Lane, Lane)) -> (Lane, Lane) {
+    let mut value = ([0.0; LANES], [0.0; LANES]);
+    for c in c.iter().rev() {
+        value = product(value, s);
+        value.0.iter_mut().for_each(|v| *v += c);
+    }
+    value
+}
+
+#[inline]
+fn product(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
+    let mut c = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        c.0[i] = a.0[i] * b.0[i] - a.1[i] * b.1[i];
+        c.1[i] = a.0[i] * b.1[i] + a.1[i] * b.0[i];
+    }
+    c
+}
+
+#[inline]
+fn sum(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
+    let mut c = a;
+    for i in 0..LANES {
+        c.0[i] += b.0[i];
+        c.1[i] += b.1[i];
+    }
+    c
+}

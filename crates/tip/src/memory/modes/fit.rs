@@ -1,0 +1,242 @@
+//! f' on one side as a sum of few complex exponentials.
+
+use super::certificate::{Certificate, certify};
+use super::pencil::Pencil;
+use super::weights::weights;
+use crate::TipFunction;
+use num_complex::Complex;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::{Arc, Mutex};
+use thiserror::Error;
+
+/// One term `Re(w e^{sξ})`: a conjugate pair, or a real exponential where Im s = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term {
+    /// s, Re s < 0 ≤ Im s
+    pub exponent: Complex<f64>,
+    /// w
+    pub weight: Complex<f64>,
+}
+
+/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, with its certified error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    terms: Vec<Term>,
+    retreat: f64,
+    certificate: Certificate,
+}
+
+/// Why f' is not fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum FitError {
+    /// J0 falls like 1/√ξ: no few exponentials do.
+    #[error(
+        "the modes need a footprint that fades; this one does not (J0 falls like 1/√x): use the memory fft"
+    )]
+    NeverFades,
+    /// The best fit is not good enough.
+    #[error(
+        "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: ask for a larger tolerance, or use the memory fft"
+    )]
+    NotMet {
+        /// Largest error asked for.
+        wanted: f64,
+        /// Of the best fit tried.
+        reached: f64,
+    },
+}
+
+/// Windows of samples for the pencil, their number and their length over reach and retreat, from the accuracy
+/// wanted on. Few, within reach, are soonest done and resolve three smooth lobes; where the accuracy nears
+/// round-off, the window must extend into what is zero, or the slowest term is left free to end there.
+const WINDOWS: [(usize, f64, f64); 3] = [(96, 1.0, 1e-10), (128, 1.25, 2e-12), (192, 1.4, 2e-12)];
+/// Lattices of exponents for what is left, the period over reach and retreat and the damping over it.
+const LATTICES: [(f64, f64); 3] = [(1.6, 30.0), (2.0, 36.0), (2.4, 36.0)];
+/// A lattice with more exponents would cost more than `fft` does.
+const MOST_PAIRS: usize = 64;
+/// Least squares uses so many times the samples of the pencil.
+const FINER: usize = 2;
+/// The pencil is given up beyond this many terms (pairs count twice).
+const MOST_TERMS: usize = 40;
+/// The retreat allowed for, over the distance within which f falls about its apex.
+const RETREAT: f64 = 0.5;
+
+impl Fit {
+    /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and the area of that
+    /// error at most 4 δ times that.
+    ///
+    /// # Errors
+    /// A footprint that never fades, or an accuracy out of reach.
+    pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
+        let reach = tip.reach().ok_or(FitError::NeverFades)?;
+        let retreat = retreat(tip, reach);
+        let mut reached = f64::INFINITY;
+        for (samples, length, _) in WINDOWS.into_iter().filter(|(.., finest)| wanted >= *finest) {
+            let end = length * (reach + retreat) - retreat;
+            let window = Window { reach, retreat, end, samples };
+            if let Some(fit) = by_pencil(tip, &window, wanted, &mut reached) {
+                return Ok(fit);
+            }
+        }
+        for lattice in LATTICES {
+            let Some(fit) = damped_fourier(tip, (reach, retreat), lattice) else { continue };
+            if fit.meets(wanted) {
+                return Ok(fit);
+            }
+            reached = reached.min(fit.certificate.slope);
+        }
+        if reached.is_infinite() {
+            // No lattice is fine enough: what can be had is what the pencil gives.
+            let (samples, length, _) = WINDOWS[WINDOWS.len() - 1];
+            let end = length * (reach + retreat) - retreat;
+            let window = Window { reach, retreat, end, samples };
+            if let Some(fit) = by_pencil(tip, &window, wanted, &mut reached) {
+                return Ok(fit);
+            }
+        }
+        Err(FitError::NotMet { wanted, reached })
+    }
+
+    /// As [`new`](Self::new), or a fit made before for the same footprint and accuracy.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn cached(tip: &TipFunction, wanted: f64) -> Result<Arc<Self>, FitError> {
+        type Cache = Mutex<Vec<(TipFunction, f64, Result<Arc<Fit>, FitError>)>>;
+        static CACHE: Cache = Mutex::new(vec![]);
+        const MOST: usize = 32;
+        let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        // A thread that panicked did not leave half an entry behind.
+        let lock = || CACHE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let known = lock().iter().find(|(t, w, _)| same(*w, wanted) && t == tip).cloned();
+        if let Some((.., fit)) = known {
+            return fit;
+        }
+        let fit = Self::new(tip, wanted).map(Arc::new);
+        let mut cache = lock();
+        if cache.len() == MOST {
+            drop(cache.remove(0));
+        }
+        cache.push((tip.clone(), wanted, fit.clone()));
+        fit
+    }
+
+    /// The terms.
+    #[must_use]
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// δ, how far behind the farthest point remembered the sum still holds.
+    #[must_use]
+    pub fn retreat(&self) -> f64 {
+        self.retreat
+    }
+
+    /// Its largest errors.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.certificate
+    }
+
+    /// The sum at ξ, and its derivative.
+    #[must_use]
+    pub fn slope_and_curvature(&self, xi: f64) -> (f64, f64) {
+        self.terms.iter().fold((0.0, 0.0), |(slope, curvature), term| {
+            let value = term.weight * (term.exponent * xi).exp();
+            (slope + value.re, curvature + (value * term.exponent).re)
+        })
+    }
+
+    /// Whether f' is as near as wanted, and the error not all of one sign: its area, over two widths or four
+    /// δ, is no larger.
+    fn meets(&self, wanted: f64) -> bool {
+        self.certificate.slope <= wanted && self.certificate.area <= 4.0 * self.retreat * wanted
+    }
+
+    /// These exponents with the weights that least squares gives them.
+    fn with_exponents(
+        tip: &TipFunction,
+        (reach, retreat): (f64, f64),
+        exponents: &[Complex<f64>],
+        samples: &[(f64, f64)],
+    ) -> Option<Self> {
+        let weights = weights(exponents, samples)?;
+        let term = |(s, w): (&Complex<f64>, Complex<f64>)| Term { exponent: *s, weight: w };
+        let terms: Vec<Term> = exponents.iter().zip(weights).map(term).collect();
+        let certificate = certify(tip, reach, retreat, &terms);
+        Some(Self { terms, retreat, certificate })
+    }
+}
+
+/// δ: half the width of a Gaussian, and in general of what f falls by at its apex.
+fn retreat(tip: &TipFunction, reach: f64) -> f64 {
+    let (f, curvature) = (tip.value(0.0), tip.slope_and_curvature(0.0).1);
+    let apex = (f / curvature).abs().sqrt();
+    let apex = if apex.is_finite() { apex.min(reach / 8.0) } else { 0.0 };
+    RETREAT * apex.max(8.7 / tip.band())
+}
+
+/// Where f' is sampled.
+struct Window {
+    reach: f64,
+    retreat: f64,
+    end: f64,
+    samples: usize,
+}
+
+/// (ξ, f'(ξ)) at n points from -δ to the end, denser towards -δ, where a fit is free to stray.
+fn samples(tip: &TipFunction, (retreat, end): (f64, f64), n: usize) -> Vec<(f64, f64)> {
+    let sample = |i: usize| {
+        let part = 1.0 - (FRAC_PI_2 * i as f64 / (n - 1) as f64).cos();
+        let xi = (end + retreat) * part - retreat;
+        (xi, tip.slope(xi))
+    };
+    (0..n).map(sample).collect()
+}
+
+/// The pencil with ever more terms, until one meets the accuracy or no longer gains.
+fn by_pencil(tip: &TipFunction, window: &Window, wanted: f64, reached: &mut f64) -> Option<Fit> {
+    let Window { reach, retreat, end, samples: n } = *window;
+    let spacing = (end + retreat) / (n - 1) as f64;
+    let even: Vec<f64> = (0..n).map(|i| tip.slope(i as f64 * spacing - retreat)).collect();
+    let fine = samples(tip, (retreat, end), FINER * n);
+    let pencil = Pencil::new(&even, spacing)?;
+    let most = pencil.most_terms().min(MOST_TERMS);
+    let (mut best, mut misses) = (f64::INFINITY, 0);
+    for p in pencil.fewest_terms(wanted)..=most {
+        let exponents = pencil.exponents(p);
+        let fit = exponents.and_then(|s| Fit::with_exponents(tip, (reach, retreat), &s, &fine));
+        let Some(fit) = fit else { continue };
+        let error = fit.certificate.slope;
+        *reached = reached.min(error);
+        if fit.meets(wanted) {
+            return Some(fit);
+        }
+        misses = if error < 0.7 * best { 0 } else { misses + 1 };
+        best = best.min(error);
+        if misses > 3 {
+            return None;
+        }
+    }
+    None
+}
+
+/// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
+/// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`.
+fn damped_fourier(
+    tip: &TipFunction,
+    (reach, retreat): (f64, f64),
+    (period, damping): (f64, f64),
+) -> Option<Fit> {
+    let period = period * (reach + retreat);
+    let (rate, lattice) = (-damping / period, TAU / period);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let pairs = (tip.band() / lattice).ceil() as usize;
+    if pairs > MOST_PAIRS {
+        return None;
+    }
+    let exponents: Vec<_> = (0..=pairs).map(|k| Complex::new(rate, k as f64 * lattice)).collect();
+    let samples = samples(tip, (retreat, period - retreat), 8 * exponents.len());
+    Fit::with_exponents(tip, (reach, retreat), &exponents, &samples)
+}

@@ -1,0 +1,60 @@
+//! Exponents of a sum of exponentials from its samples: the matrix pencil, ESPRIT.
+//!
+//! References: Hua & Sarkar, IEEE Trans. ASSP 38, 814 (1990); Roy & Kailath, IEEE Trans. ASSP 37,
+//! 984 (1989).
+
+use nalgebra::{DMatrix, SVD, Schur};
+use num_complex::Complex;
+
+/// The signal space of evenly spaced samples `y_n`: the left singular vectors of the Hankel matrix
+/// `H_ij = y_{i+j}`.
+///
+/// For `y_n = Σ_j c_j λ_j^n` with p terms, the first p of them span the same space as the vectors
+/// `(1, λ_j, λ_j², …)`; one row further down, that space is multiplied by a matrix of eigenvalues `λ_j`.
+pub(super) struct Pencil {
+    spacing: f64,
+    vectors: DMatrix<f64>,
+    singular: Vec<f64>,
+}
+
+const MOST_SWEEPS: usize = 1000;
+
+impl Pencil {
+    /// Of samples that are `spacing` apart.
+    pub(super) fn new(samples: &[f64], spacing: f64) -> Option<Self> {
+        let columns = samples.len() / 2;
+        let hankel = DMatrix::from_fn(samples.len() + 1 - columns, columns, |i, j| samples[i + j]);
+        let svd = SVD::try_new(hankel, true, false, f64::EPSILON, MOST_SWEEPS)?;
+        Some(Self { spacing, vectors: svd.u?, singular: svd.singular_values.as_slice().to_vec() })
+    }
+
+    /// The number of terms from which on what is left out, per sample, may be below `error`.
+    pub(super) fn fewest_terms(&self, error: f64) -> usize {
+        self.singular.partition_point(|s| *s > error)
+    }
+
+    /// The most terms that samples rounded to f64 determine.
+    pub(super) fn most_terms(&self) -> usize {
+        let floor = self.singular[0] * f64::EPSILON;
+        self.singular.partition_point(|s| *s > floor).min(self.vectors.nrows() - 2)
+    }
+
+    /// Exponents s of p terms `e^{sξ}`, one of each conjugate pair; `None` if one of them grows.
+    pub(super) fn exponents(&self, p: usize) -> Option<Vec<Complex<f64>>> {
+        let rows = self.vectors.nrows() - 1;
+        let upper = self.vectors.view((0, 0), (rows, p));
+        let lower = self.vectors.view((1, 0), (rows, p));
+        // The columns of `vectors` are orthonormal, so those of `upper` nearly are: U1ᵀU1 = 1 - vvᵀ with
+        // v the row left out, inverted by Sherman & Morrison.
+        let v = self.vectors.view((rows, 0), (1, p)).transpose();
+        let product = upper.transpose() * lower;
+        let rest = 1.0 - v.norm_squared();
+        let shift = &product + &v * (v.transpose() * &product) / rest;
+        let eigenvalues = Schur::try_new(shift, f64::EPSILON, MOST_SWEEPS)?.complex_eigenvalues();
+        let exponents = eigenvalues.iter().map(|l| l.ln() / self.spacing);
+        let kept: Vec<_> = exponents.filter(|s| s.im >= 0.0).collect();
+        // The logarithm of a negative eigenvalue is at the end of what the samples resolve.
+        let resolved = |s: &Complex<f64>| s.im * self.spacing < 3.0;
+        kept.iter().all(|s| s.re.is_finite() && s.re < 0.0 && resolved(s)).then_some(kept)
+    }
+}

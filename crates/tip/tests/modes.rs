@@ -1,0 +1,274 @@
+//! Is the sum of exponentials as good as it says, and its state all of the past?
+//!
+//! The fit is judged by f' itself on a finer grid than its own; the state by `direct`, the definition, on
+//! random paths; whole runs by `direct` as well, to the tolerance, tests/memories_agree.rs at the root
+//! holding the same for every memory.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use stickslip_tip::memory::{Direct, Fit, FitError, Memory, Modes, accuracy_needed};
+use stickslip_tip::{
+    Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Start,
+    TipFunction, nodes_and_weights, run,
+};
+
+fn triple() -> TipFunction {
+    TipFunction::triple_gaussian(1.0, 1.0).unwrap()
+}
+
+fn table() -> TipFunction {
+    let x: Vec<f64> = (0..40).map(|i| 0.2 * f64::from(i)).collect();
+    let f: Vec<f64> = x.iter().map(|x| (1.0 - 0.2 * x * x) * (-x * x / 2.0).exp()).collect();
+    TipFunction::table(&x, &f).unwrap()
+}
+
+/// Each with the best accuracy that is asked of it here.
+fn footprints() -> Vec<(&'static str, TipFunction, f64)> {
+    let lobes = [(1.0, 0.0, 1.0), (0.3, 3.0, 0.7), (0.3, -3.0, 0.7)];
+    let uneven = lobes.map(|(amplitude, center, width)| Gaussian { amplitude, center, width });
+    vec![
+        ("triple", triple(), 1e-13),
+        ("triple 0.5", TipFunction::triple_gaussian(0.5, 1.0).unwrap(), 1e-13),
+        ("wide triple", TipFunction::triple_gaussian(1.0, 3.0).unwrap(), 1e-12),
+        ("gaussian", TipFunction::gaussian(1.0).unwrap(), 1e-12),
+        ("gaussian 0.8", TipFunction::gaussian(0.8).unwrap(), 1e-12),
+        ("two widths", TipFunction::gaussian_sum(uneven.to_vec()).unwrap(), 1e-10),
+        ("table", table(), 1e-10),
+    ]
+}
+
+/// Largest errors of slope and curvature on a grid of 1e-3 from -δ to four times the reach.
+fn true_errors(tip: &TipFunction, fit: &Fit) -> (f64, f64) {
+    let (from, to) = (-fit.retreat(), 4.0 * tip.reach().unwrap());
+    let n = 40_000;
+    (0..=n).fold((0.0, 0.0), |(slope, curvature): (f64, f64), i| {
+        let xi = from + (to - from) * f64::from(i) / f64::from(n);
+        let (exact, fitted) = (tip.slope_and_curvature(xi), fit.slope_and_curvature(xi));
+        (slope.max((exact.0 - fitted.0).abs()), curvature.max((exact.1 - fitted.1).abs()))
+    })
+}
+
+#[test]
+fn the_certified_error_is_met_is_honest_and_not_far_off() {
+    for (name, tip, finest) in footprints() {
+        for digits in 3..=13 {
+            let wanted = 10_f64.powi(-digits);
+            if wanted < 0.99 * finest {
+                continue;
+            }
+            let fit = Fit::new(&tip, wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let (slope, curvature) = true_errors(&tip, &fit);
+            let found = fit.certificate();
+            println!("{name} {wanted:e}: {} terms, {slope:.2e}, {found:?}", fit.terms().len());
+            // The sums of this test are rounded themselves.
+            let round_off = 1e-15 * fit.terms().iter().map(|t| t.weight.norm()).sum::<f64>();
+            assert!(found.slope <= wanted, "{name}: {found:?}");
+            assert!(slope <= found.slope + round_off, "{name}: {slope:e} above {found:?}");
+            assert!(curvature <= found.curvature + 10.0 * round_off, "{name}: {curvature:e}");
+            assert!(found.slope <= 2.5 * slope + round_off, "{name}: {slope:e}, {found:?}");
+            assert!(fit.terms().iter().all(|t| t.exponent.re < 0.0), "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_default_tips_need_few_terms() {
+    let terms = |tip: &TipFunction, wanted| Fit::new(tip, wanted).unwrap().terms().len();
+    let gaussian = TipFunction::gaussian(1.0).unwrap();
+    assert_eq!([1e-4, 1e-7, 1e-10].map(|wanted| terms(&triple(), wanted)), [5, 7, 11]);
+    assert_eq!([1e-4, 1e-7, 1e-10].map(|wanted| terms(&gaussian, wanted)), [4, 5, 7]);
+}
+
+/// Negative control: each term carries weight.
+#[test]
+fn without_one_term_the_sum_is_far_off() {
+    let fit = Fit::new(&triple(), 1e-9).unwrap();
+    for term in fit.terms() {
+        let largest = |xi: f64| (term.weight * (term.exponent * xi).exp()).re.abs();
+        let miss = (0..200).map(|i| largest(0.01 * f64::from(i) - 0.5)).fold(0.0, f64::max);
+        assert!(miss > 1e-7, "{term:?} carries {miss:e}");
+    }
+}
+
+/// A random path: mostly forward, by up to a step's length, at times back.
+fn random_path(seed: u64, back: f64, steps: usize) -> Vec<([f64; STAGES], [f64; STAGES])> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let (c, b) = nodes_and_weights();
+    let step = |_| {
+        let size = 10_f64.powf(rng.random_range(-3.0..0.3));
+        let length = if rng.random_bool(0.2) { -back * size } else { size };
+        let h: f64 = rng.random_range(0.01..1.0);
+        (c.map(|c| length * c * (0.7 + 0.3 * c)), b.map(|b| b * h))
+    };
+    (0..steps).map(step).collect()
+}
+
+/// Largest difference of two memories' slopes and curvatures along a path, over the time remembered
+/// within reach.
+fn difference(
+    a: &mut dyn Memory,
+    b: &mut dyn Memory,
+    path: &[([f64; STAGES], [f64; STAGES])],
+) -> f64 {
+    let mut largest = 0.0_f64;
+    let mut looks = ChaCha8Rng::seed_from_u64(9);
+    for (position, weight) in path {
+        a.remember(position, weight);
+        b.remember(position, weight);
+        let spread = looks.random_range(0.0..2.0);
+        let at = std::array::from_fn(|i| spread * (i as f64 / 5.0 - 0.1));
+        let mut found = [[0.0; STAGES]; 4];
+        let [slope_a, curvature_a, slope_b, curvature_b] = &mut found;
+        a.groove(&at, slope_a, curvature_a);
+        b.groove(&at, slope_b, curvature_b);
+        for i in 0..STAGES {
+            largest = largest.max((slope_a[i] - slope_b[i]).abs());
+        }
+    }
+    largest
+}
+
+#[test]
+fn the_state_is_the_direct_sum_on_random_paths() {
+    for (name, tip, _) in footprints() {
+        for wanted in [1e-5, 1e-7, 1e-10] {
+            let mut modes = Modes::new(tip.clone(), wanted).unwrap();
+            let mut direct = Direct::new(tip.clone());
+            let path = random_path(1, 0.02, 400);
+            let total = 40.0;
+            let error = difference(&mut modes, &mut direct, &path);
+            println!("{name} {wanted:e}: {error:.1e}");
+            assert!(error < wanted * total + 1e-12, "{name} {wanted:e}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_retreat_goes_over_to_fft_and_comes_back_without_a_trace() {
+    for back in [0.3, 0.8, 2.0] {
+        let mut modes = Modes::new(triple(), 1e-10).unwrap();
+        let mut direct = Direct::new(triple());
+        let error = difference(&mut modes, &mut direct, &random_path(2, back, 600));
+        let note = modes.note().unwrap();
+        println!("{back}: {error:.1e}, {note}");
+        assert!(note.contains("fft took over"), "{note}");
+        assert!(error < 5e-9, "{back}: {error:e}");
+        assert_eq!(modes.forgotten(), None);
+    }
+}
+
+/// More nodes than are kept as they are, then a retreat over all of them.
+#[test]
+fn a_long_past_is_there_when_the_tip_comes_back() {
+    let (c, b) = nodes_and_weights();
+    let mut modes = Modes::new(triple(), 1e-10).unwrap();
+    let mut direct = Direct::new(triple());
+    let forward = random_path(3, 0.02, 6000).into_iter().map(|(x, w)| (x.map(|x| 0.1 * x), w));
+    for (position, weight) in forward {
+        modes.remember(&position, &weight);
+        direct.remember(&position, &weight);
+    }
+    let back = (c.map(|c| -1.5 * c), b.map(|b| 0.1 * b));
+    let error = difference(&mut modes, &mut direct, &vec![back; 80]);
+    println!("{error:.1e}, {}", modes.note().unwrap());
+    assert!(error < 1e-9, "{error:e}");
+    assert_eq!(modes.forgotten(), None);
+}
+
+#[test]
+fn what_is_no_longer_kept_is_missed_aloud() {
+    let (c, b) = nodes_and_weights();
+    let mut modes = Modes::new(triple(), 1e-4).unwrap();
+    for _ in 0..4000 {
+        modes.remember(&c.map(|c| 1.5 * c), &b);
+    }
+    for _ in 0..4000 {
+        assert_eq!(modes.forgotten(), None);
+        modes.remember(&c.map(|c| -1.5 * c), &b);
+        if modes.forgotten().is_some() {
+            break;
+        }
+    }
+    assert!(modes.forgotten().is_some_and(|kept| kept > 1000.0));
+}
+
+fn scenario(tip: TipFunction, alpha: f64, r: f64, until: f64) -> Scenario {
+    Scenario { kick: 0.05, ..Scenario::new(Model::new(tip, alpha, r).unwrap(), until) }
+}
+
+fn largest_difference(a: &Run, b: &Run) -> f64 {
+    let (start, end) = (a.trajectory.start(), a.trajectory.end());
+    let t = |i: u32| start + (end - start) * f64::from(i) / 5000.0;
+    (0..=5000).map(|i| (a.trajectory.l(t(i)) - b.trajectory.l(t(i))).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn runs_with_modes_are_those_with_direct_to_the_tolerance() {
+    let x: Vec<f64> = (0..=80).map(|i| 18.0 + 0.1 * f64::from(i)).collect();
+    let u = x.iter().map(|x| 0.6 * (-(x - 22.0_f64).powi(2)).exp()).collect();
+    let pulse = |time| Pulse { amplitude: -8.0, time, width: 0.5 };
+    let force = Force::new(vec![pulse(25.0), pulse(33.0)], None).unwrap();
+    let cases = [
+        ("stick-slip", scenario(triple(), 1.2, 1.0, 76.0)),
+        ("flat", Scenario { start: Start::Flat, kick: 0.0, ..scenario(triple(), 0.75, 0.6, 90.0) }),
+        ("bump", Scenario { profile: Some((x, u)), ..scenario(triple(), 0.9, 1.0, 60.0) }),
+        ("pulses", Scenario { force, ..scenario(triple(), 0.9, 1.0, 60.0) }),
+        ("gaussian 0.8", scenario(TipFunction::gaussian(0.8).unwrap(), 1.6, 1.0, 76.0)),
+        ("table", scenario(table(), 1.0, 0.8, 50.0)),
+    ];
+    for (name, scenario) in cases {
+        for tolerance in [1e-5, 1e-7, 1e-9, 1e-10] {
+            if name == "table" && tolerance < 1e-9 {
+                continue;
+            }
+            let with = |memory| run(&Scenario { memory, tolerance, ..scenario.clone() }).unwrap();
+            let (modes, direct) = (with(MemoryChoice::Modes), with(MemoryChoice::Direct));
+            let error = largest_difference(&modes, &direct);
+            println!("{name} {tolerance:e}: {error:.1e}, {}", modes.memory_reason);
+            assert_eq!(modes.memory, "modes");
+            assert!(error < tolerance, "{name} {tolerance:e}: {error:e}");
+            let retreats = modes.memory_reason.contains("fft took over");
+            assert_eq!(retreats, name == "pulses", "{name}: {}", modes.memory_reason);
+        }
+    }
+}
+
+#[test]
+fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_11() {
+    let at = |tolerance, memory| {
+        run(&Scenario { tolerance, memory, ..scenario(triple(), 1.2, 1.0, 76.0) }).unwrap()
+    };
+    let reference = at(1e-13, MemoryChoice::Direct);
+    for digits in 4..=11 {
+        let tolerance = 10_f64.powi(-digits);
+        let error = largest_difference(&at(tolerance, MemoryChoice::Modes), &reference);
+        println!("{tolerance:e}: {error:.2e}");
+        assert!(error < (10.0 * tolerance).max(5e-13), "{tolerance:e}: {error:e}");
+    }
+}
+
+#[test]
+fn a_footprint_that_never_fades_is_refused_in_favour_of_fft() {
+    let refused = Modes::new(TipFunction::Bessel, 1e-6).err().unwrap();
+    assert_eq!(refused, FitError::NeverFades);
+    assert!(refused.to_string().contains("fft"));
+    let bessel = scenario(TipFunction::Bessel, 1.1, 1.0, 60.0);
+    let asked = Scenario { memory: MemoryChoice::Modes, ..bessel.clone() };
+    assert_eq!(run(&asked).unwrap_err(), RunError::Modes(FitError::NeverFades));
+    let auto = run(&bessel).unwrap();
+    assert!(auto.memory != "modes" && auto.memory_reason.contains("no modes"));
+}
+
+#[test]
+fn an_accuracy_out_of_reach_is_refused_with_what_can_be_had() {
+    let tight = Scenario { tolerance: 1e-13, ..scenario(triple(), 1.2, 1.0, 30.0) };
+    let refused = run(&Scenario { memory: MemoryChoice::Modes, ..tight.clone() }).unwrap_err();
+    let wanted = accuracy_needed(&tight.model, 1e-13);
+    let RunError::Modes(FitError::NotMet { wanted: w, reached }) = refused else {
+        panic!("{refused}")
+    };
+    assert!((w / wanted - 1.0).abs() < 1e-12 && reached > wanted && reached < 1e-12);
+    assert_eq!(run(&tight).unwrap().memory, "fft");
+}

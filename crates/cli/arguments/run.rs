@@ -18,14 +18,13 @@ pub(crate) enum StartName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MemoryName {
-    /// The cheapest that meets the tolerance: modes where the tip function allows; else direct while few
-    /// points lie within reach of the tip, then fft.
+    /// The cheaper of direct and fft: direct while few points lie within reach of the tip, then fft.
     Auto,
     /// A sum over the history within reach: the definition, slow for long histories.
     Direct,
     /// FFT convolution with the residence density: the same cost for any history.
     Fft,
-    /// A sum of few exponentials: the cheapest, for tip functions that fade.
+    /// A sum of few exponentials, for tip functions that fade: cheaper than fft down to 1e-8.
     Modes,
 }
 

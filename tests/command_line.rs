@@ -79,6 +79,23 @@ fn samples_reach_the_end_where_the_interval_divides_the_run() {
     assert_eq!(folder.prints_json(line)["samples"]["t"], json!([30.0, 20.0, 25.5]));
 }
 
+/// A step that ended just beyond a knot was once tried again and again at the same length.
+#[test]
+fn a_run_over_noise_ends_at_every_tolerance_and_spacing() {
+    let folder = Folder::new("noise");
+    for tolerance in ["1e-2", "1e-4", "1e-9"] {
+        for options in
+            ["1e-3 --noise-spacing 0.03", "0.1 --noise-spacing 0.1", "1 --noise-spacing 0.3"]
+        {
+            for seed in ["1", "2"] {
+                folder.prints(&format!(
+                    "run --alpha 1.2 --r 1 --until 20 --tolerance {tolerance} --seed {seed} --noise {options}"
+                ));
+            }
+        }
+    }
+}
+
 #[test]
 fn negative_numbers_are_values() {
     let folder = Folder::new("negative");

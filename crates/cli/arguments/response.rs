@@ -26,7 +26,7 @@ pub(crate) struct ResponseArguments {
     pub(crate) modes: usize,
 
     /// Time of the last sample, in Γ/k.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: f64,
 
     /// The samples begin where `stickslip run` with this start position and --start steady begins, so
@@ -35,7 +35,7 @@ pub(crate) struct ResponseArguments {
         long,
         value_name = "X",
         default_value_t = 14.0,
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Output"
     )]
     pub(crate) start_position: f64,
@@ -45,7 +45,7 @@ pub(crate) struct ResponseArguments {
         long,
         value_name = "DT",
         conflicts_with = "sample_at",
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         help_heading = "Output"
     )]
     pub(crate) sample_every: Option<f64>,

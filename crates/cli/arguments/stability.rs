@@ -34,7 +34,7 @@ pub(crate) struct StabilityArguments {
     pub(crate) roots: Option<usize>,
 
     /// All growth exponents λ with Re λ of at least this, in k/Γ.
-    #[arg(long, value_name = "BOUND", allow_negative_numbers = true)]
+    #[arg(long, value_name = "BOUND", allow_hyphen_values = true)]
     pub(crate) re_above: Option<f64>,
 
     /// File to write: .json for all, .csv or .npz for the growth exponents; `-` is JSON on standard

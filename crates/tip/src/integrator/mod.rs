@@ -160,7 +160,10 @@ impl<'a> Integrator<'a> {
                     self.work.rejected += 1;
                     h = shorter;
                 }
-                Err(Retry::ToKnot(shorter)) => h = shorter,
+                // A step that round-off keeps from becoming shorter would be tried for ever.
+                Err(Retry::ToKnot(shorter)) => {
+                    h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
+                }
             }
         }
     }
@@ -204,15 +207,22 @@ impl<'a> Integrator<'a> {
 
     /// The fraction of the step at which the tip leaves the stretch, if it does.
     fn leaves(&self, stretch: &Stretch, displacement: &Stages) -> Option<f64> {
-        let x = self.position();
-        let (low, high) = (stretch.low - x, stretch.high - x);
-        let outside = |d: f64| d < low - stretch.slack || d > high + stretch.slack;
+        let (x, slack) = (self.position(), stretch.slack);
+        // A tip that already stands beyond an end, within the slack, has its end where it stands.
+        let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
+        let outside = |d: f64| d < low - slack || d > high + slack;
         let at = |tau: f64| RADAU.value(displacement, tau);
         let after = (0..STAGES).find(|&i| outside(displacement[i]))?;
-        let before = if after == 0 { 0.0 } else { RADAU.c[after - 1] };
-        let knot = if displacement[after] > high { high } else { low };
+        // Nearer than where the tip is found outside, farther than where it starts: the sign changes
+        // between the two, whatever the nodes between them do.
+        let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
+            (true, true, _) => high,
+            (true, false, _) => 0.5 * slack,
+            (false, _, true) => low,
+            (false, _, false) => -0.5 * slack,
+        };
         let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
-        Some(bisect(beyond, before, RADAU.c[after]))
+        Some(bisect(beyond, 0.0, RADAU.c[after]))
     }
 
     /// Defect of the stage polynomial at the start of the step, where the true velocity is known from

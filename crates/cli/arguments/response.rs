@@ -1,6 +1,6 @@
 //! `stickslip response`.
 
-use super::ModelArguments;
+use super::{ModelArguments, SamplingArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -40,25 +40,8 @@ pub(crate) struct ResponseArguments {
     )]
     pub(crate) start_position: f64,
 
-    /// Sample every DT [default: 2,000 intervals].
-    #[arg(
-        long,
-        value_name = "DT",
-        conflicts_with = "sample_at",
-        allow_hyphen_values = true,
-        help_heading = "Output"
-    )]
-    pub(crate) sample_every: Option<f64>,
-
-    /// Sample at these times.
-    #[arg(
-        long,
-        value_name = "T1,T2,…",
-        value_delimiter = ',',
-        allow_hyphen_values = true,
-        help_heading = "Output"
-    )]
-    pub(crate) sample_at: Option<Vec<f64>>,
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArguments,
 
     /// File to write: .json for all, .csv for the samples, .npz for samples and modes; `-` is JSON on
     /// standard output.

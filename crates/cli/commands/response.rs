@@ -4,7 +4,7 @@ use super::figure::Figure;
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::parse_pulse;
-use super::run::samples::{Sampling, times};
+use super::run::samples::times;
 use crate::arguments::ResponseArguments;
 use crate::documents::{
     FORMAT_VERSION, ModeDocument, ModelParameters, PulseParameters, ResponseDocument,
@@ -63,9 +63,7 @@ impl Asked {
             let message = format!("the samples start at t = {start}: it must be after that");
             return Err(Failure::input(format!("--until {}", Typed(until)), message));
         }
-        let sampling =
-            Sampling { every: arguments.sample_every, at: arguments.sample_at.as_deref() };
-        let times = times(&sampling, (start, until), "the response")?;
+        let times = times(&arguments.sampling, (start, until), "the response")?;
         let origin = pulses.iter().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
         Ok(Self { model, pulses, times, origin })
     }

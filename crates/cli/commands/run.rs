@@ -4,6 +4,7 @@ pub(crate) mod document;
 mod limits;
 pub(crate) mod samples;
 
+use super::figure::Figure;
 use super::model::model;
 use super::progress::Progress;
 use crate::arguments::{MemoryName, RunArguments, StartName};
@@ -13,13 +14,12 @@ use crate::files::input::read_columns;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
-use crate::plot::{self, PlotFormat};
+use crate::plot;
 use document::Inputs;
 use limits::within_range;
-use samples::Sampling;
 use std::ops::ControlFlow;
 use std::time::Instant;
-use stickslip_surface::Surface;
+use stickslip_surface::{Surface, SurfaceError};
 use stickslip_tip::{
     Force, MemoryChoice, Noise, Pulse, Run, RunError, Scenario, Start, run_observed,
 };
@@ -29,31 +29,25 @@ const DEFAULT_SEED: u64 = 1;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
-    let plot_format = arguments.plot.as_deref().map(plot_format).transpose()?;
     let inputs = read_inputs(arguments)?;
     let scenario = scenario(arguments, &inputs)?;
     within_range(arguments, &scenario)?;
     scenario.validate().map_err(|error| explain(&error, arguments))?;
-    let sampling = Sampling { every: arguments.sample_every, at: arguments.sample_at.as_deref() };
-    let times = samples::times(&sampling, (scenario.start_time(), scenario.until), "the run")?;
+    let span = (scenario.start_time(), scenario.until);
+    let times = samples::times(&arguments.sampling, span, "the run")?;
     let output = Output::open("--output", &arguments.output)?;
-    let plot = arguments.plot.as_deref().map(|path| Output::open("--plot", path)).transpose()?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
     let (finished, seconds, signal) = integrate(arguments, &scenario)?;
-    let document = document::of(arguments, &scenario, &inputs, &finished, &times, seconds)?;
+    let document = document::of(arguments, &scenario, &inputs, &finished, &times, seconds);
     write(&document, format, output)?;
     if arguments.output != std::path::Path::new("-") {
         eprintln!("{}", summary(&document));
     }
-    if let (Some(plot), Some(format)) = (plot, plot_format) {
-        plot.write_bytes(&draw(&document, &scenario, &finished, format)?)?;
+    if let Some(figure) = figure {
+        figure.write(&draw(&document, &scenario, &finished)?)?;
     }
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
-}
-
-fn plot_format(path: &std::path::Path) -> Result<PlotFormat, Failure> {
-    PlotFormat::of(path)
-        .map_err(|error| Failure::input(format!("--plot {}", path.display()), error))
 }
 
 fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
@@ -194,22 +188,16 @@ fn write(document: &RunDocument, format: OutputFormat, output: Output) -> Result
 /// Points of the drawn surface.
 const DRAWN_POINTS: usize = 4000;
 
-fn draw(
-    document: &RunDocument,
-    scenario: &Scenario,
-    run: &Run,
-    format: PlotFormat,
-) -> Result<Vec<u8>, Failure> {
-    let failed = |error: &dyn std::fmt::Display| Failure::Run(format!("cannot draw: {error}"));
-    let initial = scenario.initial_surface().map_err(|error| failed(&error))?;
+fn draw(document: &RunDocument, scenario: &Scenario, run: &Run) -> Result<String, Failure> {
+    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
     let (end, start) = (run.trajectory.end(), run.trajectory.start());
     let (low, high) = super::surface::default_range(&run.trajectory);
     let x = super::surface::evenly(low, high, DRAWN_POINTS);
-    let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
-    let u = surface.heights(end, &x).map_err(|error| failed(&error))?.to_vec();
-    let before = surface.heights(start, &x).map_err(|error| failed(&error))?.to_vec();
+    let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
+    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
+    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
     let title = title(document);
-    let svg = plot::run(&plot::RunFigure {
+    Ok(plot::run(&plot::RunFigure {
         title: &title,
         t: &document.samples.t,
         l: &document.samples.l,
@@ -220,8 +208,7 @@ fn draw(
         u: &u,
         u_initial: Some(&before),
         t_of_surface: end,
-    });
-    plot::encode(&svg, format).map_err(|error| failed(&error))
+    }))
 }
 
 fn title(document: &RunDocument) -> String {

@@ -1,5 +1,6 @@
 //! `stickslip surface`.
 
+use super::figure::Figure;
 use super::run::document;
 use crate::arguments::SurfaceArguments;
 use crate::documents::{
@@ -10,7 +11,7 @@ use crate::failure::{Failure, Typed};
 use crate::files::input::read_run;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::plot::{self, PlotFormat};
+use crate::plot;
 use stickslip_surface::Surface;
 use stickslip_tip::{InitialSurface, Model, Noise, Scenario, Start, Trajectory};
 
@@ -21,11 +22,6 @@ const MOST_POINTS: f64 = 2e7;
 
 pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
-    let plot_format = arguments.plot.as_deref().map(|path| {
-        PlotFormat::of(path)
-            .map_err(|error| Failure::input(format!("--plot {}", path.display()), error))
-    });
-    let plot_format = plot_format.transpose()?;
     let document = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(
@@ -39,12 +35,12 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let times = times(arguments, &trajectory)?;
     let x = positions(arguments, &trajectory, times.len())?;
     let output = Output::open("--output", &arguments.output)?;
-    let plot = arguments.plot.as_deref().map(|path| Output::open("--plot", path)).transpose()?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
     let curves = curves(arguments, &Surface::new(&model, &initial, &trajectory), &times, &x)?;
     let result = assemble(arguments, &document, curves);
-    if let (Some(plot), Some(format)) = (plot, plot_format) {
-        plot.write_bytes(&draw(&result, format)?)?;
+    if let Some(figure) = figure {
+        figure.write(&draw(&result))?;
     }
     write(&result, format, output)
 }
@@ -185,12 +181,11 @@ fn write(document: &SurfaceDocument, format: OutputFormat, output: Output) -> Re
     }
 }
 
-fn draw(document: &SurfaceDocument, format: PlotFormat) -> Result<Vec<u8>, Failure> {
+fn draw(document: &SurfaceDocument) -> String {
     let model = &document.parameters.model;
     let title = format!("α = {:.6}, r = {}", model.alpha, model.r);
     let label = |s: &SurfaceCurve| format!("t = {}", (s.t * 1e6).round() / 1e6);
     let curves: Vec<(String, &[f64], &[f64])> =
         document.surfaces.iter().map(|s| (label(s), s.x.as_slice(), s.u.as_slice())).collect();
-    let svg = plot::surface(&plot::SurfaceFigure { title: &title, curves: &curves });
-    plot::encode(&svg, format).map_err(|error| Failure::Run(format!("cannot draw: {error}")))
+    plot::surface(&plot::SurfaceFigure { title: &title, curves: &curves })
 }

@@ -91,9 +91,13 @@ impl<'a> Surface<'a> {
         if let Some(x) = x.iter().find(|x| !x.is_finite()) {
             return Err(SurfaceError::Position(*x));
         }
-        let (positions, weights) = self.trajectory.residence(t);
-        let sums = carved(self.model.tip(), &positions, &weights, x);
-        Ok(sums.mapv_into(|sum| -self.model.alpha() * sum))
+        Ok(self.carved_along(&self.trajectory.residence(t), x))
+    }
+
+    /// What a tip with this residence (positions, and times spent there) has carved at every x.
+    fn carved_along(&self, (positions, weights): &(Vec<f64>, Vec<f64>), x: &[f64]) -> Array1<f64> {
+        let sums = carved(self.model.tip(), positions, weights, x);
+        sums.mapv_into(|sum| -self.model.alpha() * sum)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The ripple that a periodic motion leaves far behind the tip.
 
 use crate::Surface;
+use ndarray::Array1;
 use stickslip_tip::{Oscillation, Trajectory};
 
 /// One wavelength of the surface left behind.
@@ -36,22 +37,28 @@ pub fn ripple_behind(
     if low < trajectory.x0(trajectory.start()) + reach {
         return None;
     }
-    let crest = extremum(surface, end, (low, high), 1.0)?;
-    let trough = -extremum(surface, end, (low, high), -1.0)?;
+    let residence = trajectory.residence(end);
+    let carved = |x: &[f64]| surface.carved_along(&residence, x);
+    // Several points per width of the footprint, so that no pit falls between them.
+    let per_width = oscillation.wavelength * surface.model.tip().band();
+    let points = POINTS.max(per_width.min(1e6) as usize);
+    let crest = extremum(carved, (low, high), points, 1.0)?;
+    let trough = -extremum(carved, (low, high), points, -1.0)?;
     Some(Ripple { amplitude: 0.5 * (crest - trough), crest, trough })
 }
 
-/// Largest value of `sign` · u∞ in the range.
-fn extremum(surface: &Surface, t: f64, range: (f64, f64), sign: f64) -> Option<f64> {
-    let (mut low, mut high) = range;
-    // Several points per width of the footprint, so that no pit falls between them.
-    let per_width = (high - low) * surface.model.tip().band();
-    let mut points = POINTS.max(per_width.min(1e6) as usize);
+/// Largest value of `sign` · u∞ in the range, looked for on so many points and then closer by.
+fn extremum(
+    carved: impl Fn(&[f64]) -> Array1<f64>,
+    (mut low, mut high): (f64, f64),
+    mut points: usize,
+    sign: f64,
+) -> Option<f64> {
     let mut best = f64::NEG_INFINITY;
     for _ in 0..=REFINEMENTS {
         let spacing = (high - low) / (points - 1) as f64;
         let x: Vec<f64> = (0..points).map(|i| low + spacing * i as f64).collect();
-        let u = surface.far_behind(t, &x).ok()?;
+        let u = carved(&x);
         let (i, value) =
             u.iter().map(|u| sign * u).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         best = best.max(value);

@@ -124,6 +124,8 @@ const NOISE_BEYOND: f64 = 30.0;
 /// A finished run.
 #[derive(Debug, Clone)]
 pub struct Run {
+    /// u0(x), what the tip found at the start.
+    pub initial_surface: InitialSurface,
     /// x0(t) at every t of the run.
     pub trajectory: Trajectory,
     /// Its regime and oscillation.
@@ -277,7 +279,9 @@ pub fn run_observed(
     let outcome = classify(&trajectory, &scenario.model, scenario.tolerance);
     let (work, memory) = (integrator.work(), integrator.memory().name());
     let memory_reason = scenario.memory.reason(integrator.memory());
-    Ok(Run { trajectory, outcome, work, memory, memory_reason, interrupted })
+    drop(integrator);
+    let initial_surface = surface;
+    Ok(Run { initial_surface, trajectory, outcome, work, memory, memory_reason, interrupted })
 }
 
 impl MemoryChoice {

@@ -7,7 +7,6 @@ use crate::documents::{
     Profile, PulseParameters, RegimeName, RunDocument, RunParameters, Samples, Software,
     SteadyState, WorkDocument,
 };
-use crate::failure::Failure;
 use crate::files::input::Columns;
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{Pulse, Regime, Run, Scenario, Step, Trajectory, nodes_and_weights};
@@ -27,10 +26,10 @@ pub(super) fn of(
     run: &Run,
     times: &[f64],
     seconds: f64,
-) -> Result<RunDocument, Failure> {
+) -> RunDocument {
     let model = &scenario.model;
     let behind = model.steady_surface_behind();
-    Ok(RunDocument {
+    RunDocument {
         format: RunDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
@@ -48,7 +47,7 @@ pub(super) fn of(
             Regime::Trapped => RegimeName::Trapped,
             Regime::Transient => RegimeName::Transient,
         },
-        oscillation: oscillation(scenario, run)?,
+        oscillation: oscillation(scenario, run),
         interrupted: run.interrupted,
         work: WorkDocument {
             memory: run.memory.into(),
@@ -58,7 +57,7 @@ pub(super) fn of(
             newton_iterations: run.work.newton_iterations,
             seconds,
         },
-    })
+    }
 }
 
 fn parameters(arguments: &RunArguments, scenario: &Scenario, inputs: &Inputs) -> RunParameters {
@@ -106,19 +105,18 @@ fn history(trajectory: &Trajectory) -> History {
     }
 }
 
-fn oscillation(scenario: &Scenario, run: &Run) -> Result<Option<OscillationDocument>, Failure> {
-    let Some(o) = run.outcome.oscillation else { return Ok(None) };
-    let initial = scenario.initial_surface().map_err(|error| Failure::Run(error.to_string()))?;
-    let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
+fn oscillation(scenario: &Scenario, run: &Run) -> Option<OscillationDocument> {
+    let o = run.outcome.oscillation?;
+    let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
     let ripple = ripple_behind(&surface, &run.trajectory, &o);
-    Ok(Some(OscillationDocument {
+    Some(OscillationDocument {
         period: o.period,
         wavelength: o.wavelength,
         amplitude_x0: o.amplitude_x0,
         amplitude_u: ripple.map(|ripple| ripple.amplitude),
         slips: o.slips,
         drift: o.drift,
-    }))
+    })
 }
 
 /// The trajectory that a document holds.

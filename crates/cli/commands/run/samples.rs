@@ -1,36 +1,28 @@
 //! The times at which a motion is sampled.
 
+use crate::arguments::SamplingArguments;
 use crate::failure::{Failure, Typed};
 
 const DEFAULT_INTERVALS: usize = 2000;
 /// Four columns of these are 1.3 GB, and four times as much as JSON.
 const MOST_SAMPLES: f64 = 4e7;
 
-/// The options of the samples.
-#[derive(Debug)]
-pub(crate) struct Sampling<'a> {
-    /// --sample-every
-    pub(crate) every: Option<f64>,
-    /// --sample-at
-    pub(crate) at: Option<&'a [f64]>,
-}
-
 /// The times asked for, all between the start and the end of `what`.
 pub(crate) fn times(
-    sampling: &Sampling,
+    sampling: &SamplingArguments,
     (start, end): (f64, f64),
     what: &str,
 ) -> Result<Vec<f64>, Failure> {
-    if let Some(times) = sampling.at {
+    if let Some(times) = &sampling.sample_at {
         return match times.iter().find(|t| !(start..=end).contains(*t)) {
-            None => Ok(times.to_vec()),
+            None => Ok(times.clone()),
             Some(t) => Err(Failure::input(
                 format!("--sample-at {}", Typed(*t)),
                 format!("outside of {what}, which lasts from {start} to {end}"),
             )),
         };
     }
-    let Some(every) = sampling.every else {
+    let Some(every) = sampling.sample_every else {
         return Ok(evenly_to(
             start,
             end,

@@ -12,12 +12,12 @@ const WITHIN: f64 = 0.1;
 /// Whether the tip creeps as a trapped tip must: α/r is above the threshold, l has only risen for the
 /// last half of the run, and 1/x0' = p (t - const) grows at one of the rates p that solve (10).
 pub(super) fn is_trapped(trajectory: &Trajectory, model: &Model, extrema: &Extrema) -> bool {
-    let Some((shallow, steep)) = creep_rates(model) else { return false };
     let (start, end) = (trajectory.start(), trajectory.end());
     let since = extrema.latest_first.first().map_or(start, |e| e.t.max(start));
     if since > 0.5 * (start + end) || trajectory.velocity(end) >= model.r() {
         return false;
     }
+    let Some((shallow, steep)) = creep_rates(model) else { return false };
     let earlier = end - MEASURED_SHARE * (end - since);
     let (now, then) = (1.0 / trajectory.velocity(end), 1.0 / trajectory.velocity(earlier));
     let rate = (now - then) / (end - earlier);

@@ -1,7 +1,7 @@
 //! Maxima and minima of l(t), looked for from the end of a run backwards.
 
 use crate::collocation::{RADAU, apply};
-use crate::roots::bisect;
+use crate::roots::zero_between;
 use crate::{Step, Trajectory};
 
 /// A time and the value of l there.
@@ -43,14 +43,14 @@ impl Extrema {
 
 /// Where l' = r - x0' changes sign between collocation nodes of the step.
 fn turning_points(trajectory: &Trajectory, step: &Step) -> Vec<Extremum> {
-    let l_slope = |tau: f64| trajectory.r() - RADAU.slope(&step.displacement, tau) / step.h;
     let at_nodes = apply(&RADAU.derivative, &step.displacement);
+    let l_slope = |tau: f64| trajectory.r() - RADAU.between(&at_nodes, tau) / step.h;
     let mut before = (0.0, l_slope(0.0));
     let mut found = vec![];
     for (c, moving) in RADAU.c.iter().zip(at_nodes) {
         let after = (*c, trajectory.r() - moving / step.h);
         if before.1 * after.1 < 0.0 {
-            let tau = bisect(l_slope, before.0, after.0);
+            let tau = zero_between(l_slope, before.0, after.0);
             let t = step.t + tau * step.h;
             found.push(Extremum { t, l: trajectory.l(t), is_maximum: before.1 > 0.0 });
         }

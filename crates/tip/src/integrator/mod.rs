@@ -5,6 +5,7 @@
 //! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
 
 mod control;
+mod saved;
 mod stage_equations;
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
@@ -45,7 +46,7 @@ pub enum IntegrationError {
     },
     /// The tip came back to where it had been so long ago that the memory no longer knows it.
     #[error(
-        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory fft, which keeps all"
+        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
     )]
     Forgotten {
         /// Time reached.

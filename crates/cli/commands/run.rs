@@ -133,7 +133,9 @@ fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
             let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
             format!("--initial-surface {}", path.display())
         }
-        RunError::Integration(_) => return Failure::Run(error.to_string()),
+        RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
+            return Failure::Run(error.to_string());
+        }
     };
     Failure::input(option, error)
 }

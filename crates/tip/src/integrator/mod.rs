@@ -6,6 +6,7 @@
 
 mod control;
 mod linear_system;
+mod saved;
 mod stage_equations;
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
@@ -47,7 +48,7 @@ pub enum IntegrationError {
     },
     /// The tip came back to where it had been so long ago that the memory no longer knows it.
     #[error(
-        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory fft, which keeps all"
+        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
     )]
     Forgotten {
         /// Time reached.

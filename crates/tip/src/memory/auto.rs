@@ -3,6 +3,7 @@
 use super::{Direct, Fft, Memory};
 use crate::TipFunction;
 use crate::collocation::Stages;
+use crate::state::{Damaged, Reader, State};
 
 /// `direct` while few nodes lie within reach of the tip, `fft` from then on.
 ///
@@ -55,6 +56,39 @@ impl Memory for Auto {
         match &self.now {
             Now::Direct(memory) => memory.name(),
             Now::Fft(memory) => memory.name(),
+        }
+    }
+
+    fn save(&self, state: &mut State) {
+        match &self.now {
+            Now::Direct(memory) => {
+                state.flag(false);
+                memory.save(state);
+            }
+            Now::Fft(memory) => {
+                state.flag(true);
+                memory.save(state);
+            }
+        }
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        if state.flag()? {
+            let mut fft = Box::new(Fft::new(self.tip.clone()));
+            fft.restore(state)?;
+            self.now = Now::Fft(fft);
+            return Ok(());
+        }
+        let mut direct = Direct::new(self.tip.clone());
+        direct.restore(state)?;
+        self.now = Now::Direct(direct);
+        Ok(())
+    }
+
+    fn forgotten(&self) -> Option<f64> {
+        match &self.now {
+            Now::Direct(memory) => memory.forgotten(),
+            Now::Fft(memory) => memory.forgotten(),
         }
     }
 

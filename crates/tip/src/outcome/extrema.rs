@@ -1,8 +1,10 @@
-//! Maxima and minima of l(t), looked for from the end of a run backwards.
+//! Maxima and minima of l(t), the latest of them.
 
+use crate::Step;
 use crate::collocation::{RADAU, apply};
 use crate::roots::zero_between;
-use crate::{Step, Trajectory};
+use crate::state::{Damaged, Reader, State};
+use std::collections::VecDeque;
 
 /// A time and the value of l there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,51 +12,82 @@ pub(super) struct Extremum {
     pub(super) t: f64,
     pub(super) l: f64,
     pub(super) is_maximum: bool,
+    /// Start of the step that it lies in.
+    pub(super) step: f64,
 }
 
-/// The extrema of l, latest first.
-#[derive(Debug, Clone)]
+/// The latest extrema of l, in order.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Extrema {
-    pub(super) latest_first: Vec<Extremum>,
+    latest: VecDeque<Extremum>,
 }
 
 /// So many are enough to compare three cycles of up to eight slips.
 const MOST: usize = 64;
 
 impl Extrema {
-    pub(super) fn at_the_end_of(trajectory: &Trajectory) -> Self {
-        let mut latest_first = vec![];
-        for step in trajectory.steps().iter().rev() {
-            let mut here = turning_points(trajectory, step);
-            here.reverse();
-            latest_first.extend(here);
-            if latest_first.len() >= MOST {
-                break;
-            }
+    /// Adds those of a step; says whether there were any.
+    pub(super) fn observe(&mut self, step: &Step, r: f64) -> bool {
+        let before = self.latest.len();
+        turning_points(step, r, |extremum| self.latest.push_back(extremum));
+        let found = self.latest.len() > before;
+        while self.latest.len() > MOST {
+            self.latest.pop_front();
         }
-        Self { latest_first }
+        found
     }
 
-    /// The maxima, latest first.
-    pub(super) fn maxima(&self) -> Vec<Extremum> {
-        self.latest_first.iter().filter(|e| e.is_maximum).copied().collect()
+    /// Forgets those of steps before t.
+    pub(super) fn forget_before(&mut self, t: f64) {
+        while self.latest.front().is_some_and(|e| e.step < t) {
+            self.latest.pop_front();
+        }
+    }
+
+    /// The earliest one kept, if as many are kept as are needed.
+    pub(super) fn earliest_needed(&self) -> Option<Extremum> {
+        self.latest.front().filter(|_| self.latest.len() == MOST).copied()
+    }
+
+    /// The latest one.
+    pub(super) fn last(&self) -> Option<Extremum> {
+        self.latest.back().copied()
+    }
+
+    /// All that are kept, latest first.
+    pub(super) fn latest_first(&self) -> impl Iterator<Item = &Extremum> + Clone {
+        self.latest.iter().rev()
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        state.count(self.latest.len() as u64);
+        for e in &self.latest {
+            [e.t, e.l, e.step].into_iter().for_each(|number| state.number(number));
+            state.flag(e.is_maximum);
+        }
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        let one = |state: &mut Reader| {
+            let (t, l, step) = (state.finite()?, state.finite()?, state.finite()?);
+            Ok(Extremum { t, l, is_maximum: state.flag()?, step })
+        };
+        self.latest = (0..state.length(4)?).map(|_| one(state)).collect::<Result<_, _>>()?;
+        Ok(())
     }
 }
 
 /// Where l' = r - x0' changes sign between collocation nodes of the step.
-fn turning_points(trajectory: &Trajectory, step: &Step) -> Vec<Extremum> {
+fn turning_points(step: &Step, r: f64, mut found: impl FnMut(Extremum)) {
     let at_nodes = apply(&RADAU.derivative, &step.displacement);
-    let l_slope = |tau: f64| trajectory.r() - RADAU.between(&at_nodes, tau) / step.h;
+    let l_slope = |tau: f64| r - RADAU.between(&at_nodes, tau) / step.h;
     let mut before = (0.0, l_slope(0.0));
-    let mut found = vec![];
     for (c, moving) in RADAU.c.iter().zip(at_nodes) {
-        let after = (*c, trajectory.r() - moving / step.h);
+        let after = (*c, r - moving / step.h);
         if before.1 * after.1 < 0.0 {
-            let tau = zero_between(l_slope, before.0, after.0);
-            let t = step.t + tau * step.h;
-            found.push(Extremum { t, l: trajectory.l(t), is_maximum: before.1 > 0.0 });
+            let t = step.t + zero_between(l_slope, before.0, after.0) * step.h;
+            found(Extremum { t, l: step.l(r, t), is_maximum: before.1 > 0.0, step: step.t });
         }
         before = after;
     }
-    found
 }

@@ -31,7 +31,7 @@ const CYCLES: usize = 3;
 impl Oscillation {
     /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
     pub(super) fn of(trajectory: &Trajectory, extrema: &Extrema) -> Option<Self> {
-        let maxima = extrema.maxima();
+        let maxima: Vec<_> = extrema.latest_first().filter(|e| e.is_maximum).copied().collect();
         (1..=MOST_SLIPS).find_map(|slips| Self::with_slips(trajectory, extrema, &maxima, slips))
     }
 
@@ -43,7 +43,7 @@ impl Oscillation {
     ) -> Option<Self> {
         let compared = maxima.get(..CYCLES * slips + 1)?;
         let (last, before) = (compared[0], compared[slips]);
-        let cycle = extrema.latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
+        let cycle = extrema.latest_first().filter(|e| e.t > before.t && e.t <= last.t);
         let (low, high) = cycle.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| {
             (low.min(e.l), high.max(e.l))
         });
@@ -73,7 +73,7 @@ fn last_rise_through(
     level: f64,
     t: f64,
 ) -> Option<f64> {
-    let earlier: Vec<_> = extrema.latest_first.iter().filter(|e| e.t <= t).collect();
+    let earlier: Vec<_> = extrema.latest_first().filter(|e| e.t <= t).collect();
     let rise = earlier.windows(2).find(|e| e[0].l > level && e[1].l <= level)?;
     Some(zero_between(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
 }

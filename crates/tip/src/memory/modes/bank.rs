@@ -1,5 +1,7 @@
 //! The state of the sum: one complex number per term, `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'`.
 
+mod saved;
+
 use super::fit::{Fit, Term};
 use crate::collocation::{STAGES, Stages};
 

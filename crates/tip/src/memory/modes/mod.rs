@@ -15,6 +15,7 @@ pub use fit::{Fit, FitError, Term};
 use super::{Fft, Memory};
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
+use crate::state::{Damaged, Reader, State};
 use bank::{Bank, LocalGroove};
 use past::Past;
 use std::sync::Arc;
@@ -157,6 +158,31 @@ impl Memory for Modes {
 
     fn name(&self) -> &'static str {
         "modes"
+    }
+
+    fn save(&self, state: &mut State) {
+        self.bank.save(state);
+        state.number(self.farthest);
+        self.past.save(state);
+        state.count(self.retreats);
+        state.flag(self.forgotten);
+        state.flag(self.fft.is_some());
+        self.fft.iter().for_each(|fft| fft.save(state));
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.bank.restore(state)?;
+        self.groove.forget();
+        self.farthest = state.number()?;
+        self.past.restore(state)?;
+        (self.retreats, self.forgotten) = (state.count()?, state.flag()?);
+        self.fft = None;
+        if state.flag()? {
+            let mut fft = Box::new(Fft::new(self.tip.clone()));
+            fft.restore(state)?;
+            self.fft = Some(fft);
+        }
+        Ok(())
     }
 
     fn note(&self) -> Option<String> {

@@ -6,6 +6,8 @@
 //! wave in f: the coefficients beyond degree 15 are below 6e-9 of that wave, which itself is below round-off,
 //! and below round-off for all that are longer.
 
+mod saved;
+
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
 use std::collections::VecDeque;

@@ -1,6 +1,6 @@
 //! The record, written down and taken up again.
 
-use super::{BINS_PER_ORIGIN, Bin, MOMENTS, MOST_BINS, MOST_NODES, Past};
+use super::{BINS_PER_ORIGIN, MOMENTS, MOST_BINS, MOST_NODES, Past};
 use crate::state::{Damaged, Reader, State};
 
 impl Past {
@@ -26,7 +26,7 @@ impl Past {
         self.nodes.clear();
         self.nodes.extend(nodes);
         self.bins.clear();
-        self.bins.extend(bins.iter().copied().map(Bin::from));
+        self.bins.extend(bins);
         Ok(())
     }
 }

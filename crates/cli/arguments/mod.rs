@@ -12,7 +12,7 @@ mod units;
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
-pub(crate) use run::{MemoryName, RunArguments, StartName};
+pub(crate) use run::{HistoryName, MemoryName, RunArguments, RunFormat, StartName};
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;

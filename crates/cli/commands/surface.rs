@@ -1,10 +1,10 @@
 //! `stickslip surface`.
 
 use super::figure::Figure;
-use super::run::document;
+use super::run::{document, parameters};
 use crate::arguments::SurfaceArguments;
 use crate::documents::{
-    FORMAT_VERSION, RunDocument, RunParameters, Software, SurfaceCurve, SurfaceDocument,
+    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument,
     SurfaceParameters,
 };
 use crate::failure::{Failure, Typed};
@@ -13,7 +13,7 @@ use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
 use stickslip_surface::Surface;
-use stickslip_tip::{InitialSurface, Model, Noise, Scenario, Start, Trajectory};
+use stickslip_tip::Trajectory;
 
 const DEFAULT_SPACING: f64 = 0.05;
 /// Shown on either side of the tip's way.
@@ -31,7 +31,8 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     let model = document.parameters.model.model().map_err(damaged)?;
     let trajectory = document::trajectory(&document).map_err(damaged)?;
-    let initial = initial_surface(&document.parameters, &model).map_err(damaged)?;
+    let scenario = parameters::scenario(&document.parameters).map_err(damaged)?;
+    let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let times = times(arguments, &trajectory)?;
     let x = positions(arguments, &trajectory, times.len())?;
     let output = Output::open("--output", &arguments.output)?;
@@ -55,27 +56,6 @@ pub(crate) fn default_range(trajectory: &Trajectory) -> (f64, f64) {
 pub(crate) fn evenly(low: f64, high: f64, n: usize) -> Vec<f64> {
     let spacing = (high - low) / (n.max(2) - 1) as f64;
     (0..n).map(|i| low + spacing * i as f64).collect()
-}
-
-fn initial_surface(parameters: &RunParameters, model: &Model) -> Result<InitialSurface, String> {
-    let scenario = Scenario {
-        start: match parameters.start {
-            crate::arguments::StartName::Steady => Start::Steady,
-            crate::arguments::StartName::Flat => Start::Flat,
-        },
-        start_position: parameters.start_position,
-        kick: parameters.kick,
-        noise: parameters.noise.as_ref().map(|noise| Noise {
-            amplitude: noise.amplitude,
-            spacing: noise.spacing,
-            seed: noise.seed,
-        }),
-        profile: parameters.initial_surface.clone().map(|profile| (profile.x, profile.u)),
-        tolerance: parameters.tolerance,
-        ..Scenario::new(model.clone(), parameters.until)
-    };
-    scenario.validate().map_err(|error| error.to_string())?;
-    scenario.initial_surface().map_err(|error| error.to_string())
 }
 
 fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f64>, Failure> {

@@ -1,9 +1,11 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod checkpoint;
 mod model;
 mod response;
 mod run;
+mod run_lines;
 mod stability;
 mod surface;
 mod units;
@@ -11,12 +13,14 @@ mod units;
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
+pub(crate) use checkpoint::{CheckpointHead, Order};
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
     RegimeName, RunDocument, RunParameters, Samples, SteadyState, WorkDocument,
 };
+pub(crate) use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub(crate) use stability::{
     CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
     StabilityParameters, TrappingDocument,
@@ -51,6 +55,8 @@ impl Software {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SchemaName {
     Run,
+    RunLines,
+    Checkpoint,
     Surface,
     Stability,
     Boundary,
@@ -62,6 +68,8 @@ impl SchemaName {
     pub(crate) fn schema(self) -> Schema {
         match self {
             Self::Run => schema_for!(RunDocument),
+            Self::RunLines => schema_for!(RunLine),
+            Self::Checkpoint => schema_for!(CheckpointHead),
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),

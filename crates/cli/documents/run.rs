@@ -21,8 +21,8 @@ pub(crate) struct RunDocument {
     pub(crate) steady_state: SteadyState,
     /// l, x0 and x0' at the times asked for.
     pub(crate) samples: Samples,
-    /// The dense history.
-    pub(crate) history: History,
+    /// The dense history; null where it was not asked for.
+    pub(crate) history: Option<History>,
     /// The kind of motion at the end of the run.
     pub(crate) regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.

@@ -1,5 +1,7 @@
 //! Files that come in and go out.
 
 pub(crate) mod input;
+pub(crate) mod journal;
 pub(crate) mod npz;
 pub(crate) mod output;
+pub(crate) mod stream;

@@ -110,6 +110,12 @@ impl Classifier {
         }
     }
 
+    /// The latest step.
+    #[must_use]
+    pub fn last(&self) -> Option<Step> {
+        self.span.map(|(_, last)| last)
+    }
+
     /// The last steps; `None` before the first.
     #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {

@@ -78,6 +78,12 @@ impl<'a> Running<'a> {
         Ok(Some(step))
     }
 
+    /// The last step made.
+    #[must_use]
+    pub fn last(&self) -> Option<Step> {
+        self.classifier.last()
+    }
+
     /// Time reached.
     #[must_use]
     pub fn t(&self) -> f64 {

@@ -26,7 +26,7 @@ impl Past {
         self.nodes.clear();
         self.nodes.extend(nodes);
         self.bins.clear();
-        self.bins.extend(bins.iter().copied());
+        self.bins.extend(bins);
         Ok(())
     }
 }

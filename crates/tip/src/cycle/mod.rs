@@ -39,6 +39,7 @@ use crate::{Model, Trajectory};
 use embedding::Embedding;
 use num_complex::Complex;
 use orbit::Orbit;
+use ripple::Ripple;
 use solve::{Closed, Condition, close};
 
 /// Residuals of (18) that can be asked for.
@@ -171,7 +172,18 @@ impl Cycle {
     /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a.
     #[must_use]
     pub fn amplitude_u(&self) -> f64 {
-        ripple::Ripple::new(self.model.tip(), self.model.alpha(), &self.motion).amplitude()
+        self.ripple().amplitude()
+    }
+
+    /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion).
+    #[must_use]
+    pub fn surface_behind(&self, x: &[f64]) -> Vec<f64> {
+        let ripple = self.ripple();
+        x.iter().map(|x| ripple.height(*x)).collect()
+    }
+
+    fn ripple(&self) -> Ripple {
+        Ripple::new(self.model.tip(), self.model.alpha(), &self.motion)
     }
 
     /// Smallest and largest l.

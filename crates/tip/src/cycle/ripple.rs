@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone)]
 pub(super) struct Ripple {
     wavelength: f64,
+    /// That of k = 0.
+    mean: f64,
     /// Coefficients of `e^{i q_k x}`, k ≥ 1; those of -k are their conjugates.
     coefficients: Vec<Complex<f64>>,
 }
@@ -31,7 +33,13 @@ impl Ripple {
             let spent: Complex<f64> = positions.iter().zip(&weights).map(at).sum();
             spent * (-alpha / wavelength * tip.fourier(q))
         };
-        Self { wavelength, coefficients: (1..=harmonics).map(coefficient).collect() }
+        let mean = coefficient(0).re;
+        Self { wavelength, mean, coefficients: (1..=harmonics).map(coefficient).collect() }
+    }
+
+    /// u(x).
+    pub(super) fn height(&self, x: f64) -> f64 {
+        self.mean + self.at(x).0
     }
 
     /// u less its mean, its slope and its curvature.

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod checkpoint;
+mod cycle;
 mod model;
 mod response;
 mod run;
@@ -14,6 +15,7 @@ pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
 pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
@@ -61,6 +63,7 @@ pub(crate) enum SchemaName {
     Stability,
     Boundary,
     Response,
+    Cycle,
     Units,
 }
 
@@ -74,6 +77,7 @@ impl SchemaName {
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
+            Self::Cycle => schema_for!(CycleDocument),
             Self::Units => schema_for!(UnitsDocument),
         }
     }

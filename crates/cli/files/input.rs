@@ -3,6 +3,7 @@
 use crate::documents::{FORMAT_VERSION, RunDocument};
 use crate::failure::Failure;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -119,16 +120,26 @@ struct Kind {
 
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
-    let text = read_text("RUN.json", path, LARGEST_DOCUMENT)?;
-    let refused = |message: String| Failure::input(format!("RUN.json {}", path.display()), message);
+    read_document("RUN.json", path, RunDocument::FORMAT)
+}
+
+/// A document of this format, that of a command of the same name.
+pub(crate) fn read_document<D: DeserializeOwned>(
+    option: &str,
+    path: &Path,
+    wanted: &str,
+) -> Result<D, Failure> {
+    let text = read_text(option, path, LARGEST_DOCUMENT)?;
+    let refused = |message: String| Failure::input(format!("{option} {}", path.display()), message);
     let kind: Kind = serde_json::from_str(&text).map_err(|error| {
+        let command = wanted.replace('/', " ");
         refused(format!(
-            "not a whole JSON document ({error}); write it again with `stickslip run -o FILE.json`"
+            "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
         ))
     })?;
     match (kind.format.as_deref(), kind.format_version) {
-        (Some(RunDocument::FORMAT), Some(FORMAT_VERSION)) => {}
-        (Some(RunDocument::FORMAT), version) => {
+        (Some(format), Some(FORMAT_VERSION)) if format == wanted => {}
+        (Some(format), version) if format == wanted => {
             let found = version.map_or("none".into(), |v| v.to_string());
             return Err(refused(format!(
                 "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
@@ -136,10 +147,7 @@ pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
         }
         (format, _) => {
             let found = format.unwrap_or("missing");
-            return Err(refused(format!(
-                "format is {found}, \"{}\" is needed",
-                RunDocument::FORMAT
-            )));
+            return Err(refused(format!("format is {found}, \"{wanted}\" is needed")));
         }
     }
     serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))

@@ -1,24 +1,24 @@
 //! Maxima and minima of l(t), the latest of them.
 
-use crate::Step;
 use crate::collocation::{RADAU, apply};
 use crate::roots::zero_between;
 use crate::state::{Damaged, Reader, State};
+use crate::{Step, Trajectory};
 use std::collections::VecDeque;
 
 /// A time and the value of l there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extremum {
-    pub(super) t: f64,
-    pub(super) l: f64,
-    pub(super) is_maximum: bool,
+pub(crate) struct Extremum {
+    pub(crate) t: f64,
+    pub(crate) l: f64,
+    pub(crate) is_maximum: bool,
     /// Start of the step that it lies in.
-    pub(super) step: f64,
+    pub(crate) step: f64,
 }
 
 /// The latest extrema of l, in order.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Extrema {
+pub(crate) struct Extrema {
     latest: VecDeque<Extremum>,
 }
 
@@ -26,8 +26,16 @@ pub(super) struct Extrema {
 const MOST: usize = 64;
 
 impl Extrema {
+    pub(crate) fn at_the_end_of(trajectory: &Trajectory) -> Self {
+        let mut extrema = Self::default();
+        for step in trajectory.steps() {
+            extrema.observe(step, trajectory.r());
+        }
+        extrema
+    }
+
     /// Adds those of a step; says whether there were any.
-    pub(super) fn observe(&mut self, step: &Step, r: f64) -> bool {
+    pub(crate) fn observe(&mut self, step: &Step, r: f64) -> bool {
         let before = self.latest.len();
         turning_points(step, r, |extremum| self.latest.push_back(extremum));
         let found = self.latest.len() > before;
@@ -38,28 +46,33 @@ impl Extrema {
     }
 
     /// Forgets those of steps before t.
-    pub(super) fn forget_before(&mut self, t: f64) {
+    pub(crate) fn forget_before(&mut self, t: f64) {
         while self.latest.front().is_some_and(|e| e.step < t) {
             self.latest.pop_front();
         }
     }
 
     /// The earliest one kept, if as many are kept as are needed.
-    pub(super) fn earliest_needed(&self) -> Option<Extremum> {
+    pub(crate) fn earliest_needed(&self) -> Option<Extremum> {
         self.latest.front().filter(|_| self.latest.len() == MOST).copied()
     }
 
     /// The latest one.
-    pub(super) fn last(&self) -> Option<Extremum> {
+    pub(crate) fn last(&self) -> Option<Extremum> {
         self.latest.back().copied()
     }
 
+    /// The maxima, latest first.
+    pub(crate) fn maxima(&self) -> Vec<Extremum> {
+        self.latest_first().filter(|e| e.is_maximum).copied().collect()
+    }
+
     /// All that are kept, latest first.
-    pub(super) fn latest_first(&self) -> impl Iterator<Item = &Extremum> + Clone {
+    pub(crate) fn latest_first(&self) -> impl Iterator<Item = &Extremum> + Clone {
         self.latest.iter().rev()
     }
 
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.count(self.latest.len() as u64);
         for e in &self.latest {
             [e.t, e.l, e.step].into_iter().for_each(|number| state.number(number));
@@ -67,7 +80,7 @@ impl Extrema {
         }
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let one = |state: &mut Reader| {
             let (t, l, step) = (state.finite()?, state.finite()?, state.finite()?);
             Ok(Extremum { t, l, is_maximum: state.flag()?, step })

@@ -31,7 +31,7 @@ const CYCLES: usize = 3;
 impl Oscillation {
     /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
     pub(super) fn of(trajectory: &Trajectory, extrema: &Extrema) -> Option<Self> {
-        let maxima: Vec<_> = extrema.latest_first().filter(|e| e.is_maximum).copied().collect();
+        let maxima = extrema.maxima();
         (1..=MOST_SLIPS).find_map(|slips| Self::with_slips(trajectory, extrema, &maxima, slips))
     }
 

@@ -8,6 +8,7 @@ mod run;
 mod sampling;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
@@ -18,6 +19,7 @@ pub(crate) use run::{HistoryName, MemoryName, RunArguments, RunFormat, StartName
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
+pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
 
 use crate::documents::SchemaName;
@@ -42,6 +44,7 @@ const EXAMPLES: &str = "Examples:
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
+  stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip schema run
 
@@ -55,6 +58,7 @@ pub(crate) enum Command {
     Boundary(BoundaryArguments),
     Response(ResponseArguments),
     Cycle(CycleArguments),
+    Sweep(SweepArguments),
     Units(UnitsArguments),
     Schema(SchemaArguments),
 }

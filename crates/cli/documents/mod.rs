@@ -9,6 +9,7 @@ mod run;
 mod run_lines;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 
 pub(crate) use boundary::{
@@ -28,6 +29,7 @@ pub(crate) use stability::{
     StabilityParameters, TrappingDocument,
 };
 pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
@@ -40,7 +42,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The program that wrote a document.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Software {
     pub(crate) name: String,
@@ -64,6 +66,7 @@ pub(crate) enum SchemaName {
     Boundary,
     Response,
     Cycle,
+    Sweep,
     Units,
 }
 
@@ -78,6 +81,7 @@ impl SchemaName {
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
+            Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
         }
     }

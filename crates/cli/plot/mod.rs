@@ -25,6 +25,7 @@ mod run;
 mod sheet;
 mod style;
 mod surface;
+mod sweep;
 mod thin;
 
 pub(crate) use boundary::boundary;
@@ -36,3 +37,4 @@ pub(crate) use onset::onset;
 pub(crate) use roots::roots;
 pub(crate) use run::{RunFigure, run};
 pub(crate) use surface::{SurfaceFigure, surface};
+pub(crate) use sweep::{SweepKind, SweepMark, sweep};

@@ -3,13 +3,13 @@
 use super::journey::Travelled;
 use super::limits::FARTHEST;
 use crate::documents::{
-    FORMAT_VERSION, History, Order, OscillationDocument, RegimeName, RunDocument, RunEnd,
-    SampleLine, Samples, Software, SteadyState, WorkDocument,
+    FORMAT_VERSION, History, Order, OscillationDocument, RunDocument, RunEnd, SampleLine, Samples,
+    Software, SteadyState, WorkDocument,
 };
 use crate::failure::Failure;
 use stickslip_surface::{Ripple, Surface, ripple_behind};
 use stickslip_tip::{
-    InitialSurface, Model, Oscillation, Regime, Scenario, Step, Trajectory, nodes_and_weights,
+    InitialSurface, Model, Oscillation, Scenario, Step, Trajectory, nodes_and_weights,
 };
 
 /// What became of the run.
@@ -23,12 +23,7 @@ pub(super) fn end(
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
     Ok(RunEnd {
         end: running.t(),
-        regime: match outcome.regime {
-            Regime::Steady => RegimeName::Steady,
-            Regime::StickSlip => RegimeName::StickSlip,
-            Regime::Trapped => RegimeName::Trapped,
-            Regime::Transient => RegimeName::Transient,
-        },
+        regime: outcome.regime.into(),
         oscillation: outcome.oscillation.map(|o| {
             let surface = Surface::new(&scenario.model, initial, &tail);
             oscillation(&o, ripple_behind(&surface, &tail, &o))

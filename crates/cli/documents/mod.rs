@@ -1,6 +1,7 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod continuation;
 mod cycle;
 mod model;
 mod response;
@@ -11,6 +12,9 @@ mod units;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub(crate) use continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
 };
 pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub(crate) use model::{ModelParameters, TipDocument};
@@ -58,6 +62,7 @@ pub(crate) enum SchemaName {
     Boundary,
     Response,
     Cycle,
+    Continue,
     Units,
 }
 
@@ -70,6 +75,7 @@ impl SchemaName {
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
+            Self::Continue => schema_for!(ContinueDocument),
             Self::Units => schema_for!(UnitsDocument),
         }
     }

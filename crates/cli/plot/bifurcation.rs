@@ -1,5 +1,6 @@
 //! The bifurcation diagram: branches of cycles over a parameter.
 
+use super::axis::Axis;
 use super::curve::{Curve, Pen};
 use super::panel::Panel;
 use super::sheet::sheet;
@@ -62,7 +63,11 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
             pen: Pen::dots(MARKS[n % MARKS.len()]),
             label: Some(mark.name.to_owned()),
         });
-        Panel::fitted((figure.label, name), curves.chain(marks).collect(), height, 0.0)
+        let fitted =
+            Panel::fitted((figure.label, name), curves.chain(marks).collect(), height, 0.0);
+        // Room for the marks at the ends of branches.
+        let pad = 0.03 * (fitted.x.high - fitted.x.low);
+        Panel { x: Axis::new(fitted.x.low - pad, fitted.x.high + pad, 9.0), ..fitted }
     };
     let panels = [
         panel(|p| &p.amplitude, |m| &m.amplitude, "amplitude of x₀ (σ)", 1.3 * LOW),

@@ -34,6 +34,8 @@ bench: ## measure: cost per step, whole runs, surfaces
 	$(CARGO) bench --locked --bench runs
 	@echo "surface: reconstruction against the number of points, fft and direct"
 	$(CARGO) bench --locked --bench surface
+	@echo "cycles: a cycle with its multipliers, from onset to relaxation, and a branch of them"
+	$(CARGO) bench --locked --bench cycles
 
 work-precision: ## measure time against error, and draw it: data/work_precision.json, docs/figures/work_precision.svg
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json docs/figures/work_precision.svg

@@ -93,7 +93,7 @@ fn compute(
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
         eprintln!("stickslip: {} of {count} points are in {}", done.len(), path.display());
     }
-    let progress = Progress::new(done.len() as f64, count as f64).of_slow_work();
+    let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
     let state = Mutex::new(State { finished, progress, kept: Ok(()) });
     let work = |index: &usize| {
         if interrupt.signal().is_some() {

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod checkpoint;
+mod continuation;
 mod cycle;
 mod model;
 mod response;
@@ -16,6 +17,9 @@ pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
 pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
+};
 pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
@@ -66,6 +70,7 @@ pub(crate) enum SchemaName {
     Boundary,
     Response,
     Cycle,
+    Continue,
     Sweep,
     Units,
 }
@@ -81,6 +86,7 @@ impl SchemaName {
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
+            Self::Continue => schema_for!(ContinueDocument),
             Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
         }

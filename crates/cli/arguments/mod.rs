@@ -1,6 +1,7 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
 mod boundary;
+mod compare;
 mod model;
 mod response;
 mod run;
@@ -10,6 +11,7 @@ mod surface;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
+pub(crate) use compare::{CompareArguments, GridName};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{MemoryName, RunArguments, StartName};
@@ -39,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip schema run
 
@@ -50,6 +53,7 @@ pub(crate) enum Command {
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),
+    Compare(CompareArguments),
     Response(ResponseArguments),
     Units(UnitsArguments),
     Schema(SchemaArguments),

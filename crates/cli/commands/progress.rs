@@ -14,6 +14,7 @@ pub(crate) struct Progress {
     to: f64,
     started: Instant,
     calls: u32,
+    calls_per_look: u32,
     bar: Option<ProgressBar>,
 }
 
@@ -21,13 +22,22 @@ const TICKS: f64 = 1000.0;
 
 impl Progress {
     pub(crate) fn new(from: f64, to: f64) -> Self {
-        Self { from, to, started: Instant::now(), calls: 0, bar: None }
+        Self::looking_every(CALLS_PER_LOOK, from, to)
+    }
+
+    /// For work whose every step may take long.
+    pub(crate) fn of_slow_steps(from: f64, to: f64) -> Self {
+        Self::looking_every(1, from, to)
+    }
+
+    fn looking_every(calls_per_look: u32, from: f64, to: f64) -> Self {
+        Self { from, to, started: Instant::now(), calls: 0, calls_per_look, bar: None }
     }
 
     /// The work has come to `at`.
     pub(crate) fn reached(&mut self, at: f64) {
         self.calls = self.calls.wrapping_add(1);
-        if !self.calls.is_multiple_of(CALLS_PER_LOOK) || self.started.elapsed() < PATIENCE {
+        if !self.calls.is_multiple_of(self.calls_per_look) || self.started.elapsed() < PATIENCE {
             return;
         }
         let done = ((at - self.from) / (self.to - self.from)).clamp(0.0, 1.0);

@@ -1,7 +1,7 @@
 //! `stickslip run`.
 
 pub(crate) mod document;
-mod limits;
+pub(crate) mod limits;
 pub(crate) mod samples;
 
 use super::figure::Figure;
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     let inputs = read_inputs(arguments)?;
     let scenario = scenario(arguments, &inputs)?;
-    within_range(arguments, &scenario)?;
+    within_range(&arguments.model, &scenario)?;
     scenario.validate().map_err(|error| explain(&error, arguments))?;
     let span = (scenario.start_time(), scenario.until);
     let times = samples::times(&arguments.sampling, span, "the run")?;
@@ -94,22 +94,14 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
         seed: arguments.seed.unwrap_or(DEFAULT_SEED),
     });
     Ok(Scenario {
-        start: match arguments.start {
-            StartName::Steady => Start::Steady,
-            StartName::Flat => Start::Flat,
-        },
+        start: arguments.start.into(),
         start_position: arguments.start_position,
         kick: arguments.kick,
         noise,
         profile: inputs.profile.clone(),
         force,
         tolerance: arguments.tolerance,
-        memory: match arguments.memory {
-            MemoryName::Auto => MemoryChoice::Auto,
-            MemoryName::Direct => MemoryChoice::Direct,
-            MemoryName::Fft => MemoryChoice::Fft,
-            MemoryName::Modes => MemoryChoice::Modes,
-        },
+        memory: arguments.memory.into(),
         ..Scenario::new(model, arguments.until)
     })
 }
@@ -117,25 +109,57 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
 /// Names the option that an error of the library is about.
 fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
     let option = match error {
-        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
-        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
-        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
-        RunError::Tolerance(tolerance) => format!("--tolerance {}", Typed(*tolerance)),
         RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
             format!("--start-position {}", arguments.start_position)
         }
-        RunError::TooFar { tolerance, .. } => format!("--tolerance {tolerance}"),
-        RunError::Noise { noise, .. } => {
-            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
-        }
-        RunError::Modes(_) => "--memory modes".into(),
         RunError::Profile(_) => {
             let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
             format!("--initial-surface {}", path.display())
         }
-        RunError::Integration(_) => return Failure::Run(error.to_string()),
+        _ => match option_at_fault(error) {
+            Some(option) => option,
+            None => return Failure::Run(error.to_string()),
+        },
     };
     Failure::input(option, error)
+}
+
+/// The option that an error is about, as far as the error itself tells; `None` for a failure at run time.
+pub(crate) fn option_at_fault(error: &RunError) -> Option<String> {
+    Some(match error {
+        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
+        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
+        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
+        RunError::Tolerance(tolerance) | RunError::TooFar { tolerance, .. } => {
+            format!("--tolerance {}", Typed(*tolerance))
+        }
+        RunError::Noise { noise, .. } => {
+            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
+        }
+        RunError::Modes(_) => "--memory modes".into(),
+        RunError::Profile(_) => "--initial-surface".into(),
+        RunError::Integration(_) => return None,
+    })
+}
+
+impl From<StartName> for Start {
+    fn from(name: StartName) -> Self {
+        match name {
+            StartName::Steady => Self::Steady,
+            StartName::Flat => Self::Flat,
+        }
+    }
+}
+
+impl From<MemoryName> for MemoryChoice {
+    fn from(name: MemoryName) -> Self {
+        match name {
+            MemoryName::Auto => Self::Auto,
+            MemoryName::Direct => Self::Direct,
+            MemoryName::Fft => Self::Fft,
+            MemoryName::Modes => Self::Modes,
+        }
+    }
 }
 
 /// The run, the seconds that it took, and the signal that stopped it.

@@ -1,6 +1,7 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod compare;
 mod model;
 mod response;
 mod run;
@@ -10,6 +11,10 @@ mod units;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub(crate) use compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridWork,
 };
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
@@ -54,6 +59,7 @@ pub(crate) enum SchemaName {
     Surface,
     Stability,
     Boundary,
+    Compare,
     Response,
     Units,
 }
@@ -65,6 +71,7 @@ impl SchemaName {
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
+            Self::Compare => schema_for!(CompareDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Units => schema_for!(UnitsDocument),
         }

@@ -48,6 +48,9 @@ pub(crate) enum Failure {
     /// Stopped by a signal, after writing what there was. Status 128 + signal.
     #[error("interrupted: the result holds what was computed until then")]
     Interrupted(u8),
+    /// Stopped by a signal before there was a result. Status 128 + signal.
+    #[error("interrupted: nothing was written")]
+    Stopped(u8),
 }
 
 impl Failure {
@@ -59,7 +62,9 @@ impl Failure {
         match self {
             Self::Input { .. } => 2,
             Self::Run(_) | Self::Write { .. } => 1,
-            Self::Interrupted(signal) | Self::Unfinished { signal, .. } => 128 + signal,
+            Self::Interrupted(signal) | Self::Stopped(signal) | Self::Unfinished { signal, .. } => {
+                128 + signal
+            }
         }
     }
 

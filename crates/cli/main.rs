@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Command::Surface(arguments) => commands::surface::surface(arguments),
         Command::Stability(arguments) => commands::stability::stability(arguments),
         Command::Boundary(arguments) => commands::boundary::boundary(arguments),
+        Command::Compare(arguments) => commands::compare::compare(arguments),
         Command::Response(arguments) => commands::response::response(arguments),
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Continue(arguments) => commands::continuation::follow(arguments),

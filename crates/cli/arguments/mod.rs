@@ -1,6 +1,7 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
 mod boundary;
+mod compare;
 mod continuation;
 mod cycle;
 mod model;
@@ -13,6 +14,7 @@ mod sweep;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
+pub(crate) use compare::{CompareArguments, GridName};
 pub(crate) use continuation::{ContinueArguments, OverName};
 pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
@@ -45,6 +47,7 @@ const EXAMPLES: &str = "Examples:
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
@@ -59,6 +62,7 @@ pub(crate) enum Command {
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),
+    Compare(CompareArguments),
     Response(ResponseArguments),
     Cycle(CycleArguments),
     Continue(ContinueArguments),

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod checkpoint;
+mod compare;
 mod continuation;
 mod cycle;
 mod model;
@@ -17,6 +18,10 @@ pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
 pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridWork,
+};
 pub(crate) use continuation::{
     ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
 };
@@ -68,6 +73,7 @@ pub(crate) enum SchemaName {
     Surface,
     Stability,
     Boundary,
+    Compare,
     Response,
     Cycle,
     Continue,
@@ -84,6 +90,7 @@ impl SchemaName {
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
+            Self::Compare => schema_for!(CompareDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
             Self::Continue => schema_for!(ContinueDocument),

@@ -21,7 +21,9 @@ pub(crate) use stability::{
     CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
     StabilityParameters, TrappingDocument,
 };
-pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use surface::{
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };

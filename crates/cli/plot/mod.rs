@@ -15,8 +15,10 @@ mod font;
 mod format;
 mod legend;
 mod lines;
+mod map;
 mod onset;
 mod panel;
+mod picture;
 #[cfg(feature = "png")]
 mod raster;
 mod roots;
@@ -30,6 +32,7 @@ pub(crate) use boundary::boundary;
 pub(crate) use encode::encode;
 pub(crate) use format::PlotFormat;
 pub(crate) use lines::lines;
+pub(crate) use map::{Colours, Map, maps};
 pub(crate) use onset::onset;
 pub(crate) use roots::roots;
 pub(crate) use run::{RunFigure, run};

@@ -34,6 +34,7 @@ pub(crate) fn onset(title: &str, r: &[f64], excess: &[f64], logarithmic: bool) -
         curves,
         shades: Vec::new(),
         notes,
+        map: None,
     };
     sheet(title, &[panel])
 }

@@ -3,6 +3,7 @@
 use super::axis::{Axis, Fit};
 use super::curve::{Curve, Mark};
 use super::legend::Legend;
+use super::map::Drawn;
 use super::style::{
     GRID, LABEL_SIZE, MARGIN_BOTTOM, MARGIN_RIGHT, MARGIN_TOP, TICK_SIZE, WIDTH, text_width,
 };
@@ -27,6 +28,8 @@ pub(super) struct Panel<'a> {
     pub(super) curves: Vec<Curve<'a>>,
     pub(super) shades: Vec<Shade<'a>>,
     pub(super) notes: Vec<Note<'a>>,
+    /// A height map that fills the axes.
+    pub(super) map: Option<Drawn<'a>>,
 }
 
 /// An area in a light colour, behind the curves.
@@ -66,6 +69,7 @@ impl<'a> Panel<'a> {
             curves,
             shades: Vec::new(),
             notes: Vec::new(),
+            map: None,
         }
     }
 
@@ -78,14 +82,41 @@ impl<'a> Panel<'a> {
 
     /// Draws the panel, `left` pixels of it left of the axes.
     pub(super) fn draw(&self, left: f64) -> Scene {
-        let legend = Legend::of(&self.curves, WIDTH - left - MARGIN_RIGHT);
-        let top = MARGIN_TOP + legend.height();
+        let legend = self.legend(left);
+        let top = self.top(&legend);
         let shades = self.shades.iter().filter_map(|shade| self.band(shade));
         let curves = self.curves.iter().map(|curve| self.plot(curve));
         let mut scene = render_multiple(shades.chain(curves).collect(), self.layout(left, top));
         legend.draw(left, MARGIN_TOP, &mut scene);
         scene.add(self.y_title(top));
+        if let Some(map) = &self.map {
+            map.draw_bar((left, self.right()), (top, self.bottom()), &mut scene);
+        }
         scene
+    }
+
+    /// The map's picture, drawn upon the panel at this place of the sheet.
+    pub(super) fn image(&self, left: f64, above: f64) -> Option<String> {
+        let top = self.top(&self.legend(left));
+        let map = self.map.as_ref()?;
+        Some(map.image((left, self.right()), (above + top, above + self.bottom())))
+    }
+
+    fn legend(&self, left: f64) -> Legend<'_> {
+        Legend::of(&self.curves, WIDTH - left - MARGIN_RIGHT)
+    }
+
+    /// Where the axes end above, on the right and below.
+    fn top(&self, legend: &Legend) -> f64 {
+        MARGIN_TOP + legend.height() + self.map.as_ref().map_or(0.0, Drawn::margin_top)
+    }
+
+    fn right(&self) -> f64 {
+        WIDTH - self.map.as_ref().map_or(MARGIN_RIGHT, Drawn::margin_right)
+    }
+
+    fn bottom(&self) -> f64 {
+        self.height - MARGIN_BOTTOM
     }
 
     fn layout(&self, left: f64, top: f64) -> Layout {
@@ -93,7 +124,7 @@ impl<'a> Panel<'a> {
         let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
             .with_width(WIDTH)
             .with_height(self.height)
-            .with_force_margins(left, MARGIN_RIGHT)
+            .with_force_margins(left, WIDTH - self.right())
             .with_force_margins_y(top, MARGIN_BOTTOM)
             .with_x_axis_min(x.low)
             .with_x_axis_max(x.high)

@@ -19,11 +19,15 @@ pub(super) fn sheet(title: &str, panels: &[Panel]) -> String {
         scene.add(title_line(i, line));
     }
     let mut top = head;
+    let mut images = String::new();
     for (i, panel) in panels.iter().enumerate() {
         place(panel.draw(left), i, top, &mut scene);
+        images.extend(panel.image(left, top));
         top += panel.height;
     }
     let svg = SvgBackend::new().render_scene(&scene);
+    // kuva has no pictures.
+    let svg = svg.replacen("</svg>", &format!("{images}</svg>"), 1);
     // kuva gives no viewBox, without which a browser crops the figure instead of scaling it.
     svg.replacen("<svg ", &format!("<svg viewBox=\"0 0 {WIDTH} {height}\" "), 1)
 }

@@ -19,6 +19,7 @@ pub mod tip_function;
 pub mod units;
 
 mod collocation;
+mod footprint;
 mod force;
 mod history;
 mod initial_surface;
@@ -31,6 +32,7 @@ mod series;
 mod spline;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
+pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};

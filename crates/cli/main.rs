@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Stability(arguments) => commands::stability::stability(arguments),
         Command::Boundary(arguments) => commands::boundary::boundary(arguments),
         Command::Response(arguments) => commands::response::response(arguments),
+        Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };

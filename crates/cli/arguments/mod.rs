@@ -1,6 +1,7 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
 mod boundary;
+mod cycle;
 mod model;
 mod response;
 mod run;
@@ -10,6 +11,7 @@ mod surface;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
+pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{MemoryName, RunArguments, StartName};
@@ -39,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip schema run
 
@@ -51,6 +54,7 @@ pub(crate) enum Command {
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),
     Response(ResponseArguments),
+    Cycle(CycleArguments),
     Units(UnitsArguments),
     Schema(SchemaArguments),
 }

@@ -1,6 +1,7 @@
 //! One file per command.
 
 pub(crate) mod boundary;
+pub(crate) mod cycle;
 pub(crate) mod model;
 pub(crate) mod response;
 pub(crate) mod run;

@@ -14,13 +14,22 @@ pub(crate) fn model(arguments: &ModelArguments) -> Result<Model, Failure> {
     let r = arguments
         .r
         .ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))?;
-    let tip = tip(&arguments.tip)?;
-    let alpha = alpha(arguments, &tip, r)?;
+    model_of(tip(&arguments.tip)?, r, arguments.alpha, arguments.alpha_above)
+}
+
+/// The model of this footprint at this r, α given as such or as αc(r) + D.
+pub(crate) fn model_of(
+    tip: TipFunction,
+    r: f64,
+    given: Option<f64>,
+    above: Option<f64>,
+) -> Result<Model, Failure> {
+    let alpha = alpha((given, above), &tip, r)?;
     Model::new(tip, alpha, r).map_err(|error| match error {
         ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
-        ModelError::Alpha(_) => match (arguments.alpha, arguments.alpha_above) {
-            (_, Some(above)) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
-            _ => Failure::input(format!("--alpha {}", Typed(alpha)), error),
+        ModelError::Alpha(_) => match above {
+            Some(above) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
+            None => Failure::input(format!("--alpha {}", Typed(alpha)), error),
         },
     })
 }
@@ -105,8 +114,8 @@ fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
 }
 
 /// The α that the options ask for at this r.
-fn alpha(arguments: &ModelArguments, tip: &TipFunction, r: f64) -> Result<f64, Failure> {
-    match (arguments.alpha, arguments.alpha_above) {
+fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result<f64, Failure> {
+    match asked {
         (Some(alpha), None) => Ok(alpha),
         (None, Some(above)) => {
             // A bad r is reported as such when the model is made.

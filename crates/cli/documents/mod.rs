@@ -1,6 +1,7 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod cycle;
 mod model;
 mod response;
 mod run;
@@ -11,6 +12,7 @@ mod units;
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
+pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
@@ -57,6 +59,7 @@ pub(crate) enum SchemaName {
     Stability,
     Boundary,
     Response,
+    Cycle,
     Units,
 }
 
@@ -68,6 +71,7 @@ impl SchemaName {
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
+            Self::Cycle => schema_for!(CycleDocument),
             Self::Units => schema_for!(UnitsDocument),
         }
     }

@@ -143,24 +143,26 @@ struct Kind {
 
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
-    let advice = "write it again with `stickslip run -o FILE.json`";
-    read_document("RUN.json", path, RunDocument::FORMAT, advice)
+    read_document("RUN.json", path, RunDocument::FORMAT)
 }
 
-/// A document of the given format; `advice` is for one that is not whole.
-pub(crate) fn read_document<T: DeserializeOwned>(
+/// A document of this format, that of a command of the same name.
+pub(crate) fn read_document<D: DeserializeOwned>(
     option: &str,
     path: &Path,
-    needed: &str,
-    advice: &str,
-) -> Result<T, Failure> {
+    wanted: &str,
+) -> Result<D, Failure> {
     let text = read_text(option, path, LARGEST_DOCUMENT)?;
     let refused = |message: String| Failure::input(format!("{option} {}", path.display()), message);
-    let kind: Kind = serde_json::from_str(&text)
-        .map_err(|error| refused(format!("not a whole JSON document ({error}); {advice}")))?;
+    let kind: Kind = serde_json::from_str(&text).map_err(|error| {
+        let command = wanted.replace('/', " ");
+        refused(format!(
+            "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
+        ))
+    })?;
     match (kind.format.as_deref(), kind.format_version) {
-        (Some(format), Some(FORMAT_VERSION)) if format == needed => {}
-        (Some(format), version) if format == needed => {
+        (Some(format), Some(FORMAT_VERSION)) if format == wanted => {}
+        (Some(format), version) if format == wanted => {
             let found = version.map_or("none".into(), |v| v.to_string());
             return Err(refused(format!(
                 "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
@@ -168,7 +170,7 @@ pub(crate) fn read_document<T: DeserializeOwned>(
         }
         (format, _) => {
             let found = format.unwrap_or("missing");
-            return Err(refused(format!("format is {found}, \"{needed}\" is needed")));
+            return Err(refused(format!("format is {found}, \"{wanted}\" is needed")));
         }
     }
     serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))

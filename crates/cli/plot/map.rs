@@ -185,7 +185,7 @@ impl Drawn<'_> {
             let (x, y) = (bar + BAR + 9.0, y + 0.35 * size);
             scene.add(text(x, y, &label, TICK_SIZE, TextAnchor::Start, None));
         }
-        let x = right + self.margin_right() - 0.5 * f64::from(LABEL_SIZE);
+        let x = WIDTH - 0.5 * f64::from(LABEL_SIZE);
         let middle = 0.5 * (top + bottom);
         scene.add(text(x, middle, self.label, LABEL_SIZE, TextAnchor::Middle, Some(-90.0)));
     }

@@ -1,6 +1,6 @@
 //! Figures of runs, surfaces, roots and stability boundaries, as SVG or PNG.
 //!
-//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`surface`],
+//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`surface`],
 //! [`roots`], [`boundary`], [`onset`], [`lines`]) describes panels of curves; a [`panel`] fits its axes and
 //! thins its curves; a [`sheet`] stacks the panels into one SVG; [`encode`] makes the bytes of a
 //! file of it. The same input gives the same bytes.
@@ -8,6 +8,7 @@
 mod axis;
 mod boundary;
 mod curve;
+mod cycle;
 mod encode;
 mod error;
 #[cfg(feature = "png")]
@@ -29,6 +30,7 @@ mod surface;
 mod thin;
 
 pub(crate) use boundary::boundary;
+pub(crate) use cycle::{CycleFigure, cycle};
 pub(crate) use encode::encode;
 pub(crate) use format::PlotFormat;
 pub(crate) use lines::lines;

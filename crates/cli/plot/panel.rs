@@ -80,51 +80,53 @@ impl<'a> Panel<'a> {
         widest + 14.0 + 1.9 * f64::from(LABEL_SIZE)
     }
 
-    /// Draws the panel, `left` pixels of it left of the axes.
-    pub(super) fn draw(&self, left: f64) -> Scene {
-        let legend = self.legend(left);
+    /// Room right of the axes.
+    pub(super) fn margin_right(&self) -> f64 {
+        self.map.as_ref().map_or(MARGIN_RIGHT, Drawn::margin_right)
+    }
+
+    /// Draws the panel, its axes between `left` and `right`.
+    pub(super) fn draw(&self, (left, right): (f64, f64)) -> Scene {
+        let legend = self.legend(left, right);
         let top = self.top(&legend);
         let shades = self.shades.iter().filter_map(|shade| self.band(shade));
         let curves = self.curves.iter().map(|curve| self.plot(curve));
-        let mut scene = render_multiple(shades.chain(curves).collect(), self.layout(left, top));
+        let mut scene =
+            render_multiple(shades.chain(curves).collect(), self.layout((left, right), top));
         legend.draw(left, MARGIN_TOP, &mut scene);
         scene.add(self.y_title(top));
         if let Some(map) = &self.map {
-            map.draw_bar((left, self.right()), (top, self.bottom()), &mut scene);
+            map.draw_bar((left, right), (top, self.bottom()), &mut scene);
         }
         scene
     }
 
     /// The map's picture, drawn upon the panel at this place of the sheet.
-    pub(super) fn image(&self, left: f64, above: f64) -> Option<String> {
-        let top = self.top(&self.legend(left));
+    pub(super) fn image(&self, (left, right): (f64, f64), above: f64) -> Option<String> {
+        let top = self.top(&self.legend(left, right));
         let map = self.map.as_ref()?;
-        Some(map.image((left, self.right()), (above + top, above + self.bottom())))
+        Some(map.image((left, right), (above + top, above + self.bottom())))
     }
 
-    fn legend(&self, left: f64) -> Legend<'_> {
-        Legend::of(&self.curves, WIDTH - left - MARGIN_RIGHT)
+    fn legend(&self, left: f64, right: f64) -> Legend<'_> {
+        Legend::of(&self.curves, right - left)
     }
 
-    /// Where the axes end above, on the right and below.
+    /// Where the axes end above and below.
     fn top(&self, legend: &Legend) -> f64 {
         MARGIN_TOP + legend.height() + self.map.as_ref().map_or(0.0, Drawn::margin_top)
-    }
-
-    fn right(&self) -> f64 {
-        WIDTH - self.map.as_ref().map_or(MARGIN_RIGHT, Drawn::margin_right)
     }
 
     fn bottom(&self) -> f64 {
         self.height - MARGIN_BOTTOM
     }
 
-    fn layout(&self, left: f64, top: f64) -> Layout {
+    fn layout(&self, (left, right): (f64, f64), top: f64) -> Layout {
         let (x, y) = (self.x.clone(), self.y.clone());
         let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
             .with_width(WIDTH)
             .with_height(self.height)
-            .with_force_margins(left, WIDTH - self.right())
+            .with_force_margins(left, WIDTH - right)
             .with_force_margins_y(top, MARGIN_BOTTOM)
             .with_x_axis_min(x.low)
             .with_x_axis_max(x.high)

@@ -13,6 +13,7 @@
 //! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
 //! `docs/mathematics.md` derives them again.
 
+pub mod cycle;
 pub mod memory;
 pub mod stability;
 pub mod tip_function;

@@ -93,7 +93,7 @@ fn samples(trajectory: &Trajectory, times: &[f64]) -> Samples {
     }
 }
 
-fn history(trajectory: &Trajectory) -> History {
+pub(crate) fn history(trajectory: &Trajectory) -> History {
     let steps = trajectory.steps();
     let (nodes, weights) = nodes_and_weights();
     History {
@@ -121,7 +121,12 @@ fn oscillation(scenario: &Scenario, run: &Run) -> Option<OscillationDocument> {
 
 /// The trajectory that a document holds.
 pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
-    let History { nodes, weights, t, extension, displacement } = &document.history;
+    trajectory_of(&document.history, document.parameters.model.r)
+}
+
+/// The trajectory that a history under support velocity r tells.
+pub(crate) fn trajectory_of(history: &History, r: f64) -> Result<Trajectory, String> {
+    let History { nodes, weights, t, extension, displacement } = history;
     let same = |a: &[f64], b: &[f64]| {
         a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
     };
@@ -139,13 +144,12 @@ pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
     let step = |i: usize| -> Result<Step, String> {
         let displacement = displacement[i].as_slice().try_into();
         let displacement = displacement.map_err(|_| {
-            let (found, needed) = (displacement_len(document, i), nodes.len());
+            let (found, needed) = (history.displacement[i].len(), nodes.len());
             format!("history: displacement {i} has {found} entries, {needed} are needed")
         })?;
         Ok(Step { t: t[i], h: t[i + 1] - t[i], extension: extension[i], displacement })
     };
     let steps: Vec<Step> = (0..steps).map(step).collect::<Result<_, _>>()?;
-    let r = document.parameters.model.r;
     let far = |step: &Step| {
         let sizes = [r * step.t, r * step.end(), step.extension];
         !sizes.iter().chain(&step.displacement).all(|size| size.abs() <= FARTHEST)
@@ -162,8 +166,4 @@ pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
         return Err(format!("history: step {} does not begin where step {i} ends", i + 1));
     }
     Ok(Trajectory::new(r, steps))
-}
-
-fn displacement_len(document: &RunDocument, i: usize) -> usize {
-    document.history.displacement[i].len()
 }

@@ -22,9 +22,7 @@ impl Scale {
         let Some(path) = arguments.units.as_deref() else {
             return Ok(Self { length: 1.0, height: 1.0, unit: "" });
         };
-        let advice = "write it again with `stickslip units -o FILE.json`";
-        let document: UnitsDocument =
-            read_document("--units", path, UnitsDocument::FORMAT, advice)?;
+        let document: UnitsDocument = read_document("--units", path, UnitsDocument::FORMAT)?;
         let named = || format!("--units {}", path.display());
         let pairs = [("α", document.alpha, model.alpha()), ("r", document.r, model.r())];
         for (name, there, here) in pairs {

@@ -6,23 +6,23 @@ use crate::{Step, Trajectory};
 
 /// A time and the value of l there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extremum {
-    pub(super) t: f64,
-    pub(super) l: f64,
-    pub(super) is_maximum: bool,
+pub(crate) struct Extremum {
+    pub(crate) t: f64,
+    pub(crate) l: f64,
+    pub(crate) is_maximum: bool,
 }
 
 /// The extrema of l, latest first.
 #[derive(Debug, Clone)]
-pub(super) struct Extrema {
-    pub(super) latest_first: Vec<Extremum>,
+pub(crate) struct Extrema {
+    pub(crate) latest_first: Vec<Extremum>,
 }
 
 /// So many are enough to compare three cycles of up to eight slips.
 const MOST: usize = 64;
 
 impl Extrema {
-    pub(super) fn at_the_end_of(trajectory: &Trajectory) -> Self {
+    pub(crate) fn at_the_end_of(trajectory: &Trajectory) -> Self {
         let mut latest_first = vec![];
         for step in trajectory.steps().iter().rev() {
             let mut here = turning_points(trajectory, step);
@@ -36,7 +36,7 @@ impl Extrema {
     }
 
     /// The maxima, latest first.
-    pub(super) fn maxima(&self) -> Vec<Extremum> {
+    pub(crate) fn maxima(&self) -> Vec<Extremum> {
         self.latest_first.iter().filter(|e| e.is_maximum).copied().collect()
     }
 }

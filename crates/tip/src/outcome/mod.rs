@@ -7,7 +7,7 @@ mod oscillation;
 pub use oscillation::Oscillation;
 
 use crate::{Model, Trajectory};
-use extrema::Extrema;
+pub(crate) use extrema::{Extrema, Extremum};
 
 /// The kinds of motion of section 4 of the design: what the end of the run shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

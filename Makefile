@@ -8,7 +8,7 @@ comma := ,
 stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check bench doc install clean
+.PHONY: help run test check bench figures doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -34,6 +34,9 @@ bench: ## measure: cost per step, whole runs, surfaces
 	$(CARGO) bench --locked --bench runs
 	@echo "surface: reconstruction against the number of points, fft and direct"
 	$(CARGO) bench --locked --bench surface
+
+figures: ## the paper's figures, and its numbers beside ours, in target/figures
+	@$(call stickslip,figures --out-dir target/figures)
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked

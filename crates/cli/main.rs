@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Response(arguments) => commands::response::response(arguments),
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
+        Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };
     match done {

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod cycle;
+mod figures;
 mod model;
 mod response;
 mod run;
@@ -12,6 +13,7 @@ mod units;
 
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use cycle::{CycleArguments, CycleStart};
+pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{MemoryName, RunArguments, StartName};
@@ -43,6 +45,7 @@ const EXAMPLES: &str = "Examples:
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip figures --out-dir figures
   stickslip schema run
 
 `stickslip COMMAND --help` explains each command and gives examples.";
@@ -56,6 +59,7 @@ pub(crate) enum Command {
     Response(ResponseArguments),
     Cycle(CycleArguments),
     Units(UnitsArguments),
+    Figures(FiguresArguments),
     Schema(SchemaArguments),
 }
 

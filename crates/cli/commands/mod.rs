@@ -2,6 +2,7 @@
 
 pub(crate) mod boundary;
 pub(crate) mod cycle;
+pub(crate) mod figures;
 pub(crate) mod model;
 pub(crate) mod response;
 pub(crate) mod run;

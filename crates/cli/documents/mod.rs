@@ -2,7 +2,9 @@
 
 mod boundary;
 mod cycle;
+mod figure;
 mod model;
+mod reproduction;
 mod response;
 mod run;
 mod stability;
@@ -13,7 +15,12 @@ pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
 pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
+pub(crate) use figure::{
+    ColoursName, CurveDocument, FigureDocument, FigureParameters, MapDocument, PanelDocument,
+    StyleName,
+};
 pub(crate) use model::{ModelParameters, TipDocument};
+pub(crate) use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
@@ -61,6 +68,8 @@ pub(crate) enum SchemaName {
     Response,
     Cycle,
     Units,
+    Figure,
+    Reproduction,
 }
 
 impl SchemaName {
@@ -73,6 +82,8 @@ impl SchemaName {
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
             Self::Units => schema_for!(UnitsDocument),
+            Self::Figure => schema_for!(FigureDocument),
+            Self::Reproduction => schema_for!(ReproductionDocument),
         }
     }
 }

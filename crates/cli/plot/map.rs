@@ -16,7 +16,6 @@ pub(crate) enum Colours {
     /// From blue over grey to yellow, evenly in lightness.
     Cividis,
     /// From black to white: the paper's.
-    #[allow(dead_code, reason = "for Fig. 7")]
     Grey,
 }
 
@@ -36,7 +35,6 @@ pub(crate) struct Map<'a> {
 /// A map of a panel, and the scale of its heights.
 pub(super) struct Drawn<'a> {
     picture: Picture,
-    name: &'a str,
     label: &'a str,
     axis: Axis,
     colours: Colours,
@@ -65,12 +63,13 @@ impl<'a> Map<'a> {
         let colours = self.colours;
         let colour = |z: f64| colours.at((z - axis.low) / (axis.high - axis.low));
         let picture = Picture::of(self.z, colour)?;
-        let map = Drawn { picture, name: self.name, label: self.labels.2, axis, colours };
+        let map = Drawn { picture, label: self.labels.2, axis, colours };
         // kuva draws no ticks where there is no curve; the picture covers this one.
         let (corner_x, corner_y) = (self.x.get(..1), self.y.get(..1));
         let (corner_x, corner_y) = (corner_x.unwrap_or(&[]), corner_y.unwrap_or(&[]));
         let hidden = Curve { x: corner_x, y: corner_y, pen: Pen::dots(BLACK), label: None };
         Ok(Panel {
+            heading: self.name,
             x: Axis::new(x.0, x.1, 9.0),
             y: Axis::new(y.0, y.1, (height / 65.0).min(5.0)),
             x_label: self.labels.0,
@@ -117,11 +116,6 @@ impl Drawn<'_> {
         BAR_GAP + BAR + 10.0 + widest + 2.0 * f64::from(LABEL_SIZE)
     }
 
-    /// Room above the axes for the name.
-    pub(super) fn margin_top(&self) -> f64 {
-        if self.name.is_empty() { 0.0 } else { 1.4 * f64::from(LABEL_SIZE) }
-    }
-
     /// The picture as SVG, within the sheet.
     pub(super) fn image(&self, (left, right): (f64, f64), (top, bottom): (f64, f64)) -> String {
         let (width, height) = (right - left, bottom - top);
@@ -133,13 +127,8 @@ impl Drawn<'_> {
         )
     }
 
-    /// The name above, the bar and its numbers on the right.
-    pub(super) fn draw_bar(
-        &self,
-        (left, right): (f64, f64),
-        (top, bottom): (f64, f64),
-        scene: &mut Scene,
-    ) {
+    /// The bar and its numbers, right of the axes.
+    pub(super) fn draw_bar(&self, right: f64, (top, bottom): (f64, f64), scene: &mut Scene) {
         let text = |x, y, content: &str, size, anchor, rotate| Primitive::Text {
             x,
             y,
@@ -150,9 +139,6 @@ impl Drawn<'_> {
             bold: false,
             color: None,
         };
-        if !self.name.is_empty() {
-            scene.add(text(left, top - 8.0, self.name, LABEL_SIZE, TextAnchor::Start, None));
-        }
         let bar = right + BAR_GAP;
         let step = (bottom - top) / BAR_STEPS as f64;
         for i in 0..BAR_STEPS {

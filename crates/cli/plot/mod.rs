@@ -9,6 +9,7 @@ mod axis;
 mod boundary;
 mod curve;
 mod cycle;
+mod drawing;
 mod encode;
 mod error;
 #[cfg(feature = "png")]
@@ -31,6 +32,7 @@ mod thin;
 
 pub(crate) use boundary::boundary;
 pub(crate) use cycle::{CycleFigure, cycle};
+pub(crate) use drawing::{DrawnCurve, DrawnPanel, Style, drawing};
 pub(crate) use encode::encode;
 pub(crate) use format::PlotFormat;
 pub(crate) use lines::lines;

@@ -27,7 +27,18 @@ pub(crate) fn roots(title: &str, re: &[f64], im: &[f64]) -> String {
     let notes = Vec::new();
     sheet(
         title,
-        &[Panel { x, y, x_label, y_label, height: TALL, curves, shades, notes, map: None }],
+        &[Panel {
+            heading: "",
+            x,
+            y,
+            x_label,
+            y_label,
+            height: TALL,
+            curves,
+            shades,
+            notes,
+            map: None,
+        }],
     )
 }
 

@@ -34,6 +34,8 @@ bench: ## measure: cost per step, whole runs, surfaces
 	$(CARGO) bench --locked --bench runs
 	@echo "surface: reconstruction against the number of points, fft and direct"
 	$(CARGO) bench --locked --bench surface
+	@echo "cycles: a cycle with its multipliers, from onset to relaxation, and a branch of them"
+	$(CARGO) bench --locked --bench cycles
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
 	@$(call stickslip,figures --out-dir target/figures)

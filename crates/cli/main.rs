@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         Command::Boundary(arguments) => commands::boundary::boundary(arguments),
         Command::Response(arguments) => commands::response::response(arguments),
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
+        Command::Continue(arguments) => commands::continuation::follow(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),

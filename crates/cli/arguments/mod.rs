@@ -1,6 +1,7 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
 mod boundary;
+mod continuation;
 mod cycle;
 mod figures;
 mod model;
@@ -12,6 +13,7 @@ mod surface;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
+pub(crate) use continuation::{ContinueArguments, OverName};
 pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
@@ -44,6 +46,7 @@ const EXAMPLES: &str = "Examples:
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
+  stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip figures --out-dir figures
   stickslip schema run
@@ -58,6 +61,7 @@ pub(crate) enum Command {
     Boundary(BoundaryArguments),
     Response(ResponseArguments),
     Cycle(CycleArguments),
+    Continue(ContinueArguments),
     Units(UnitsArguments),
     Figures(FiguresArguments),
     Schema(SchemaArguments),

@@ -1,6 +1,7 @@
 //! One file per command.
 
 pub(crate) mod boundary;
+pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
 pub(crate) mod model;

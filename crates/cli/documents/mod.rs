@@ -1,6 +1,7 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod continuation;
 mod cycle;
 mod figure;
 mod model;
@@ -13,6 +14,9 @@ mod units;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub(crate) use continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
 };
 pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub(crate) use figure::{
@@ -67,6 +71,7 @@ pub(crate) enum SchemaName {
     Boundary,
     Response,
     Cycle,
+    Continue,
     Units,
     Figure,
     Reproduction,
@@ -81,6 +86,7 @@ impl SchemaName {
             Self::Boundary => schema_for!(BoundaryDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
+            Self::Continue => schema_for!(ContinueDocument),
             Self::Units => schema_for!(UnitsDocument),
             Self::Figure => schema_for!(FigureDocument),
             Self::Reproduction => schema_for!(ReproductionDocument),

@@ -50,6 +50,14 @@ impl Pen {
         Self { colour, mark: Mark::Triangles { radius: 6.0 } }
     }
 
+    /// The same, dashed if it draws a line.
+    pub(super) const fn dashed(self) -> Self {
+        match self.mark {
+            Mark::Line { width, .. } => Self::line(self.colour, width, "6 4"),
+            Mark::Dots { .. } | Mark::Triangles { .. } => self,
+        }
+    }
+
     /// The pen of curve number `index`: colours first, then the same colours dashed.
     pub(super) fn numbered(index: usize) -> Self {
         const DASHES: [&str; 3] = ["", "9 5", "3 3"];

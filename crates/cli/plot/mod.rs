@@ -1,11 +1,12 @@
 //! Figures of runs, surfaces, roots and stability boundaries, as SVG or PNG.
 //!
-//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`surface`],
+//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`bifurcations`], [`surface`],
 //! [`roots`], [`boundary`], [`onset`], [`lines`]) describes panels of curves; a [`panel`] fits its axes and
 //! thins its curves; a [`sheet`] stacks the panels into one SVG; [`encode`] makes the bytes of a
 //! file of it. The same input gives the same bytes.
 
 mod axis;
+mod bifurcation;
 mod boundary;
 mod curve;
 mod cycle;
@@ -30,6 +31,7 @@ mod style;
 mod surface;
 mod thin;
 
+pub(crate) use bifurcation::{BifurcationFigure, BranchCurve, SpecialMark, bifurcations};
 pub(crate) use boundary::boundary;
 pub(crate) use cycle::{CycleFigure, cycle};
 pub(crate) use drawing::{DrawnCurve, DrawnPanel, Style, drawing};

@@ -20,11 +20,7 @@ impl Start {
     /// # Errors
     /// Options that do not fit, a document that cannot be read.
     pub(crate) fn asked(arguments: &CycleStart) -> Result<Self, Failure> {
-        let tolerance = arguments.tolerance;
-        if !(TOLERANCES.0..=TOLERANCES.1).contains(&tolerance) {
-            let error = CycleError::Tolerance(tolerance);
-            return Err(Failure::input(format!("--tolerance {}", Typed(tolerance)), error));
-        }
+        let tolerance = Self::judge_tolerance(arguments)?;
         let Some(path) = &arguments.from else {
             return Ok(Self { model: model(&arguments.model)?, period: None, tolerance });
         };
@@ -36,6 +32,16 @@ impl Start {
             return Err(refused("history: a cycle starts at t = 0".into()));
         }
         Ok(Self { model: changed(&before, &arguments.model)?, period: Some(period), tolerance })
+    }
+
+    /// The tolerance, if it can be had.
+    pub(crate) fn judge_tolerance(arguments: &CycleStart) -> Result<f64, Failure> {
+        let tolerance = arguments.tolerance;
+        if (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance) {
+            return Ok(tolerance);
+        }
+        let error = CycleError::Tolerance(tolerance);
+        Err(Failure::input(format!("--tolerance {}", Typed(tolerance)), error))
     }
 
     /// Footprint, α and r.

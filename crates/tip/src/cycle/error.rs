@@ -46,7 +46,7 @@ pub enum CycleError {
         regime: Regime,
     },
     /// Newton's method did not converge from the cycle given.
-    #[error("from the cycle given, none was reached at alpha = {alpha:?}, r = {r:?}: start nearer")]
+    #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
     NotConverged {
         /// As asked.
         alpha: f64,

@@ -14,36 +14,28 @@ use crate::memory::Fit;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use num_complex::Complex;
 
-/// A linear functional of what a branch of cycles is followed by: the largest l, the logarithm of the
-/// period, and the parameter.
+/// A linear functional of what a branch of cycles is followed by: the largest l, the period and the
+/// parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Direction {
     pub(super) l: f64,
-    pub(super) log_period: f64,
+    pub(super) period: f64,
     pub(super) parameter: f64,
 }
 
 impl Direction {
     /// The parameter alone.
-    pub(super) const PARAMETER: Self = Self { l: 0.0, log_period: 0.0, parameter: 1.0 };
+    pub(super) const PARAMETER: Self = Self { l: 0.0, period: 0.0, parameter: 1.0 };
     /// The largest l alone.
-    pub(super) const L: Self = Self { l: 1.0, log_period: 0.0, parameter: 0.0 };
+    pub(super) const L: Self = Self { l: 1.0, period: 0.0, parameter: 0.0 };
 
-    pub(super) fn dot(&self, other: &Self) -> f64 {
-        self.l * other.l + self.log_period * other.log_period + self.parameter * other.parameter
+    pub(super) fn of(&self, change: &Change) -> f64 {
+        self.l * change.state[0] + self.period * change.period + self.parameter * change.parameter
     }
 
     pub(super) fn times(&self, factor: f64) -> Self {
-        Self {
-            l: factor * self.l,
-            log_period: factor * self.log_period,
-            parameter: factor * self.parameter,
-        }
-    }
-
-    /// The same direction with length 1.
-    pub(super) fn unit(&self) -> Self {
-        self.times(1.0 / self.dot(self).sqrt())
+        let Self { l, period, parameter } = *self;
+        Self { l: factor * l, period: factor * period, parameter: factor * parameter }
     }
 }
 
@@ -58,9 +50,12 @@ pub(super) struct Change {
 }
 
 impl Change {
-    pub(super) fn direction(&self, period: f64) -> Direction {
-        let log_period = self.period / period;
-        Direction { l: self.state[0], log_period, parameter: self.parameter }
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        let stages = self.stages.iter_mut().flatten();
+        self.state.iter_mut().chain(stages).for_each(|c| *c *= factor);
+        self.period *= factor;
+        self.parameter *= factor;
+        self
     }
 
     /// Largest change of a position.
@@ -72,7 +67,6 @@ impl Change {
 
 /// An orbit's equations, linearised.
 pub(super) struct Linearisation {
-    period: f64,
     /// rt - x0 at the end less that at the start.
     gap: f64,
     end: Sensitivity,
@@ -117,7 +111,7 @@ impl Linearisation {
         }
         let gap = extension - orbit.extension;
         let phase = Phase::new(equation, orbit.extension, solved, free);
-        Ok(Self { period: orbit.period, gap, end, stages, phase, stiffness })
+        Ok(Self { gap, end, stages, phase, stiffness })
     }
 
     /// Length of the state X.
@@ -174,7 +168,7 @@ impl Linearisation {
         }
         matrix[(n, n + 1)] = self.phase.by_parameter;
         matrix[(n + 1, 0)] = last.l;
-        matrix[(n + 1, n)] = last.log_period / self.period;
+        matrix[(n + 1, n)] = last.period;
         matrix[(n + 1, n + 1)] = last.parameter;
         matrix.lu()
     }

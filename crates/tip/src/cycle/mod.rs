@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod continuation;
 mod embedding;
 mod error;
 mod linearisation;
@@ -30,6 +31,7 @@ mod solve;
 mod start;
 mod step;
 
+pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
 pub use error::CycleError;
 

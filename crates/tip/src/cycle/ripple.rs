@@ -27,14 +27,16 @@ impl Ripple {
         let wavelength = period.r() * (period.end() - period.start());
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let harmonics = (tip.band() * wavelength / TAU).ceil() as usize;
-        let coefficient = |k: usize| {
-            let q = TAU * k as f64 / wavelength;
-            let at = |(x, w): (&f64, &f64)| Complex::from_polar(*w, -q * x);
-            let spent: Complex<f64> = positions.iter().zip(&weights).map(at).sum();
-            spent * (-alpha / wavelength * tip.fourier(q))
-        };
-        let mean = coefficient(0).re;
-        Self { wavelength, mean, coefficients: (1..=harmonics).map(coefficient).collect() }
+        let mut spent = vec![Complex::ZERO; harmonics + 1];
+        for (x, weight) in positions.iter().zip(&weights) {
+            for (spent, power) in spent.iter_mut().zip(powers(-TAU * x / wavelength)) {
+                *spent += power * *weight;
+            }
+        }
+        for (k, spent) in spent.iter_mut().enumerate() {
+            *spent *= -alpha / wavelength * tip.fourier(TAU * k as f64 / wavelength);
+        }
+        Self { wavelength, mean: spent[0].re, coefficients: spent.split_off(1) }
     }
 
     /// u(x).
@@ -45,9 +47,11 @@ impl Ripple {
     /// u less its mean, its slope and its curvature.
     fn at(&self, x: f64) -> (f64, f64, f64) {
         let mut sums = (0.0, 0.0, 0.0);
-        for (k, coefficient) in self.coefficients.iter().enumerate() {
-            let q = TAU * (k + 1) as f64 / self.wavelength;
-            let value = coefficient * Complex::from_polar(2.0, q * x);
+        let wave_number = TAU / self.wavelength;
+        let terms = self.coefficients.iter().zip(powers(wave_number * x).skip(1));
+        for (k, (coefficient, power)) in terms.enumerate() {
+            let q = wave_number * (k + 1) as f64;
+            let value = coefficient * power * 2.0;
             sums.0 += value.re;
             sums.1 -= q * value.im;
             sums.2 -= q * q * value.re;
@@ -65,10 +69,8 @@ impl Ripple {
         let points = POINTS_PER_HARMONIC * self.coefficients.len().max(1);
         let spacing = self.wavelength / points as f64;
         let height = |x: f64| sign * self.at(x).0;
-        let highest = (0..points)
-            .map(|i| spacing * i as f64)
-            .max_by(|a, b| height(*a).total_cmp(&height(*b)));
-        let start = highest.unwrap_or_default();
+        let heights = (0..points).map(|i| (spacing * i as f64, height(spacing * i as f64)));
+        let start = heights.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(x, _)| x);
         let mut x = start;
         for _ in 0..8 {
             let (_, slope, curvature) = self.at(x);
@@ -79,4 +81,10 @@ impl Ripple {
         }
         height(x).max(height(start))
     }
+}
+
+/// `e^{ikφ}` for k = 0, 1, …
+fn powers(phase: f64) -> impl Iterator<Item = Complex<f64>> {
+    let once = Complex::from_polar(1.0, phase);
+    std::iter::successors(Some(Complex::ONE), move |power| Some(power * once))
 }

@@ -7,6 +7,7 @@ use super::orbit::{Orbit, even_mesh};
 use crate::outcome::{Extrema, Extremum};
 use crate::stability::{Criticality, Onset};
 use crate::{Model, Outcome, Regime, Scenario, Trajectory, run};
+use std::f64::consts::{PI, TAU};
 
 const FEWEST_STEPS: f64 = 18.0;
 
@@ -24,11 +25,21 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     if period <= 0.5 * onset.critical.period {
         return None;
     }
-    let l = |t: f64| model.steady_l() + amplitude * (std::f64::consts::TAU * t / period).cos();
-    let farthest = equation.r * period + std::f64::consts::PI * amplitude;
+    let mesh = even_mesh(steps_of_mode(equation, period, amplitude));
+    Some(Orbit::of_profile(equation.r, period, mesh, mode(model.steady_l(), amplitude, period)))
+}
+
+/// l(t) of the linear mode.
+pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> f64 {
+    move |t| steady + amplitude * (TAU * t / period).cos()
+}
+
+/// So many steps that none leads too far.
+pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> usize {
+    let farthest = equation.r * period + PI * amplitude;
+    let longest = longest_displacement(&equation.tip);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let steps = FEWEST_STEPS.max(1.5 * farthest / longest_displacement(&equation.tip)) as usize;
-    Some(Orbit::of_profile(equation.r, period, even_mesh(steps), l))
+    return FEWEST_STEPS.max(1.5 * farthest / longest) as usize;
 }
 
 /// Whether a small cycle is to be expected here.

@@ -8,7 +8,7 @@ comma := ,
 stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check bench work-precision doc install clean
+.PHONY: help run test check bench work-precision figures doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -39,6 +39,9 @@ bench: ## measure: cost per step, whole runs, surfaces
 
 work-precision: ## measure time against error, and draw it: data/work_precision.json, docs/figures/work_precision.svg
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json docs/figures/work_precision.svg
+
+figures: ## the paper's figures, and its numbers beside ours, in target/figures
+	@$(call stickslip,figures --out-dir target/figures)
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked

@@ -30,6 +30,7 @@ fn main() -> ExitCode {
         Command::Continue(arguments) => commands::continuation::follow(arguments),
         Command::Sweep(arguments) => commands::sweep::sweep(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
+        Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };
     match done {

@@ -4,6 +4,7 @@ mod boundary;
 mod compare;
 mod continuation;
 mod cycle;
+mod figures;
 mod model;
 mod response;
 mod run;
@@ -17,6 +18,7 @@ pub(crate) use boundary::BoundaryArguments;
 pub(crate) use compare::{CompareArguments, GridName};
 pub(crate) use continuation::{ContinueArguments, OverName};
 pub(crate) use cycle::{CycleArguments, CycleStart};
+pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, MemoryName, RunArguments, RunFormat, StartName};
@@ -52,6 +54,7 @@ const EXAMPLES: &str = "Examples:
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip figures --out-dir figures
   stickslip schema run
 
 `stickslip COMMAND --help` explains each command and gives examples.";
@@ -68,6 +71,7 @@ pub(crate) enum Command {
     Continue(ContinueArguments),
     Sweep(SweepArguments),
     Units(UnitsArguments),
+    Figures(FiguresArguments),
     Schema(SchemaArguments),
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod boundary;
 pub(crate) mod compare;
 pub(crate) mod continuation;
 pub(crate) mod cycle;
+pub(crate) mod figures;
 pub(crate) mod model;
 pub(crate) mod response;
 pub(crate) mod run;

@@ -5,7 +5,9 @@ mod checkpoint;
 mod compare;
 mod continuation;
 mod cycle;
+mod figure;
 mod model;
+mod reproduction;
 mod response;
 mod run;
 mod run_lines;
@@ -26,7 +28,12 @@ pub(crate) use continuation::{
     ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
 };
 pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
+pub(crate) use figure::{
+    ColoursName, CurveDocument, FigureDocument, FigureParameters, MapDocument, PanelDocument,
+    StyleName,
+};
 pub(crate) use model::{ModelParameters, TipDocument};
+pub(crate) use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
@@ -37,7 +44,9 @@ pub(crate) use stability::{
     CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
     StabilityParameters, TrappingDocument,
 };
-pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use surface::{
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+};
 pub(crate) use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
@@ -79,6 +88,8 @@ pub(crate) enum SchemaName {
     Continue,
     Sweep,
     Units,
+    Figure,
+    Reproduction,
 }
 
 impl SchemaName {
@@ -96,6 +107,8 @@ impl SchemaName {
             Self::Continue => schema_for!(ContinueDocument),
             Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
+            Self::Figure => schema_for!(FigureDocument),
+            Self::Reproduction => schema_for!(ReproductionDocument),
         }
     }
 }

@@ -23,6 +23,7 @@
 //! ```
 
 mod carved;
+mod image;
 mod ripple;
 
 pub use carved::{Method, carved, carved_by};
@@ -47,7 +48,7 @@ pub enum SurfaceError {
         end: f64,
     },
     /// A position that is not finite.
-    #[error("x = {0} is not a finite number")]
+    #[error("the position {0} is not a finite number")]
     Position(f64),
 }
 

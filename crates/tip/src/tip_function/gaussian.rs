@@ -1,7 +1,9 @@
 //! Sums of Gaussians a exp(-(x-c)²/(2w²)).
 
 use super::TipFunctionError;
+use crate::Footprint;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::sync::Arc;
 
 /// A Gaussian is below 1e-17 of its peak beyond this many widths: exp(-8.8²/2) = 1.5e-17. The factor
 /// x that a derivative brings keeps that below round-off too.
@@ -25,6 +27,8 @@ pub struct Gaussian {
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
+    /// The f(x,y) that this is f(x,0) of.
+    footprint: Option<Arc<Footprint>>,
 }
 
 impl GaussianSum {
@@ -46,13 +50,21 @@ impl GaussianSum {
         if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
             return Err(TipFunctionError::NotEven { center: term.center });
         }
-        Ok(Self { terms })
+        Ok(Self { terms, footprint: None })
     }
 
     /// The terms, as given.
     #[must_use]
     pub fn terms(&self) -> &[Gaussian] {
         &self.terms
+    }
+
+    pub(super) fn with_footprint(self, footprint: Footprint) -> Self {
+        Self { footprint: Some(Arc::new(footprint)), ..self }
+    }
+
+    pub(super) fn footprint(&self) -> Option<&Footprint> {
+        self.footprint.as_deref()
     }
 
     pub(super) fn value(&self, x: f64) -> f64 {

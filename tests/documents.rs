@@ -88,7 +88,9 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let refusal = folder.stickslip("schema none");
     let said = program::said(&refusal);
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
-    let tested: Vec<&str> = ["run", "surface"].into_iter().chain(OTHERS.map(|o| o.0)).collect();
+    // tests/long_runs.rs judges lines, checkpoints and verifications.
+    let runs = ["run", "run-lines", "checkpoint", "surface"];
+    let tested: Vec<&str> = runs.into_iter().chain(OTHERS.map(|o| o.0)).collect();
     assert_eq!(offered.split(", ").collect::<Vec<_>>(), tested);
 }
 

@@ -4,8 +4,7 @@ use super::figure::Figure;
 use super::run::{document, parameters};
 use crate::arguments::SurfaceArguments;
 use crate::documents::{
-    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument,
-    SurfaceParameters,
+    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
 };
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_run;

@@ -61,7 +61,7 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
 }
 
 /// The same file from wherever a run is taken up again.
-fn resting_place(path: &Path) -> PathBuf {
+pub(super) fn resting_place(path: &Path) -> PathBuf {
     if path == Path::new("-") {
         return path.into();
     }

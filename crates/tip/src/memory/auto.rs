@@ -5,7 +5,7 @@ use crate::TipFunction;
 use crate::collocation::Stages;
 use crate::state::{Damaged, Reader, State};
 
-/// `direct` while few nodes lie within reach of the tip, `fft` from then on.
+/// `direct` while few nodes lie within reach of the tip and few steps have been made, `fft` from then on.
 ///
 /// `modes` is not among the choices yet: it is cheaper per step at tolerances above 1e-9, dearer below.
 pub struct Auto {
@@ -22,6 +22,9 @@ enum Now {
 /// six nodes, but its plan takes some 30 µs, as much as the first eight steps of a direct sum
 /// (benches/memory.rs); anything from 30 to 100 does as well.
 pub const CROSSOVER_NODES: usize = 48;
+
+/// Remembered steps from which `fft` is the cheaper one, wherever they lie: `direct` looks through them all.
+pub const CROSSOVER_STEPS: usize = 1024;
 
 impl Auto {
     /// Nothing remembered yet.
@@ -43,7 +46,8 @@ impl Memory for Auto {
         match &mut self.now {
             Now::Direct(direct) => {
                 direct.remember(position, weight);
-                if direct.nodes_within_reach() > CROSSOVER_NODES {
+                let is_long = direct.steps() > CROSSOVER_STEPS;
+                if is_long || direct.nodes_within_reach() > CROSSOVER_NODES {
                     let past: Vec<_> = direct.past().collect();
                     self.now = Now::Fft(Box::new(Fft::with_past(self.tip.clone(), &past)));
                 }
@@ -97,7 +101,9 @@ impl Memory for Auto {
             Now::Direct(_) => {
                 format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
             }
-            Now::Fft(_) => format!("more than {CROSSOVER_NODES} nodes lay within reach"),
+            Now::Fft(_) => format!(
+                "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"
+            ),
         })
     }
 }

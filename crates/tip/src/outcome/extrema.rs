@@ -12,14 +12,21 @@ pub(super) struct Extremum {
     pub(super) t: f64,
     pub(super) l: f64,
     pub(super) is_maximum: bool,
-    /// Start of the step that it lies in.
-    pub(super) step: f64,
+}
+
+/// Where in a step an extremum lies: it is found more exactly only where it is needed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turn {
+    pub(super) step: Step,
+    /// Fractions of the step.
+    between: (f64, f64),
+    is_maximum: bool,
 }
 
 /// The latest extrema of l, in order.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Extrema {
-    latest: VecDeque<Extremum>,
+    latest: VecDeque<Turn>,
 }
 
 /// So many are enough to compare three cycles of up to eight slips.
@@ -28,9 +35,11 @@ const MOST: usize = 64;
 impl Extrema {
     /// Adds those of a step; says whether there were any.
     pub(super) fn observe(&mut self, step: &Step, r: f64) -> bool {
-        let before = self.latest.len();
-        turning_points(step, r, |extremum| self.latest.push_back(extremum));
-        let found = self.latest.len() > before;
+        let mut found = false;
+        turns(step, r, |turn| {
+            self.latest.push_back(turn);
+            found = true;
+        });
         while self.latest.len() > MOST {
             self.latest.pop_front();
         }
@@ -39,55 +48,59 @@ impl Extrema {
 
     /// Forgets those of steps before t.
     pub(super) fn forget_before(&mut self, t: f64) {
-        while self.latest.front().is_some_and(|e| e.step < t) {
+        while self.latest.front().is_some_and(|turn| turn.step.t < t) {
             self.latest.pop_front();
         }
     }
 
     /// The earliest one kept, if as many are kept as are needed.
-    pub(super) fn earliest_needed(&self) -> Option<Extremum> {
-        self.latest.front().filter(|_| self.latest.len() == MOST).copied()
-    }
-
-    /// The latest one.
-    pub(super) fn last(&self) -> Option<Extremum> {
-        self.latest.back().copied()
+    pub(super) fn earliest_needed(&self) -> Option<&Turn> {
+        self.latest.front().filter(|_| self.latest.len() == MOST)
     }
 
     /// All that are kept, latest first.
-    pub(super) fn latest_first(&self) -> impl Iterator<Item = &Extremum> + Clone {
-        self.latest.iter().rev()
+    pub(super) fn latest_first(&self, r: f64) -> Vec<Extremum> {
+        self.latest.iter().rev().map(|turn| turn.extremum(r)).collect()
     }
 
     pub(super) fn save(&self, state: &mut State) {
         state.count(self.latest.len() as u64);
-        for e in &self.latest {
-            [e.t, e.l, e.step].into_iter().for_each(|number| state.number(number));
-            state.flag(e.is_maximum);
+        for turn in &self.latest {
+            state.step(&turn.step);
+            state.number(turn.between.0);
+            state.number(turn.between.1);
+            state.flag(turn.is_maximum);
         }
     }
 
     pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let one = |state: &mut Reader| {
-            let (t, l, step) = (state.finite()?, state.finite()?, state.finite()?);
-            Ok(Extremum { t, l, is_maximum: state.flag()?, step })
+            let (step, between) = (state.step()?, (state.finite()?, state.finite()?));
+            Ok(Turn { step, between, is_maximum: state.flag()? })
         };
-        self.latest = (0..state.length(4)?).map(|_| one(state)).collect::<Result<_, _>>()?;
+        self.latest = (0..state.length(1)?).map(|_| one(state)).collect::<Result<_, _>>()?;
         Ok(())
     }
 }
 
+impl Turn {
+    fn extremum(&self, r: f64) -> Extremum {
+        let Self { step, between, is_maximum } = *self;
+        let l_slope = |tau: f64| r - RADAU.slope(&step.displacement, tau) / step.h;
+        let t = step.t + bisect(l_slope, between.0, between.1) * step.h;
+        Extremum { t, l: step.l(r, t), is_maximum }
+    }
+}
+
 /// Where l' = r - x0' changes sign between collocation nodes of the step.
-fn turning_points(step: &Step, r: f64, mut found: impl FnMut(Extremum)) {
-    let l_slope = |tau: f64| r - RADAU.slope(&step.displacement, tau) / step.h;
+fn turns(step: &Step, r: f64, mut found: impl FnMut(Turn)) {
     let at_start: f64 =
         (0..STAGES).map(|j| RADAU.derivative_at_start[j] * step.displacement[j]).sum();
     let mut before = (0.0, r - at_start / step.h);
     for (c, moving) in RADAU.c.iter().zip(apply(&RADAU.derivative, &step.displacement)) {
         let after = (*c, r - moving / step.h);
         if before.1 * after.1 < 0.0 {
-            let t = step.t + bisect(l_slope, before.0, after.0) * step.h;
-            found(Extremum { t, l: step.l(r, t), is_maximum: before.1 > 0.0, step: step.t });
+            found(Turn { step: *step, between: (before.0, *c), is_maximum: before.1 > 0.0 });
         }
         before = after;
     }

@@ -8,6 +8,7 @@ mod sampling;
 mod stability;
 mod surface;
 mod units;
+mod verify;
 
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
@@ -17,6 +18,7 @@ pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use units::UnitsArguments;
+pub(crate) use verify::VerifyArguments;
 
 use crate::documents::SchemaName;
 use clap::{Args, Parser, Subcommand};
@@ -35,6 +37,7 @@ pub(crate) struct Cli {
 
 const EXAMPLES: &str = "Examples:
   stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  stickslip verify run.json
   stickslip surface run.json --at 457 --range -5,460 --spacing 0.02 -o surface.csv
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
@@ -47,6 +50,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Run(RunArguments),
+    Verify(VerifyArguments),
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),

@@ -8,6 +8,7 @@ pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod surface;
 pub(crate) mod units;
+pub(crate) mod verify;
 
 mod figure;
 mod progress;

@@ -9,6 +9,7 @@ mod run_lines;
 mod stability;
 mod surface;
 mod units;
+mod verification;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
@@ -29,6 +30,8 @@ pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
+
+pub(crate) use verification::{DifferenceDocument, VerificationDocument, VerifyDocument};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};
@@ -57,6 +60,7 @@ pub(crate) enum SchemaName {
     Run,
     RunLines,
     Checkpoint,
+    Verify,
     Surface,
     Stability,
     Boundary,
@@ -70,6 +74,7 @@ impl SchemaName {
             Self::Run => schema_for!(RunDocument),
             Self::RunLines => schema_for!(RunLine),
             Self::Checkpoint => schema_for!(CheckpointHead),
+            Self::Verify => schema_for!(VerifyDocument),
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),

@@ -91,11 +91,16 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let refusal = folder.stickslip("schema none");
     let said = program::said(&refusal);
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
-    // tests/figures.rs validates those of `figures`.
+    // tests/long_runs.rs judges lines and checkpoints, tests/figures.rs figures, tests/sweep.rs sweeps.
+    let runs = ["run", "run-lines", "checkpoint", "surface"];
     let figures = ["figure", "reproduction"];
-    let tested: Vec<&str> =
-        ["run", "surface"].into_iter().chain(OTHERS.map(|o| o.0)).chain(figures).collect();
-    assert_eq!(offered.split(", ").collect::<Vec<_>>(), tested);
+    let others = OTHERS.map(|o| o.0);
+    let mut tested: Vec<&str> =
+        runs.into_iter().chain(others).chain(figures).chain(["sweep"]).collect();
+    let mut offered: Vec<&str> = offered.split(", ").collect();
+    tested.sort_unstable();
+    offered.sort_unstable();
+    assert_eq!(offered, tested);
 }
 
 /// A schema that accepts anything would pass the tests above.

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
+        Command::Verify(arguments) => commands::verify::verify(arguments),
         Command::Surface(arguments) => commands::surface::surface(arguments),
         Command::Stability(arguments) => commands::stability::stability(arguments),
         Command::Boundary(arguments) => commands::boundary::boundary(arguments),

@@ -13,6 +13,7 @@ mod stability;
 mod surface;
 mod sweep;
 mod units;
+mod verify;
 
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use compare::{CompareArguments, GridName};
@@ -27,6 +28,7 @@ pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
+pub(crate) use verify::VerifyArguments;
 
 use crate::documents::SchemaName;
 use clap::{Args, Parser, Subcommand};
@@ -45,6 +47,7 @@ pub(crate) struct Cli {
 
 const EXAMPLES: &str = "Examples:
   stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  stickslip verify run.json
   stickslip surface run.json --at 457 --range -5,460 --spacing 0.02 -o surface.csv
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
@@ -62,6 +65,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Run(RunArguments),
+    Verify(VerifyArguments),
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),

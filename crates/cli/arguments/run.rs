@@ -160,6 +160,12 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 
+    /// Repeat the run with another memory and a tighter tolerance, and say in the document how far the two
+    /// are apart; exit status 1 if that is more than the tolerance allows. Takes many times as
+    /// long as the run.
+    #[arg(long, help_heading = "Accuracy")]
+    pub(crate) verify: bool,
+
     /// Save the state of the run to FILE as it goes on, so that `--resume FILE` can take it up again.
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) checkpoint: Option<PathBuf>,

@@ -13,6 +13,7 @@ pub(crate) mod stability;
 pub(crate) mod surface;
 pub(crate) mod sweep;
 pub(crate) mod units;
+pub(crate) mod verify;
 
 mod figure;
 mod progress;

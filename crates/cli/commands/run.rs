@@ -89,8 +89,10 @@ fn resume(path: &Path) -> Result<(), Failure> {
 
 /// The file that a checkpoint goes to.
 fn checkpoint_place(path: &Path) -> Result<std::path::PathBuf, Failure> {
+    // Its folder must take new files.
+    drop(Output::open("--checkpoint", path)?);
     match place("--checkpoint", path)? {
-        Place::File(path) => Ok(path),
+        Place::File(path) => Ok(order::resting_place(&path)),
         Place::Stdout | Place::Special(_) => Err(Failure::input(
             format!("--checkpoint {}", path.display()),
             "must be a file, which is replaced by each checkpoint",
@@ -104,10 +106,11 @@ fn open(
     order: &Order,
     checkpoint: Option<&Path>,
 ) -> Result<(Target, Sink), Failure> {
-    if checkpoint.is_some_and(|path| path == order.output) {
+    let taken = |path: &&Path| [Some(&*order.output), order.plot.as_deref()].contains(&Some(*path));
+    if let Some(path) = checkpoint.filter(taken) {
         return Err(Failure::input(
-            format!("--checkpoint {}", output.display()),
-            "is the output itself: give it a name of its own",
+            format!("--checkpoint {}", path.display()),
+            "is what the run is written to: give it a name of its own",
         ));
     }
     if order.format == RunFormat::Jsonl {

@@ -15,6 +15,7 @@ mod stability;
 mod surface;
 mod sweep;
 mod units;
+mod verification;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
@@ -52,6 +53,8 @@ pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 
+pub(crate) use verification::{DifferenceDocument, VerificationDocument, VerifyDocument};
+
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::{Deserialize, Serialize};
@@ -79,6 +82,7 @@ pub(crate) enum SchemaName {
     Run,
     RunLines,
     Checkpoint,
+    Verify,
     Surface,
     Stability,
     Boundary,
@@ -98,6 +102,7 @@ impl SchemaName {
             Self::Run => schema_for!(RunDocument),
             Self::RunLines => schema_for!(RunLine),
             Self::Checkpoint => schema_for!(CheckpointHead),
+            Self::Verify => schema_for!(VerifyDocument),
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),

@@ -1,6 +1,6 @@
 //! `stickslip/run`.
 
-use super::{ModelParameters, Software};
+use super::{ModelParameters, Software, VerificationDocument};
 use crate::arguments::{MemoryName, StartName};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,6 +30,9 @@ pub(crate) struct RunDocument {
     pub(crate) oscillation: Option<OscillationDocument>,
     /// Whether a signal stopped the run before `until`.
     pub(crate) interrupted: bool,
+    /// The run against a repetition, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) verification: Option<VerificationDocument>,
     /// What it took.
     pub(crate) work: WorkDocument,
 }

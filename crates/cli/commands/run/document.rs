@@ -65,6 +65,7 @@ pub(super) fn of(
         regime: end.regime,
         oscillation: end.oscillation,
         interrupted: end.interrupted,
+        verification: None,
         work: end.work,
     }
 }

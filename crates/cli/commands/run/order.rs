@@ -41,7 +41,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
         format,
         history: arguments.history == HistoryName::All,
         plot: arguments.plot.as_deref().map(resting_place),
-        verify: false,
+        verify: arguments.verify,
         checkpoint_every: arguments.checkpoint.is_some().then_some(every),
     };
     judged(order, arguments)
@@ -49,19 +49,22 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
 
 /// What does not go together.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
-    let plot = arguments.plot.as_deref().filter(|_| order.format == RunFormat::Jsonl);
-    if let Some(plot) = plot {
+    if order.format != RunFormat::Jsonl {
+        return Ok(order);
+    }
+    let plot = arguments.plot.as_deref().map(|path| format!("--plot {}", path.display()));
+    let verify = arguments.verify.then(|| "--verify".to_string());
+    if let Some(option) = plot.or(verify) {
         return Err(Failure::input(
-            format!("--plot {}", plot.display()),
-            "is drawn from the history, which a run written as lines does not keep: write it to a .json, .csv \
-             or .npz",
+            option,
+            "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz",
         ));
     }
     Ok(order)
 }
 
 /// The same file from wherever a run is taken up again.
-fn resting_place(path: &Path) -> PathBuf {
+pub(super) fn resting_place(path: &Path) -> PathBuf {
     if path == Path::new("-") {
         return path.into();
     }

@@ -5,7 +5,7 @@ use super::journey::Travelled;
 use super::record::{Record, Sink};
 use crate::arguments::RunFormat;
 use crate::commands::figure::Figure;
-use crate::commands::surface;
+use crate::commands::{surface, verify};
 use crate::documents::{Order, RunDocument, RunEnd, RunHead, SteadyState};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
@@ -46,6 +46,7 @@ pub(super) fn all(
     let said = summary(&end);
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
+    let mut failure = None;
     match target {
         Target::Lines => {
             let Sink::Lines(mut stream) = travelled.record.sink else {
@@ -56,17 +57,27 @@ pub(super) fn all(
         }
         Target::Document(output) => {
             let samples = &travelled.record.samples;
-            let document = document::of(order, scenario, end, samples, trajectory.as_ref());
+            let memory = end.work.memory.clone();
+            let mut document = document::of(order, scenario, end, samples, trajectory.as_ref());
+            let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
+            // What was computed is written even if a signal ends its verification.
+            let verified = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
+            document.verification = verified.as_ref().ok().cloned().flatten();
             write(&document, order.format, output)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 figure.write(&draw(&document, scenario, initial, trajectory)?)?;
             }
+            failure = match verified {
+                Err(failure) => Some(failure),
+                Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),
+            };
         }
     }
     if order.output != Path::new("-") {
         eprintln!("{said}");
     }
-    travelled.signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+    let interrupted = travelled.signal.map(Failure::Interrupted);
+    interrupted.or(failure).map_or(Ok(()), Err)
 }
 
 fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<(), Failure> {

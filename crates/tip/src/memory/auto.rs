@@ -5,8 +5,8 @@ use crate::TipFunction;
 use crate::collocation::Stages;
 use crate::state::{Damaged, Reader, State};
 
-/// `direct` while few nodes lie within reach of the tip; from then on `modes` where f' can be fitted by
-/// exponentials as well as is needed, else `fft`.
+/// `direct` while few nodes lie within reach of the tip and few steps have been made; from then on `modes`
+/// where f' can be fitted by exponentials as well as is needed, else `fft`.
 pub struct Auto {
     tip: TipFunction,
     accuracy: f64,
@@ -24,6 +24,9 @@ enum Now {
 /// footprint and an accuracy, some 300 µs: as much as the first 8 or 20 steps of a direct sum
 /// (benches/memory.rs).
 pub const CROSSOVER_NODES: usize = 48;
+
+/// Remembered steps from which a direct sum is the dearer one, wherever they lie: `direct` looks through them all.
+pub const CROSSOVER_STEPS: usize = 1024;
 
 impl Auto {
     /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`.
@@ -67,7 +70,7 @@ impl Memory for Auto {
     fn remember(&mut self, position: &Stages, weight: &Stages) {
         self.now.memory_mut().remember(position, weight);
         if let Now::Direct(direct) = &self.now
-            && direct.nodes_within_reach() > CROSSOVER_NODES
+            && (direct.nodes_within_reach() > CROSSOVER_NODES || direct.steps() > CROSSOVER_STEPS)
         {
             self.now = self.with_more(direct);
         }
@@ -93,15 +96,17 @@ impl Memory for Auto {
     }
 
     fn note(&self) -> Option<String> {
-        let many = format!("more than {CROSSOVER_NODES} nodes lay within reach");
+        let many = format!(
+            "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"
+        );
         Some(match &self.now {
             Now::Direct(_) => {
                 format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
             }
             Now::Modes(modes) => many + "; " + &modes.note().unwrap_or_default(),
             Now::Fft(_, FitError::NeverFades) => many + ", and modes need a footprint that fades",
-            Now::Fft(_, FitError::NotMet { wanted, .. }) => {
-                format!("{many}, and modes do not fit f' to {wanted:.1e}")
+            Now::Fft(_, FitError::NotMet { .. } | FitError::Terms) => {
+                format!("{many}, and modes do not fit f' to {:.1e}", self.accuracy)
             }
         })
     }

@@ -45,6 +45,12 @@ impl Direct {
         STAGES * self.blocks.iter().filter(seen).count()
     }
 
+    /// Number of remembered steps.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.blocks.len()
+    }
+
     /// All that is remembered: displacements from where the tip stands now, and times spent there.
     pub fn past(&self) -> impl Iterator<Item = (f64, f64)> {
         let nodes =

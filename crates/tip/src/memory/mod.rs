@@ -9,7 +9,7 @@ mod direct;
 mod fft;
 mod modes;
 
-pub use auto::{Auto, CROSSOVER_NODES};
+pub use auto::{Auto, CROSSOVER_NODES, CROSSOVER_STEPS};
 pub use direct::Direct;
 pub use fft::Fft;
 pub use modes::{Certificate, Fit, FitError, Modes, Term, accuracy_needed};

@@ -72,11 +72,12 @@ impl Classifier {
 
     /// Drops steps that neither the extrema nor the ripple of their last period need.
     fn cut_tail(&mut self) {
-        while let (Some(first), Some(earliest)) =
-            (self.tail.front(), self.extrema.earliest_needed())
-        {
-            let left = self.r * earliest.t - self.r - earliest.l - self.reaches;
-            if first.end() > earliest.step || first.x0(self.r, first.end()) > left {
+        let start = |step: &Step| self.r * step.t - step.extension;
+        while let Some(earliest) = self.extrema.earliest_needed() {
+            // The first is not needed if the second begins far enough behind.
+            let enough = start(&earliest.step) - self.reaches;
+            let spare = |next: &Step| next.t <= earliest.step.t && start(next) <= enough;
+            if !self.tail.get(1).is_some_and(spare) {
                 break;
             }
             self.tail.pop_front();
@@ -99,11 +100,12 @@ impl Classifier {
         if !self.is_far(last.l(self.r, end)) && self.unsteady < end - STEADY_SHARE * (end - start) {
             return regime(Regime::Steady);
         }
-        let since = self.extrema.last().map_or(start, |e| e.t.max(start));
+        let extrema = self.extrema.latest_first(self.r);
+        let since = extrema.first().map_or(start, |e| e.t.max(start));
         if creep::is_trapped(model, (start, since), &self.risen, &last) {
             return regime(Regime::Trapped);
         }
-        let found = self.tail().and_then(|tail| Oscillation::of(&tail, &self.extrema));
+        let found = self.tail().and_then(|tail| Oscillation::of(&tail, &extrema));
         match found {
             None => regime(Regime::Transient),
             oscillation => Outcome { regime: Regime::StickSlip, oscillation },

@@ -35,6 +35,9 @@ pub enum FitError {
         "the modes need a footprint that fades; this one does not (J0 falls like 1/√x): use the memory fft"
     )]
     NeverFades,
+    /// Terms that make no sum.
+    #[error("a fit needs at least one exponential, and each must fade")]
+    Terms,
     /// The best fit is not good enough.
     #[error(
         "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: ask for a larger tolerance, or use the memory fft"
@@ -127,13 +130,30 @@ impl Fit {
         fit
     }
 
+    /// The sum of given terms, with its certified error: for exponentials found elsewhere.
+    ///
+    /// # Errors
+    /// A footprint that never fades, no terms, or terms that do not fade.
+    pub fn from_terms(tip: &TipFunction, terms: Vec<Term>) -> Result<Self, FitError> {
+        let reach = tip.reach().ok_or(FitError::NeverFades)?;
+        let fades = |term: &Term| {
+            term.exponent.re < 0.0 && term.exponent.is_finite() && term.weight.is_finite()
+        };
+        if terms.is_empty() || !terms.iter().all(fades) {
+            return Err(FitError::Terms);
+        }
+        let retreat = retreat(tip, reach);
+        let certificate = certify(tip, reach, retreat, &terms);
+        Ok(Self { terms, retreat, wanted: certificate.slope, certificate })
+    }
+
     /// The terms.
     #[must_use]
     pub fn terms(&self) -> &[Term] {
         &self.terms
     }
 
-    /// The accuracy that it was made for.
+    /// The accuracy that it was made for, its own error where the terms were given.
     #[must_use]
     pub fn wanted(&self) -> f64 {
         self.wanted

@@ -56,6 +56,14 @@ impl Modes {
     /// A footprint that the sum cannot represent so well.
     pub fn new(tip: TipFunction, accuracy: f64) -> Result<Self, FitError> {
         let fit = Fit::cached(&tip, accuracy)?;
+        Self::with_fit(tip, fit)
+    }
+
+    /// Nothing remembered yet; f' as in the fit given, however good that is.
+    ///
+    /// # Errors
+    /// A footprint that never fades.
+    pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         Ok(Self {
             bank: Bank::new(&fit),

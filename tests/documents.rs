@@ -91,12 +91,12 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let refusal = folder.stickslip("schema none");
     let said = program::said(&refusal);
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
-    // tests/long_runs.rs judges lines and checkpoints, tests/figures.rs figures, tests/sweep.rs sweeps.
+    // Judged in files of their own: lines and checkpoints, figures, verifications, sweeps.
     let runs = ["run", "run-lines", "checkpoint", "surface"];
     let figures = ["figure", "reproduction"];
     let others = OTHERS.map(|o| o.0);
     let mut tested: Vec<&str> =
-        runs.into_iter().chain(others).chain(figures).chain(["sweep"]).collect();
+        runs.into_iter().chain(others).chain(figures).chain(["verify", "sweep"]).collect();
     let mut offered: Vec<&str> = offered.split(", ").collect();
     tested.sort_unstable();
     offered.sort_unstable();

@@ -53,7 +53,7 @@ pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 
-pub(crate) use verification::{DifferenceDocument, VerificationDocument, VerifyDocument};
+pub(crate) use verification::{LargestDifferenceDocument, VerificationDocument, VerifyDocument};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};

@@ -4,9 +4,10 @@ use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
 use crate::cycle::linearisation::Direction;
 use crate::cycle::orbit::{Orbit, even_mesh};
+use crate::cycle::search::embedding;
 use crate::cycle::solve::{Closed, Condition, close};
 use crate::cycle::start::{mode, steps_of_mode};
-use crate::cycle::{Cycle, CycleError, Parameter, embedding};
+use crate::cycle::{Cycle, CycleError, Parameter};
 use crate::stability::{critical, critical_r};
 use crate::{Model, TipFunction};
 

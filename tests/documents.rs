@@ -67,12 +67,13 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 6] = [
+const OTHERS: [(&str, &str); 7] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("response", "response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60"),
     ("cycle", "cycle --alpha 1.2 --r 1"),
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
+    ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
     (
         "units",
         "units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1",

@@ -40,6 +40,9 @@ pub(crate) enum Failure {
     /// Stopped by a signal, after writing what there was. Status 128 + signal.
     #[error("interrupted: the result holds what was computed until then")]
     Interrupted(u8),
+    /// Stopped by a signal without a result. Status 128 + signal.
+    #[error("interrupted: no result was written")]
+    Stopped(u8),
 }
 
 impl Failure {
@@ -51,7 +54,7 @@ impl Failure {
         match self {
             Self::Input { .. } => 2,
             Self::Run(_) | Self::Write { .. } => 1,
-            Self::Interrupted(signal) => 128 + signal,
+            Self::Interrupted(signal) | Self::Stopped(signal) => 128 + signal,
         }
     }
 

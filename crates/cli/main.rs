@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Response(arguments) => commands::response::response(arguments),
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Continue(arguments) => commands::continuation::follow(arguments),
+        Command::Sweep(arguments) => commands::sweep::sweep(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };

@@ -9,6 +9,7 @@ mod run;
 mod sampling;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 
 pub(crate) use boundary::BoundaryArguments;
@@ -20,6 +21,7 @@ pub(crate) use run::{MemoryName, RunArguments, StartName};
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
+pub(crate) use sweep::{GridArguments, MergeArguments, Range, SweepArguments, SweepCommand};
 pub(crate) use units::UnitsArguments;
 
 use crate::documents::SchemaName;
@@ -45,6 +47,7 @@ const EXAMPLES: &str = "Examples:
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
+  stickslip sweep --r 0.3:2:60 --alpha 0.05:4:60 -o map.json --plot map.png
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip schema run
 
@@ -59,6 +62,7 @@ pub(crate) enum Command {
     Response(ResponseArguments),
     Cycle(CycleArguments),
     Continue(ContinueArguments),
+    Sweep(SweepArguments),
     Units(UnitsArguments),
     Schema(SchemaArguments),
 }

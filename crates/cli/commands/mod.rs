@@ -9,6 +9,7 @@ pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod surface;
+pub(crate) mod sweep;
 pub(crate) mod units;
 
 mod figure;

@@ -8,6 +8,7 @@ mod response;
 mod run;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 
 pub(crate) use boundary::{
@@ -28,6 +29,9 @@ pub(crate) use stability::{
     StabilityParameters, TrappingDocument,
 };
 pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use sweep::{
+    MethodName, RangeDocument, ShardDocument, SweepDocument, SweepParameters, SweepPoint,
+};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
@@ -63,6 +67,7 @@ pub(crate) enum SchemaName {
     Response,
     Cycle,
     Continue,
+    Sweep,
     Units,
 }
 
@@ -76,6 +81,7 @@ impl SchemaName {
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
             Self::Continue => schema_for!(ContinueDocument),
+            Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
         }
     }

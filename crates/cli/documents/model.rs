@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use stickslip_tip::{Gaussian, Model, TipFunction};
 
 /// The footprint f(x), x in units of σ.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub(crate) enum TipDocument {
     /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
@@ -18,7 +18,7 @@ pub(crate) enum TipDocument {
 }
 
 /// a exp(-(x-c)²/(2w²)).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GaussianDocument {
     /// a

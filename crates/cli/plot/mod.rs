@@ -1,6 +1,6 @@
 //! Figures of runs, surfaces, roots and stability boundaries, as SVG or PNG.
 //!
-//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`bifurcations`], [`surface`],
+//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`bifurcations`], [`phases`], [`surface`],
 //! [`roots`], [`boundary`], [`onset`], [`lines`]) describes panels of curves; a [`panel`] fits its axes and
 //! thins its curves; a [`sheet`] stacks the panels into one SVG; [`encode`] makes the bytes of a
 //! file of it. The same input gives the same bytes.
@@ -19,6 +19,7 @@ mod legend;
 mod lines;
 mod onset;
 mod panel;
+mod phases;
 #[cfg(feature = "png")]
 mod raster;
 mod roots;
@@ -35,6 +36,7 @@ pub(crate) use encode::encode;
 pub(crate) use format::PlotFormat;
 pub(crate) use lines::lines;
 pub(crate) use onset::onset;
+pub(crate) use phases::{Phase, PhaseFigure, phases};
 pub(crate) use roots::roots;
 pub(crate) use run::{RunFigure, run};
 pub(crate) use surface::{SurfaceFigure, surface};

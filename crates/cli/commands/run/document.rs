@@ -41,12 +41,7 @@ pub(super) fn of(
         },
         samples: samples(&run.trajectory, times),
         history: history(&run.trajectory),
-        regime: match run.outcome.regime {
-            Regime::Steady => RegimeName::Steady,
-            Regime::StickSlip => RegimeName::StickSlip,
-            Regime::Trapped => RegimeName::Trapped,
-            Regime::Transient => RegimeName::Transient,
-        },
+        regime: regime(run.outcome.regime),
         oscillation: oscillation(scenario, run),
         interrupted: run.interrupted,
         work: WorkDocument {
@@ -57,6 +52,16 @@ pub(super) fn of(
             newton_iterations: run.work.newton_iterations,
             seconds,
         },
+    }
+}
+
+/// Its name.
+pub(crate) fn regime(regime: Regime) -> RegimeName {
+    match regime {
+        Regime::Steady => RegimeName::Steady,
+        Regime::StickSlip => RegimeName::StickSlip,
+        Regime::Trapped => RegimeName::Trapped,
+        Regime::Transient => RegimeName::Transient,
     }
 }
 

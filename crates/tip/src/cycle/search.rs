@@ -8,6 +8,9 @@ use super::{Cycle, CycleError, TOLERANCES};
 use crate::stability::{StabilityError, critical, onset_at};
 use crate::{Model, Outcome, Trajectory};
 
+/// Halves of a cycle that differ by less, in σ, are the same.
+const REPEATS_WITHIN: f64 = 1e-7;
+
 /// What a tip comes to when steady motion is disturbed a little.
 #[derive(Debug, Clone)]
 pub enum Motion {
@@ -124,7 +127,15 @@ fn born(equation: &Embedding, model: &Model) -> Option<Orbit> {
     from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
 }
 
+/// The cycle near a guess, once around it: a guess at two slips may close after one.
 fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Option<Cycle> {
     let closed = close(equation.clone(), guess, Condition::GIVEN, tolerance).ok()?;
-    if closed.is_steady() { None } else { Cycle::new(closed).ok() }
+    if closed.is_steady() {
+        return None;
+    }
+    let r = equation.r;
+    if closed.orbit.difference_of_halves(r) < REPEATS_WITHIN {
+        return solve(equation, closed.orbit.halved(r), tolerance);
+    }
+    Cycle::new(closed).ok()
 }

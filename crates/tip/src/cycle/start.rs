@@ -10,9 +10,11 @@ use crate::{Model, Outcome, Regime, Run, Scenario, Trajectory, run};
 use std::f64::consts::{PI, TAU};
 
 const FEWEST_STEPS: f64 = 18.0;
+/// Amplitude to which the leading order is a guess, in widths.
+const LARGEST_MODE: f64 = 1.0;
 
 /// The linear mode with the amplitude and period of leading order in α - αc; `None` where that is
-/// imaginary.
+/// imaginary, or so large that Newton's method might find any cycle from there.
 pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     let above = equation.alpha - onset.critical.alpha;
     let square = onset.amplitude_squared_slope * above;
@@ -21,6 +23,9 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     }
     let model = equation.model()?;
     let amplitude = square.sqrt();
+    if amplitude > LARGEST_MODE * 8.7 / equation.tip.band() {
+        return None;
+    }
     let period = onset.critical.period + onset.period_slope * above;
     if period <= 0.5 * onset.critical.period {
         return None;
@@ -66,8 +71,10 @@ pub(super) fn from_runs(
     for length in RUNS {
         scenario.until = scenario.start_time() + length;
         let Run { trajectory, outcome, .. } = run(&scenario)?;
-        let last = last_period(&trajectory, &outcome);
-        let taken = last.is_some_and(|(from, to)| take(part(&trajectory, from, to)));
+        // Where none is seen yet, a period may have one slip or two.
+        let slips = outcome.oscillation.map_or(1..=2, |o| o.slips..=o.slips);
+        let periods: Vec<_> = slips.filter_map(|slips| last_period(&trajectory, slips)).collect();
+        let taken = periods.into_iter().any(|(from, to)| take(part(&trajectory, from, to)));
         let over = matches!(outcome.regime, Regime::Steady | Regime::Trapped);
         ended = Some(outcome);
         if taken || over {
@@ -78,9 +85,8 @@ pub(super) fn from_runs(
 }
 
 /// Between two maxima a period apart: the highest within the period, and the one before it.
-fn last_period(trajectory: &Trajectory, outcome: &Outcome) -> Option<(f64, f64)> {
+fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
     let maxima = Extrema::at_the_end_of(trajectory).maxima();
-    let slips = outcome.oscillation.map_or(1, |o| o.slips);
     let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
     let (i, end) = maxima.iter().take(slips).enumerate().max_by(highest)?;
     let start = maxima.get(i + slips)?;

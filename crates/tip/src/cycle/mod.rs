@@ -26,6 +26,7 @@ mod mesh;
 mod orbit;
 mod past;
 mod ripple;
+mod scaling;
 mod search;
 mod sensitivity;
 mod solve;
@@ -35,6 +36,7 @@ mod step;
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
 pub use error::CycleError;
+pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
 pub use search::{Motion, cycle, cycle_near, motion};
 
 use crate::outcome::Extrema;

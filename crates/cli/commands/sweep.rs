@@ -1,5 +1,6 @@
 //! `stickslip sweep`.
 
+mod diagram;
 mod finished;
 mod grid;
 mod merge;
@@ -28,7 +29,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     }
     let grid = Grid::asked(arguments)?;
     let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
-    Writer::check(output, plot)?;
+    Writer::check(output, plot, &grid.parameters)?;
     let finished = if output == Path::new("-") {
         Finished::in_memory()
     } else {

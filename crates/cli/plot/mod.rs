@@ -1,6 +1,6 @@
 //! Figures of runs, surfaces, roots and stability boundaries, as SVG or PNG.
 //!
-//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`bifurcations`], [`surface`],
+//! Numbers in, document out: nothing here knows of models or files. A figure ([`run`], [`cycle`], [`bifurcations`], [`phases`], [`surface`],
 //! [`roots`], [`boundary`], [`onset`], [`lines`]) describes panels of curves; a [`panel`] fits its axes and
 //! thins its curves; a [`sheet`] stacks the panels into one SVG; [`encode`] makes the bytes of a
 //! file of it. The same input gives the same bytes.
@@ -21,6 +21,8 @@ mod lines;
 mod map;
 mod onset;
 mod panel;
+mod phases;
+mod phases_over;
 mod picture;
 #[cfg(feature = "png")]
 mod raster;
@@ -29,7 +31,6 @@ mod run;
 mod sheet;
 mod style;
 mod surface;
-mod sweep;
 mod thin;
 
 pub(crate) use bifurcation::{BifurcationFigure, BranchCurve, SpecialMark, bifurcations};
@@ -41,7 +42,8 @@ pub(crate) use format::PlotFormat;
 pub(crate) use lines::lines;
 pub(crate) use map::{Colours, Map, maps};
 pub(crate) use onset::onset;
+pub(crate) use phases::{Phase, PhaseFigure, phases};
+pub(crate) use phases_over::{PhasesOver, phases_over};
 pub(crate) use roots::roots;
 pub(crate) use run::{RunFigure, run};
 pub(crate) use surface::{SurfaceFigure, surface};
-pub(crate) use sweep::{SweepKind, SweepMark, sweep};

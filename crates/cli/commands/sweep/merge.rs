@@ -1,6 +1,6 @@
 //! `stickslip sweep merge`.
 
-use super::write;
+use super::write::Writer;
 use crate::arguments::MergeArguments;
 use crate::documents::{SweepDocument, SweepParameters, SweepPoint};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
-    let writer = write::Writer::asked(&arguments.output, arguments.plot.as_deref())?;
+    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")
@@ -28,7 +28,8 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     }
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
-    writer.write(&whole)
+    Writer::check(output, plot, &whole.parameters)?;
+    Writer::asked(output, plot)?.write(&whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {

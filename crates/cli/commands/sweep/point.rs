@@ -1,15 +1,10 @@
-//! What the tip settles into at one point: by stability, by its cycle, or by a run.
+//! What the tip settles into at one point. Depends on the point alone: a sweep may be done in any order.
 
 use super::grid::{Alpha, Place};
 use crate::documents::{RegimeName, SourceName, SweepPoint};
-use stickslip_tip::cycle::{Cycle, CycleError, cycle};
+use stickslip_tip::cycle::{Cycle, Motion, motion};
 use stickslip_tip::stability::critical;
-use stickslip_tip::{Model, Outcome, Regime, RunError, Running, Scenario};
-
-/// What disturbs the steady state, in σ, and how long a run may take to settle, in Γ/k.
-const KICK: f64 = 0.3;
-const SETTLING: f64 = 3000.0;
-const TOLERANCE_OF_A_RUN: f64 = 1e-6;
+use stickslip_tip::{Model, Outcome};
 
 pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
     let critical = critical(place.tip, place.r);
@@ -18,7 +13,7 @@ pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
         (Alpha::Above(above), Ok(critical)) => Some(critical.alpha + above),
         (Alpha::Above(_), Err(_)) => None,
     };
-    let point = SweepPoint {
+    let mut point = SweepPoint {
         index,
         beta: place.beta,
         r: place.r,
@@ -34,69 +29,39 @@ pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
         multiplier: None,
         error: None,
     };
-    let (Some(alpha), Ok(critical)) = (alpha, critical.as_ref()) else {
-        return SweepPoint { error: critical.err().map(|error| error.to_string()), ..point };
+    let Some(alpha) = alpha else {
+        point.error = critical.err().map(|error| error.to_string());
+        return point;
     };
-    match Model::new(place.tip.clone(), alpha, place.r) {
-        Err(error) => SweepPoint { error: Some(error.to_string()), ..point },
-        Ok(_) if alpha <= critical.alpha => SweepPoint {
-            regime: Some(RegimeName::Steady),
-            source: Some(SourceName::Stability),
-            ..point
-        },
-        Ok(model) => unstable(point, &model, tolerance),
-    }
-}
-
-/// Above αc.
-fn unstable(point: SweepPoint, model: &Model, tolerance: f64) -> SweepPoint {
-    match cycle(model, tolerance) {
-        Ok(cycle) if cycle.is_stable() => periodic(point, &cycle),
-        // A run said so already, unless what it repeats could not be refined into a cycle.
-        Err(CycleError::NoCycleReached { regime, .. }) if regime != Regime::StickSlip => {
-            SweepPoint { regime: Some(regime.into()), source: Some(SourceName::Run), ..point }
+    let model = Model::new(place.tip.clone(), alpha, place.r).map_err(|error| error.to_string());
+    match model.and_then(|model| motion(&model, tolerance).map_err(|error| error.to_string())) {
+        Ok(Motion::Steady) => {
+            (point.regime, point.source) = (Some(RegimeName::Steady), Some(SourceName::Stability));
         }
-        _ => match settled(model) {
-            Ok(outcome) => ended(point, outcome),
-            Err(error) => SweepPoint { error: Some(error.to_string()), ..point },
-        },
+        Ok(Motion::Cycle(cycle)) => point.is_periodic(&cycle),
+        Ok(Motion::Run(outcome)) => point.ended(outcome),
+        Err(error) => point.error = Some(error),
     }
+    point
 }
 
-fn periodic(point: SweepPoint, cycle: &Cycle) -> SweepPoint {
-    SweepPoint {
-        regime: Some(RegimeName::StickSlip),
-        source: Some(SourceName::Cycle),
-        period: Some(cycle.period()),
-        wavelength: Some(cycle.wavelength()),
-        amplitude_x0: Some(cycle.amplitude_x0()),
-        amplitude_u: Some(cycle.amplitude_u()),
-        slips: Some(cycle.slips()),
-        multiplier: cycle.nontrivial_multipliers().map(|m| m.norm()).max_by(f64::total_cmp),
-        ..point
+impl SweepPoint {
+    fn is_periodic(&mut self, cycle: &Cycle) {
+        (self.regime, self.source) = (Some(RegimeName::StickSlip), Some(SourceName::Cycle));
+        (self.period, self.wavelength) = (Some(cycle.period()), Some(cycle.wavelength()));
+        self.amplitude_x0 = Some(cycle.amplitude_x0());
+        self.amplitude_u = Some(cycle.amplitude_u());
+        self.slips = Some(cycle.slips());
+        let moduli = cycle.nontrivial_multipliers().map(|m| m.norm());
+        self.multiplier = moduli.max_by(f64::total_cmp);
     }
-}
 
-fn ended(point: SweepPoint, outcome: Outcome) -> SweepPoint {
-    let motion = outcome.oscillation;
-    SweepPoint {
-        regime: Some(outcome.regime.into()),
-        source: Some(SourceName::Run),
-        period: motion.map(|o| o.period),
-        wavelength: motion.map(|o| o.wavelength),
-        amplitude_x0: motion.map(|o| o.amplitude_x0),
-        slips: motion.map(|o| o.slips),
-        ..point
+    fn ended(&mut self, outcome: Outcome) {
+        (self.regime, self.source) = (Some(outcome.regime.into()), Some(SourceName::Run));
+        if let Some(motion) = outcome.oscillation {
+            (self.period, self.wavelength) = (Some(motion.period), Some(motion.wavelength));
+            self.amplitude_x0 = Some(motion.amplitude_x0);
+            self.slips = Some(motion.slips);
+        }
     }
-}
-
-/// The outcome of a long run from the steady state, disturbed.
-fn settled(model: &Model) -> Result<Outcome, RunError> {
-    let mut scenario = Scenario::new(model.clone(), 0.0);
-    (scenario.kick, scenario.tolerance) = (KICK, TOLERANCE_OF_A_RUN);
-    scenario.until = scenario.start_time() + SETTLING;
-    let surface = scenario.initial_surface()?;
-    let mut running = Running::new(&scenario, &surface)?;
-    while running.step()?.is_some() {}
-    Ok(running.outcome())
 }

@@ -1,11 +1,11 @@
 //! A sweep on its way out: JSON, columns, picture.
 
+use super::diagram;
 use crate::commands::figure::Figure;
-use crate::documents::{RegimeName, SweepDocument, SweepPoint};
+use crate::documents::{SweepDocument, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat, place};
-use crate::plot::{self, SweepMark};
 use std::path::Path;
 
 /// Where it goes, known to be writable.
@@ -33,8 +33,15 @@ const COLUMNS: [Column; 10] = [
 
 impl Writer {
     /// Finds out, before hours of work, whether it can go there. Nothing is left there meanwhile.
-    pub(super) fn check(output: &Path, plot: Option<&Path>) -> Result<(), Failure> {
+    pub(super) fn check(
+        output: &Path,
+        plot: Option<&Path>,
+        parameters: &SweepParameters,
+    ) -> Result<(), Failure> {
         OutputFormat::of(output)?;
+        if plot.is_some() {
+            diagram::judge(parameters)?;
+        }
         place("--output", output)?;
         Figure::asked("--plot", plot).map(drop)
     }
@@ -49,7 +56,7 @@ impl Writer {
 
     pub(super) fn write(self, document: &SweepDocument) -> Result<(), Failure> {
         if let Some(figure) = self.figure {
-            figure.write(&draw(document))?;
+            figure.write(&diagram::draw(&document.parameters, &document.points))?;
         }
         match self.format {
             OutputFormat::Json => self.output.write_json(document),
@@ -83,30 +90,4 @@ fn npz(points: &[SweepPoint]) -> Result<Vec<u8>, Failure> {
     let number = |p: &SweepPoint| p.regime.map_or(f64::NAN, |regime| f64::from(regime as u8));
     npz.vector("regime", &points.iter().map(number).collect::<Vec<_>>())?;
     npz.bytes()
-}
-
-fn draw(document: &SweepDocument) -> String {
-    let mark = |point: &SweepPoint| {
-        Some(SweepMark {
-            beta: point.beta,
-            r: point.r,
-            alpha: point.alpha?,
-            kind: kind(point)?,
-            amplitude: point.amplitude_x0.unwrap_or(f64::NAN),
-            period: point.period.unwrap_or(f64::NAN),
-            critical_alpha: point.critical_alpha.unwrap_or(f64::NAN),
-        })
-    };
-    let marks: Vec<SweepMark> = document.points.iter().filter_map(mark).collect();
-    plot::sweep(&marks)
-}
-
-fn kind(point: &SweepPoint) -> Option<plot::SweepKind> {
-    Some(match (point.regime?, point.slips) {
-        (RegimeName::Steady, _) => plot::SweepKind::Steady,
-        (RegimeName::StickSlip, Some(0 | 1) | None) => plot::SweepKind::StickSlip,
-        (RegimeName::StickSlip, Some(_)) => plot::SweepKind::SeveralSlips,
-        (RegimeName::Trapped, _) => plot::SweepKind::Trapped,
-        (RegimeName::Transient, _) => plot::SweepKind::Unsettled,
-    })
 }

@@ -2,7 +2,7 @@
 
 use crate::memory::FitError;
 use crate::stability::StabilityError;
-use crate::{Regime, RunError};
+use crate::{Outcome, Regime, RunError};
 use thiserror::Error;
 
 /// Why there is no cycle to give.
@@ -35,7 +35,7 @@ pub enum CycleError {
     /// Runs did not come near a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
-        ended(*regime)
+        how(ended.as_ref())
     )]
     NoCycleReached {
         /// As asked.
@@ -43,7 +43,7 @@ pub enum CycleError {
         /// As asked.
         r: f64,
         /// What the longest run ended as.
-        regime: Regime,
+        ended: Option<Outcome>,
     },
     /// Newton's method did not converge from the cycle given.
     #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
@@ -78,11 +78,11 @@ impl From<FitError> for CycleError {
     }
 }
 
-fn ended(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Steady => "in steady motion",
-        Regime::StickSlip => "in stick-slip that no cycle near it closes",
-        Regime::Trapped => "trapped: the groove holds the tip for ever",
-        Regime::Transient => "without having settled",
+fn how(ended: Option<&Outcome>) -> &'static str {
+    match ended.map(|outcome| outcome.regime) {
+        Some(Regime::Steady) => "in steady motion",
+        Some(Regime::StickSlip) => "in stick-slip that no cycle near it closes",
+        Some(Regime::Trapped) => "trapped: the groove holds the tip for ever",
+        Some(Regime::Transient) | None => "without having settled",
     }
 }

@@ -26,6 +26,8 @@ mod mesh;
 mod orbit;
 mod past;
 mod ripple;
+mod scaling;
+mod search;
 mod sensitivity;
 mod solve;
 mod start;
@@ -34,15 +36,14 @@ mod step;
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
 pub use error::CycleError;
+pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
+pub use search::{Motion, cycle, cycle_near, motion};
 
 use crate::outcome::latest_extrema;
-use crate::stability::onset;
 use crate::{Model, Trajectory};
-use embedding::Embedding;
 use num_complex::Complex;
-use orbit::Orbit;
 use ripple::Ripple;
-use solve::{Closed, Condition, close};
+use solve::Closed;
 
 /// Residuals of (18) that can be asked for.
 pub const TOLERANCES: (f64, f64) = (1e-11, 1e-4);
@@ -63,70 +64,6 @@ pub struct Cycle {
     multipliers: Vec<Complex<f64>>,
     extremes: (f64, f64),
     slips: usize,
-}
-
-/// The cycle at the parameters of the model that is found from nothing: the one that is born at αc, where
-/// Newton's method finds it from its leading order and it is stable, else the one that a run settles into.
-/// An unstable one is what there is where neither is stable.
-///
-/// (18) holds on it to `tolerance` at every time; its period and amplitudes are more accurate than that, as
-/// collocation converges faster at the ends of its steps.
-///
-/// # Errors
-/// A tolerance out of range, a footprint that never fades, or no cycle near what was tried.
-pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
-    let equation = embedding(model, tolerance)?;
-    let onset = onset(model.tip(), model.r())?;
-    let critical = onset.critical.alpha;
-    let solve = |orbit: Orbit| {
-        let closed = close(equation.clone(), orbit, Condition::GIVEN, tolerance).ok();
-        closed.filter(|found| !found.is_steady()).map(Cycle::new)
-    };
-    let small = start::small_cycle_exists(&equation, &onset);
-    let first = start::from_onset(&equation, &onset).filter(|_| small).and_then(solve);
-    if model.alpha() <= critical {
-        let (alpha, r) = (model.alpha(), model.r());
-        return first.unwrap_or(Err(CycleError::NoSmallCycle { alpha, r, critical }));
-    }
-    let is_stable = |found: &Result<Cycle, CycleError>| found.as_ref().is_ok_and(Cycle::is_stable);
-    let mut best = first;
-    if let Some(found) = best.take_if(|found| is_stable(found)) {
-        return found;
-    }
-    let settled = start::from_runs(&equation, model, |orbit| {
-        let found = solve(orbit)?;
-        if is_stable(&found) {
-            return Some(found);
-        }
-        best.get_or_insert(found);
-        None
-    });
-    settled.unwrap_or_else(|error| best.unwrap_or(Err(error)))
-}
-
-/// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
-/// maximum of l.
-///
-/// # Errors
-/// As [`cycle`]; or Newton's method does not converge.
-pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<Cycle, CycleError> {
-    let equation = embedding(model, tolerance)?;
-    let (start, length) = (period.start(), period.end() - period.start());
-    let ends = period.steps().iter().map(|step| (step.end() - start) / length);
-    let mesh = [0.0].into_iter().chain(ends).collect();
-    let guess = Orbit::of_profile(equation.r, length, mesh, |t| period.l(start + t));
-    let (alpha, r) = (model.alpha(), model.r());
-    match close(equation, guess, Condition::GIVEN, tolerance) {
-        Ok(closed) if !closed.is_steady() => Cycle::new(closed),
-        _ => Err(CycleError::NotConverged { alpha, r }),
-    }
-}
-
-fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
-    if !(TOLERANCES.0..=TOLERANCES.1).contains(&tolerance) {
-        return Err(CycleError::Tolerance(tolerance));
-    }
-    Ok(Embedding::new(model, tolerance)?)
 }
 
 impl Cycle {

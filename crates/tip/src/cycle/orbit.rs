@@ -63,6 +63,22 @@ impl Orbit {
         }
     }
 
+    /// One period of half the length: the mean of the two halves.
+    pub(super) fn halved(&self, r: f64) -> Self {
+        let (motion, period) = (self.trajectory(r), 0.5 * self.period);
+        let inner = self.mesh[1..].iter().map(|end| 2.0 * end);
+        let inner = inner.filter(|end| *end < 1.0 - LEAST_SHARE);
+        let mesh = [0.0].into_iter().chain(inner).chain([1.0]).collect();
+        Self::of_profile(r, period, mesh, |t| 0.5 * (motion.l(t) + motion.l(period + t)))
+    }
+
+    /// The largest difference between l and l half a period later.
+    pub(super) fn difference_of_halves(&self, r: f64) -> f64 {
+        let (motion, half) = (self.trajectory(r), 0.5 * self.period);
+        let times = self.mesh.iter().filter(|at| **at < 0.5).map(|at| at * self.period);
+        times.map(|t| (motion.l(t) - motion.l(t + half)).abs()).fold(0.0, f64::max)
+    }
+
     /// The farthest that the tip steps back from where it has been.
     pub(super) fn retreat(&self) -> f64 {
         let (mut at, mut farthest, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -85,6 +101,9 @@ impl Orbit {
         }
     }
 }
+
+/// A last step that is a smaller part of the period is joined to the one before it.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// So many steps of equal length.
 pub(super) fn even_mesh(steps: usize) -> Vec<f64> {

@@ -6,13 +6,15 @@ use super::mesh::{equidistributed, longest_displacement};
 use super::orbit::{Orbit, even_mesh};
 use crate::outcome::{Extremum, latest_extrema};
 use crate::stability::{Criticality, Onset};
-use crate::{Model, Outcome, Regime, Scenario, Trajectory, run};
+use crate::{Model, Outcome, Regime, Run, Scenario, Trajectory, run};
 use std::f64::consts::{PI, TAU};
 
 const FEWEST_STEPS: f64 = 18.0;
+/// Amplitude to which the leading order is a guess, in widths.
+const LARGEST_MODE: f64 = 1.0;
 
 /// The linear mode with the amplitude and period of leading order in α - αc; `None` where that is
-/// imaginary.
+/// imaginary, or so large that Newton's method might find any cycle from there.
 pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     let above = equation.alpha - onset.critical.alpha;
     let square = onset.amplitude_squared_slope * above;
@@ -21,6 +23,9 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     }
     let model = equation.model()?;
     let amplitude = square.sqrt();
+    if amplitude > LARGEST_MODE * 8.7 / equation.tip.band() {
+        return None;
+    }
     let period = onset.critical.period + onset.period_slope * above;
     if period <= 0.5 * onset.critical.period {
         return None;
@@ -54,36 +59,34 @@ const TOLERANCE_OF_A_RUN: f64 = 1e-6;
 /// What sets the tip going, in widths.
 const KICK: f64 = 0.3;
 
-/// The last period of ever longer runs, offered to `take` until it is what was looked for.
-pub(super) fn from_runs<T>(
-    equation: &Embedding,
+/// Offers the last period of ever longer runs until `take` is content, and says what the last run ended as.
+pub(super) fn from_runs(
     model: &Model,
-    mut take: impl FnMut(Orbit) -> Option<T>,
-) -> Result<T, CycleError> {
-    let mut ended = Regime::Transient;
+    mut take: impl FnMut(Orbit) -> bool,
+) -> Result<Outcome, CycleError> {
+    let mut scenario = Scenario::new(model.clone(), 0.0);
+    scenario.kick = KICK * 8.7 / model.tip().band();
+    scenario.tolerance = TOLERANCE_OF_A_RUN;
+    let mut ended = None;
     for length in RUNS {
-        let mut scenario = Scenario::new(model.clone(), 0.0);
-        scenario.kick = KICK * 8.7 / model.tip().band();
-        scenario.tolerance = TOLERANCE_OF_A_RUN;
         scenario.until = scenario.start_time() + length;
-        let run = run(&scenario)?;
-        let last = last_period(&run.trajectory, &run.outcome);
-        let orbit = last.map(|(from, to)| part(equation, &run.trajectory, from, to));
-        if let Some(found) = orbit.and_then(&mut take) {
-            return Ok(found);
-        }
-        ended = run.outcome.regime;
-        if matches!(ended, Regime::Steady | Regime::Trapped) {
+        let Run { trajectory, outcome, .. } = run(&scenario)?;
+        // Where none is seen yet, a period may have one slip or two.
+        let slips = outcome.oscillation.map_or(1..=2, |o| o.slips..=o.slips);
+        let periods: Vec<_> = slips.filter_map(|slips| last_period(&trajectory, slips)).collect();
+        let taken = periods.into_iter().any(|(from, to)| take(part(&trajectory, from, to)));
+        let over = matches!(outcome.regime, Regime::Steady | Regime::Trapped);
+        ended = Some(outcome);
+        if taken || over {
             break;
         }
     }
-    Err(CycleError::NoCycleReached { alpha: model.alpha(), r: model.r(), regime: ended })
+    Ok(ended.unwrap_or(Outcome { regime: Regime::Transient, oscillation: None }))
 }
 
 /// Between two maxima a period apart: the highest within the period, and the one before it.
-fn last_period(trajectory: &Trajectory, outcome: &Outcome) -> Option<(f64, f64)> {
+fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
-    let slips = outcome.oscillation.map_or(1, |o| o.slips);
     let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
     let (i, end) = maxima.iter().take(slips).enumerate().max_by(highest)?;
     let start = maxima.get(i + slips)?;
@@ -91,7 +94,7 @@ fn last_period(trajectory: &Trajectory, outcome: &Outcome) -> Option<(f64, f64)>
 }
 
 /// A period of a run, with steps as long as those of the run.
-fn part(equation: &Embedding, trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
+fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
     let period = to - from;
     let steps = trajectory.steps().iter().filter(|step| step.t < to && step.end() > from);
     let (mut mesh, mut density) = (vec![0.0], vec![]);
@@ -100,5 +103,5 @@ fn part(equation: &Embedding, trajectory: &Trajectory, from: f64, to: f64) -> Or
         density.push(period / step.h);
     }
     let mesh = equidistributed(&mesh, &density);
-    Orbit::of_profile(equation.r, period, mesh, |t| trajectory.l(from + t))
+    Orbit::of_profile(trajectory.r(), period, mesh, |t| trajectory.l(from + t))
 }

@@ -4,16 +4,15 @@ use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
 use crate::cycle::linearisation::Direction;
 use crate::cycle::orbit::{Orbit, even_mesh};
+use crate::cycle::search::embedding;
 use crate::cycle::solve::{Closed, Condition, close};
 use crate::cycle::start::{mode, steps_of_mode};
-use crate::cycle::{Cycle, CycleError, Parameter, embedding};
+use crate::cycle::{Cycle, CycleError, Parameter};
 use crate::stability::{critical, critical_r};
 use crate::{Model, TipFunction};
 
 /// Amplitude of the first cycle, in widths.
 const FIRST_AMPLITUDE: f64 = 0.02;
-/// A last step that is a smaller part of the period is joined to the one before it.
-const LEAST_SHARE: f64 = 1e-3;
 
 /// The Hopf point at the value of the other parameter, and the first cycle of its branch.
 pub(super) fn at_onset(
@@ -53,12 +52,7 @@ pub(super) fn small(
 
 /// Of a cycle whose halves are nearly the same, the one of half the period.
 pub(super) fn halved(settings: &Continuation, cycle: &Cycle) -> Option<Place> {
-    let (motion, period) = (cycle.motion(), 0.5 * cycle.period());
-    let l = |t: f64| 0.5 * (motion.l(t) + motion.l(period + t));
-    let ends = motion.steps().iter().map(|step| step.end() / period);
-    let inner = ends.filter(|at| *at < 1.0 - LEAST_SHARE);
-    let mesh = [0.0].into_iter().chain(inner).chain([1.0]).collect();
-    let guess = Orbit::of_profile(cycle.model().r(), period, mesh, l);
+    let guess = cycle.closed.orbit.halved(cycle.model().r());
     let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
     let equation = cycle.closed.equation.clone();
     let closed = close(equation, guess, condition, settings.tolerance).ok()?;

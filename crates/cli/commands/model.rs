@@ -36,14 +36,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        let tip = from_file(read_tip(path)?).map_err(|error| Failure::input(&named, error))?;
-        return if details(&tip) <= MOST_DETAILS {
-            Ok(tip)
-        } else {
-            let advice = "its widest parts reach too many times as far as its narrowest are wide: \
-                          more than fit in memory; leave one or the other out";
-            Err(Failure::input(named, advice))
-        };
+        return from_file(read_tip(path)?).map_err(|message| Failure::input(named, message));
     }
     let name = tip.unwrap_or(TipName::TripleGaussian);
     if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {
@@ -73,8 +66,9 @@ fn details(tip: &TipFunction) -> f64 {
     tip.reach().map_or(0.0, |reach| reach * tip.band())
 }
 
-fn from_file(file: TipFile) -> Result<TipFunction, stickslip_tip::TipFunctionError> {
-    match file {
+/// The footprint that a file describes.
+pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
+    let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
         TipFile::Gaussians(entries) => TipFunction::gaussian_sum(
             entries
@@ -82,7 +76,14 @@ fn from_file(file: TipFile) -> Result<TipFunction, stickslip_tip::TipFunctionErr
                 .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
                 .collect(),
         ),
+    };
+    let tip = tip.map_err(|error| error.to_string())?;
+    if details(&tip) <= MOST_DETAILS {
+        return Ok(tip);
     }
+    let advice = "its widest parts reach too many times as far as its narrowest are wide: more than \
+                  fit in memory; leave one or the other out";
+    Err(advice.into())
 }
 
 /// The α that the options ask for at this r.

@@ -57,7 +57,10 @@ pub(crate) fn evenly(low: f64, high: f64, n: usize) -> Vec<f64> {
     (0..n).map(|i| low + spacing * i as f64).collect()
 }
 
-fn initial_surface(parameters: &RunParameters, model: &Model) -> Result<InitialSurface, String> {
+pub(crate) fn initial_surface(
+    parameters: &RunParameters,
+    model: &Model,
+) -> Result<InitialSurface, String> {
     let scenario = Scenario {
         start: match parameters.start {
             crate::arguments::StartName::Steady => Start::Steady,

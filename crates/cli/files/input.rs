@@ -41,7 +41,7 @@ pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<C
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
-fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
+pub(crate) fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -98,16 +98,20 @@ pub(crate) struct GaussianEntry {
 pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
     let text = read_text(OPTION, path, LARGEST_TABLE)?;
-    let refused = |message: String| Failure::input(format!("{OPTION} {}", path.display()), message);
-    if text.trim_start().starts_with('{') {
-        let tip: TipJson = serde_json::from_str(&text).map_err(|error| {
-            refused(format!(
-                "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
-            ))
-        })?;
-        return Ok(TipFile::Gaussians(tip.gaussians));
+    parse_tip(&text)
+        .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
+}
+
+pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
+    if !text.trim_start().starts_with('{') {
+        return parse_columns(text, "x,f").map(TipFile::Table);
     }
-    parse_columns(&text, "x,f").map(TipFile::Table).map_err(refused)
+    let tip: TipJson = serde_json::from_str(text).map_err(|error| {
+        format!(
+            "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
+        )
+    })?;
+    Ok(TipFile::Gaussians(tip.gaussians))
 }
 
 /// What every document begins with.
@@ -120,29 +124,30 @@ struct Kind {
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
     let text = read_text("RUN.json", path, LARGEST_DOCUMENT)?;
-    let refused = |message: String| Failure::input(format!("RUN.json {}", path.display()), message);
-    let kind: Kind = serde_json::from_str(&text).map_err(|error| {
-        refused(format!(
+    parse_run(&text)
+        .map_err(|message| Failure::input(format!("RUN.json {}", path.display()), message))
+}
+
+pub(crate) fn parse_run(text: &str) -> Result<RunDocument, String> {
+    let kind: Kind = serde_json::from_str(text).map_err(|error| {
+        format!(
             "not a whole JSON document ({error}); write it again with `stickslip run -o FILE.json`"
-        ))
+        )
     })?;
     match (kind.format.as_deref(), kind.format_version) {
         (Some(RunDocument::FORMAT), Some(FORMAT_VERSION)) => {}
         (Some(RunDocument::FORMAT), version) => {
             let found = version.map_or("none".into(), |v| v.to_string());
-            return Err(refused(format!(
+            return Err(format!(
                 "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
-            )));
+            ));
         }
         (format, _) => {
             let found = format.unwrap_or("missing");
-            return Err(refused(format!(
-                "format is {found}, \"{}\" is needed",
-                RunDocument::FORMAT
-            )));
+            return Err(format!("format is {found}, \"{}\" is needed", RunDocument::FORMAT));
         }
     }
-    serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))
+    serde_json::from_str(text).map_err(|error| format!("damaged: {error}"))
 }
 
 #[cfg(test)]

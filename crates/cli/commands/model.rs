@@ -56,8 +56,12 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         TipName::Bessel => Ok(TipFunction::Bessel),
         TipName::Gaussian => TipFunction::gaussian(w)
             .map_err(|error| Failure::input(format!("--width {}", Typed(w)), error)),
-        TipName::TripleGaussian => TipFunction::triple_gaussian(b, w)
-            .map_err(|error| Failure::input(format!("--beta {}", Typed(b)), error)),
+        TipName::TripleGaussian => TipFunction::triple_gaussian(b, w).map_err(|error| {
+            // Gaussian number 1 has amplitude 1 whatever beta.
+            let widthless = TipFunction::gaussian(w).is_err() || !(2.0 * w).is_finite();
+            let (option, value) = if widthless { ("--width", w) } else { ("--beta", b) };
+            Failure::input(format!("{option} {}", Typed(value)), error)
+        }),
     }
 }
 

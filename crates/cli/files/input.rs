@@ -161,6 +161,40 @@ mod tests {
         assert!((u[1] - 0.3).abs() < 1e-16);
     }
 
+    /// A file one byte too long is refused, one of just the length is read; more is never asked for.
+    #[test]
+    fn no_more_is_read_than_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, "0,1\n2,3\n").unwrap();
+        assert_eq!(read_text("--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
+        let refused = read_text("--force-file", &path, 7).unwrap_err();
+        assert!(refused.to_string().contains("larger than"), "{refused}");
+    }
+
+    /// It would not come back.
+    #[cfg(unix)]
+    #[test]
+    fn a_device_without_end_is_refused() {
+        let endless = read_text("--force-file", Path::new("/dev/zero"), 1 << 20).unwrap_err();
+        assert!(endless.to_string().contains("larger than"), "{endless}");
+    }
+
+    #[test]
+    fn what_is_nested_too_deep_is_refused() {
+        let nested = |depth: usize| format!("{}1{}", "[".repeat(depth), "]".repeat(depth));
+        for depth in [200, 1_000_000] {
+            let tip = format!("{{\"gaussians\":{}}}", nested(depth));
+            assert!(parse_tip(&tip).is_err());
+            let run = format!(
+                "{{\"format\":\"stickslip/run\",\"format_version\":1,\"software\":{}}}",
+                nested(depth)
+            );
+            let refused = parse_run(&run).unwrap_err();
+            assert!(!refused.is_empty() && refused.len() < 300, "{refused}");
+        }
+    }
+
     #[test]
     fn a_line_that_is_not_two_numbers_is_named() {
         for (text, line) in

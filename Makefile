@@ -2,13 +2,16 @@
 
 CARGO ?= cargo
 PLOT ?= run.svg
+# Of each of four parsers, and of each of four laws.
+CASES ?= 2500000
+MOTIONS ?= 25000
 
 comma := ,
 # Shows the command as a user would type it, and runs it.
 stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check bench work-precision figures doc install clean
+.PHONY: help run test check bench work-precision figures peers fuzz doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -42,6 +45,13 @@ work-precision: ## measure time against error, and draw it: data/work_precision.
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
 	@$(call stickslip,figures --out-dir target/figures)
+
+peers: ## race other programs on one problem at matched error: data/peers.json, data/peers.md
+	python3 peers/race.py data
+
+fuzz: ## millions of mutated files and command lines, 100,000 random motions; CASES and MOTIONS set how many
+	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked --bin stickslip fuzz -- --nocapture
+	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test properties
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked

@@ -8,6 +8,9 @@ mod program;
 
 use program::{Folder, said};
 use serde_json::Value;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 const CASE: &str = "compare --alpha 1.2 --r 1 --kick 0.05 --until 36";
 
@@ -101,5 +104,25 @@ fn unusable_options_are_refused_by_name() {
         ("--pulse 1,2", ["--pulse 1,2", "A,T,W"]),
     ] {
         folder.refuses(&format!("{CASE} {options}"), &words);
+    }
+}
+
+/// The grid looks at every step for a signal, and nothing half done is written.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_comparison_writes_nothing() {
+    let folder = Folder::new("compare-interrupted");
+    let long = "compare --alpha 1.2 --r 1 --until 457 --grid uniform --spacing 0.001 -o c.json";
+    for (signal, status) in [("-INT", 130), ("-TERM", 143)] {
+        let mut child =
+            folder.command(long).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        // The output is opened before the work begins.
+        while folder.names().is_empty() && child.try_wait().unwrap().is_none() {
+            sleep(Duration::from_millis(5));
+        }
+        sleep(Duration::from_millis(300));
+        Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(status));
+        assert!(folder.names().is_empty(), "{:?}", folder.names());
     }
 }

@@ -9,6 +9,8 @@ mod commands;
 mod documents;
 mod failure;
 mod files;
+#[cfg(test)]
+mod fuzz;
 mod interrupt;
 mod plot;
 

@@ -99,13 +99,13 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) grid_until: Option<f64>,
 
-    /// Give up once the grid is seen to need more than so many seconds.
+    /// Give up once either side is seen to need more than so many seconds.
     #[arg(
         long,
         value_name = "S",
         default_value_t = 600.0,
         allow_hyphen_values = true,
-        help_heading = "Grid"
+        help_heading = "Output"
     )]
     pub(crate) time_limit: f64,
 

@@ -2,6 +2,7 @@
 
 mod closed;
 mod grid;
+mod pace;
 
 use super::run::parse_pulse;
 use crate::arguments::CompareArguments;
@@ -27,7 +28,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
 
-    let closed = closed::run(&asked.scenario, &interrupt)?;
+    let closed = closed::run(&asked, &interrupt)?;
     let x = asked.positions(&closed)?;
     let motion = grid::run(&asked, &x, &interrupt)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
@@ -44,7 +45,7 @@ struct Asked {
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
-    /// Seconds that the grid may take.
+    /// Seconds that either side may take.
     time_limit: f64,
 }
 

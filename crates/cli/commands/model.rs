@@ -45,14 +45,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        let tip = from_file(read_tip(path)?).map_err(|error| Failure::input(&named, error))?;
-        return if details(&tip) <= MOST_DETAILS {
-            Ok(tip)
-        } else {
-            let advice = "its widest parts reach too many times as far as its narrowest are wide: \
-                          more than fit in memory; leave one or the other out";
-            Err(Failure::input(named, advice))
-        };
+        return from_file(read_tip(path)?).map_err(|message| Failure::input(named, message));
     }
     let name = tip.unwrap_or(TipName::TripleGaussian);
     if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {
@@ -72,8 +65,12 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         TipName::Bessel => Ok(TipFunction::Bessel),
         TipName::Gaussian => TipFunction::gaussian(w)
             .map_err(|error| Failure::input(format!("--width {}", Typed(w)), error)),
-        TipName::TripleGaussian => TipFunction::triple_gaussian(b, w)
-            .map_err(|error| Failure::input(format!("--beta {}", Typed(b)), error)),
+        TipName::TripleGaussian => TipFunction::triple_gaussian(b, w).map_err(|error| {
+            // Gaussian number 1 has amplitude 1 whatever beta.
+            let widthless = TipFunction::gaussian(w).is_err() || !(2.0 * w).is_finite();
+            let (option, value) = if widthless { ("--width", w) } else { ("--beta", b) };
+            Failure::input(format!("{option} {}", Typed(value)), error)
+        }),
     }
 }
 
@@ -82,7 +79,8 @@ fn details(tip: &TipFunction) -> f64 {
     tip.reach().map_or(0.0, |reach| reach * tip.band())
 }
 
-fn from_file(file: TipFile) -> Result<TipFunction, String> {
+/// The footprint that a file describes.
+pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
         TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
@@ -99,7 +97,13 @@ fn from_file(file: TipFile) -> Result<TipFunction, String> {
                 .collect(),
         ),
     };
-    tip.map_err(|error| error.to_string())
+    let tip = tip.map_err(|error| error.to_string())?;
+    if details(&tip) <= MOST_DETAILS {
+        return Ok(tip);
+    }
+    let advice = "its widest parts reach too many times as far as its narrowest are wide: more than \
+                  fit in memory; leave one or the other out";
+    Err(advice.into())
 }
 
 fn is_2d(entry: &GaussianEntry) -> bool {

@@ -3,6 +3,7 @@
 use super::figure::Figure;
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
+use super::run::limits::within_range;
 use super::run::parse_pulse;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
@@ -58,9 +59,11 @@ impl Asked {
         }
         let until = arguments.until;
         let scenario = Scenario { start_position: position, ..Scenario::new(model.clone(), until) };
+        within_range(&arguments.model, &scenario)?;
         let start = scenario.start_time();
         if !(until.is_finite() && until > start) {
-            let message = format!("the samples start at t = {start}: it must be after that");
+            let message =
+                format!("the samples start at t = {}: it must be after that", Typed(start));
             return Err(Failure::input(format!("--until {}", Typed(until)), message));
         }
         let times = times(&arguments.sampling, (start, until), "the response")?;

@@ -117,8 +117,10 @@ fn judge_extent(arguments: &StabilityArguments, model: &Model) -> Result<(), Fai
 
 fn spectrum(arguments: &StabilityArguments, model: &Model) -> Result<Spectrum, Failure> {
     match arguments.re_above {
-        Some(bound) => roots(model, bound)
-            .map_err(|error| Failure::input(format!("--re-above {}", Typed(bound)), error)),
+        Some(bound) => roots(model, bound).map_err(|error| match error {
+            StabilityError::TooFarApart { .. } => failed(&error, ""),
+            error => Failure::input(format!("--re-above {}", Typed(bound)), error),
+        }),
         None => leading_roots(model, arguments.roots.unwrap_or(DEFAULT_ROOTS))
             .map_err(|error| failed(&error, "ask for another number with --roots")),
     }

@@ -45,7 +45,12 @@ fn document(
     })?;
     let (at_r, at_alpha) = (critical(tip, model.r()), critical_r(tip, model.alpha()));
     let check = "check the units and prefixes of the quantities";
-    let stable = unstable_count(&model).map_err(|error| failed(&error, check))? == 0;
+    let stable = unstable_count(&model).map_err(|error| match error {
+        StabilityError::TooFarApart { .. } => {
+            Failure::input("the quantities", format!("{error}; {check}"))
+        }
+        error => failed(&error, check),
+    })? == 0;
     let scales = physical.scales();
     let (indentation, velocity) = (at_r.ok(), at_alpha.ok());
     let with = |alpha: f64, r: f64| physical.with_alpha_r(alpha, r);

@@ -42,7 +42,7 @@ pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<C
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
-fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
+pub(crate) fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
     parse_table::<2>(text, heading).map(|[first, second]| (first, second))
 }
 
@@ -119,19 +119,24 @@ pub(crate) struct GaussianEntry {
 pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
     let text = read_text(OPTION, path, LARGEST_TABLE)?;
-    let refused = |message: String| Failure::input(format!("{OPTION} {}", path.display()), message);
-    if text.trim_start().starts_with('{') {
-        let tip: TipJson = serde_json::from_str(&text).map_err(|error| {
-            refused(format!(
-                "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
-            ))
-        })?;
-        return Ok(TipFile::Gaussians(tip.gaussians));
+    parse_tip(&text)
+        .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
+}
+
+pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
+    if !text.trim_start().starts_with('{') {
+        return if width_of(text) == 3 {
+            parse_table(text, "x,y,f").map(TipFile::Table2d)
+        } else {
+            parse_columns(text, "x,f").map(TipFile::Table)
+        };
     }
-    if width_of(&text) == 3 {
-        return parse_table(&text, "x,y,f").map(TipFile::Table2d).map_err(refused);
-    }
-    parse_columns(&text, "x,f").map(TipFile::Table).map_err(refused)
+    let tip: TipJson = serde_json::from_str(text).map_err(|error| {
+        format!(
+            "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
+        )
+    })?;
+    Ok(TipFile::Gaussians(tip.gaussians))
 }
 
 /// What every document begins with.
@@ -153,27 +158,29 @@ pub(crate) fn read_document<D: DeserializeOwned>(
     wanted: &str,
 ) -> Result<D, Failure> {
     let text = read_text(option, path, LARGEST_DOCUMENT)?;
-    let refused = |message: String| Failure::input(format!("{option} {}", path.display()), message);
-    let kind: Kind = serde_json::from_str(&text).map_err(|error| {
+    parse_document(&text, wanted)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+pub(crate) fn parse_document<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, String> {
+    let kind: Kind = serde_json::from_str(text).map_err(|error| {
         let command = wanted.replace('/', " ");
-        refused(format!(
-            "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
-        ))
+        format!("not a whole JSON document ({error}); write it again with `{command} -o FILE.json`")
     })?;
     match (kind.format.as_deref(), kind.format_version) {
         (Some(format), Some(FORMAT_VERSION)) if format == wanted => {}
         (Some(format), version) if format == wanted => {
             let found = version.map_or("none".into(), |v| v.to_string());
-            return Err(refused(format!(
+            return Err(format!(
                 "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
-            )));
+            ));
         }
         (format, _) => {
             let found = format.unwrap_or("missing");
-            return Err(refused(format!("format is {found}, \"{wanted}\" is needed")));
+            return Err(format!("format is {found}, \"{wanted}\" is needed"));
         }
     }
-    serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))
+    serde_json::from_str(text).map_err(|error| format!("damaged: {error}"))
 }
 
 #[cfg(test)]
@@ -185,6 +192,40 @@ mod tests {
         let (x, u) = parse_columns("# measured\nx,u\n0, 1\n2,3e-1\n", "x,u").unwrap();
         assert_eq!(x.len(), 2);
         assert!((u[1] - 0.3).abs() < 1e-16);
+    }
+
+    /// A file one byte too long is refused, one of just the length is read; more is never asked for.
+    #[test]
+    fn no_more_is_read_than_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, "0,1\n2,3\n").unwrap();
+        assert_eq!(read_text("--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
+        let refused = read_text("--force-file", &path, 7).unwrap_err();
+        assert!(refused.to_string().contains("larger than"), "{refused}");
+    }
+
+    /// It would not come back.
+    #[cfg(unix)]
+    #[test]
+    fn a_device_without_end_is_refused() {
+        let endless = read_text("--force-file", Path::new("/dev/zero"), 1 << 20).unwrap_err();
+        assert!(endless.to_string().contains("larger than"), "{endless}");
+    }
+
+    #[test]
+    fn what_is_nested_too_deep_is_refused() {
+        let nested = |depth: usize| format!("{}1{}", "[".repeat(depth), "]".repeat(depth));
+        for depth in [200, 1_000_000] {
+            let tip = format!("{{\"gaussians\":{}}}", nested(depth));
+            assert!(parse_tip(&tip).is_err());
+            let run = format!(
+                "{{\"format\":\"stickslip/run\",\"format_version\":1,\"software\":{}}}",
+                nested(depth)
+            );
+            let refused = parse_document::<RunDocument>(&run, RunDocument::FORMAT).unwrap_err();
+            assert!(!refused.is_empty() && refused.len() < 300, "{refused}");
+        }
     }
 
     #[test]

@@ -16,11 +16,11 @@ pub struct Model {
 pub enum ModelError {
     /// α must be finite and ≥ 0.
     #[error(
-        "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0}"
+        "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0:?}"
     )]
     Alpha(f64),
     /// r must be finite and > 0.
-    #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0}")]
+    #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0:?}")]
     R(f64),
 }
 

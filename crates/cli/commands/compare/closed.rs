@@ -1,5 +1,7 @@
 //! The closed equation's side of a comparison.
 
+use super::Asked;
+use super::pace::{PATIENCE, Pace};
 use crate::arguments::CompareArguments;
 use crate::commands::model::model;
 use crate::commands::progress::Progress;
@@ -10,14 +12,13 @@ use crate::documents::{ClosedDocument, ClosedWork};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use std::time::Instant;
 use stickslip_surface::Surface;
 use stickslip_tip::{Force, Run, RunError, Scenario, Trajectory, run_observed};
 
 /// The shortest of so many runs is its time: a run may be as short as a millisecond.
 const REPETITIONS: usize = 5;
-/// Unless they would take longer than this, in seconds.
-const PATIENCE: f64 = 1.0;
+/// Steps between two looks at the clock: a step takes microseconds.
+const STEPS_PER_LOOK: u32 = 256;
 
 /// A finished run and its time.
 pub(super) struct Closed {
@@ -49,22 +50,27 @@ fn explain(error: &RunError) -> Failure {
     }
 }
 
-pub(super) fn run(scenario: &Scenario, interrupt: &Interrupt) -> Result<Closed, Failure> {
+pub(super) fn run(asked: &Asked, interrupt: &Interrupt) -> Result<Closed, Failure> {
+    let Asked { scenario, time_limit, .. } = asked;
+    let span = (scenario.start_time(), scenario.until);
     let once = || {
-        let clock = Instant::now();
-        let mut progress = Progress::new(scenario.start_time(), scenario.until);
+        let pace = Pace::new("--until", span, *time_limit);
+        let mut progress = Progress::new(span.0, span.1);
+        let (mut steps, mut failure) = (0_u32, None);
         let run = run_observed(scenario, |step| {
             progress.reached(step.end());
-            match interrupt.signal() {
-                Some(_) => ControlFlow::Break(()),
-                None => ControlFlow::Continue(()),
-            }
+            steps = steps.wrapping_add(1);
+            failure = match interrupt.signal() {
+                Some(signal) => Some(Failure::Stopped(signal)),
+                None if steps.is_multiple_of(STEPS_PER_LOOK) => pace.too_slow(step.end()),
+                None => None,
+            };
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let seconds = clock.elapsed().as_secs_f64();
-        let run = run.map_err(|error| explain(&error))?;
-        match interrupt.signal() {
-            Some(signal) => Err(Failure::Stopped(signal)),
-            None => Ok((run, seconds)),
+        let seconds = pace.seconds();
+        match failure {
+            Some(failure) => Err(failure),
+            None => Ok((run.map_err(|error| explain(&error))?, seconds)),
         }
     };
     let (run, mut seconds) = once()?;

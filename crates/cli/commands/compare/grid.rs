@@ -1,13 +1,13 @@
 //! The grid's side of a comparison.
 
 use super::Asked;
+use super::pace::{PATIENCE, Pace};
 use crate::arguments::{CompareArguments, GridName};
 use crate::commands::progress::Progress;
 use crate::documents::{GridDocument, GridWork};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use std::time::Instant;
 use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Problem, Request, Run, Start, Stepping, solve_observed,
 };
@@ -21,8 +21,6 @@ const SECOND_ORDER: f64 = 0.01;
 const SINC_HALF_WIDTH: usize = 80;
 /// Eight vectors of these are 1.3 GB.
 const MOST_CELLS: f64 = 2e7;
-/// Seconds after which the rest is extrapolated from what was done, and no repetition is made.
-const PATIENCE: f64 = 0.5;
 /// At most twice as many samples are kept.
 const SAMPLES: usize = 2048;
 
@@ -58,7 +56,10 @@ impl Discretisation {
         if !(spacing > 0.0 && spacing <= smallest_width) {
             return Err(Failure::input(
                 format!("--spacing {}", Typed(spacing)),
-                format!("must be above 0, and at most the width of the tip, {smallest_width}"),
+                format!(
+                    "must be above 0, and at most the width of the tip, {}",
+                    Typed(smallest_width)
+                ),
             ));
         }
         let stepping = stepping(arguments)?;
@@ -139,7 +140,7 @@ pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Mot
             solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
                 watch.step(t, x0)
             });
-        let seconds = watch.clock.elapsed().as_secs_f64();
+        let seconds = watch.pace.seconds();
         match watch.failure {
             Some(failure) => Err(failure),
             None => Ok((run.map_err(explain)?, watch.samples, seconds)),
@@ -175,19 +176,19 @@ fn start<'a>(scenario: &Scenario, footprint: Footprint<'a>) -> Start<'a> {
 
 /// Looks at every step: keeps samples, shows progress, and stops what would take too long.
 struct Watch<'a> {
-    asked: &'a Asked,
     interrupt: &'a Interrupt,
     progress: Progress,
-    clock: Instant,
+    pace: Pace,
     samples: Samples,
     failure: Option<Failure>,
 }
 
 impl<'a> Watch<'a> {
-    fn new(asked: &'a Asked, interrupt: &'a Interrupt) -> Self {
-        let progress = Progress::new(asked.scenario.start_time(), asked.grid_until).at_every_call();
-        let (clock, samples) = (Instant::now(), Samples::default());
-        Self { asked, interrupt, progress, clock, samples, failure: None }
+    fn new(asked: &Asked, interrupt: &'a Interrupt) -> Self {
+        let span = (asked.scenario.start_time(), asked.grid_until);
+        let pace = Pace::new("--grid-until", span, asked.time_limit);
+        let progress = Progress::new(span.0, span.1).at_every_call();
+        Self { interrupt, progress, pace, samples: Samples::default(), failure: None }
     }
 
     fn step(&mut self, t: f64, x0: f64) -> ControlFlow<()> {
@@ -195,27 +196,9 @@ impl<'a> Watch<'a> {
         self.progress.reached(t);
         self.failure = match self.interrupt.signal() {
             Some(signal) => Some(Failure::Stopped(signal)),
-            None => self.too_slow(t),
+            None => self.pace.too_slow(t),
         };
         if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    /// A refusal, where the rest at the pace so far goes beyond the limit.
-    fn too_slow(&self, t: f64) -> Option<Failure> {
-        let (start, end) = (self.asked.scenario.start_time(), self.asked.grid_until);
-        let (seconds, limit) = (self.clock.elapsed().as_secs_f64(), self.asked.time_limit);
-        let needed = seconds * (end - start) / (t - start);
-        if seconds < PATIENCE.min(limit) || needed <= limit {
-            return None;
-        }
-        let affordable = start + 0.5 * limit * (t - start) / seconds;
-        Some(Failure::input(
-            format!("--time-limit {}", Typed(limit)),
-            format!(
-                "the grid would take about {needed:.0} s: --grid-until {affordable:.2} will do within \
-                 the limit, or a wider --spacing, or a higher limit"
-            ),
-        ))
     }
 }
 
@@ -256,8 +239,8 @@ fn explain(asked: &Asked, error: GridError) -> Failure {
             Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)
         }
         GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
-            let advice = "a smaller --step, a larger --grid-tolerance or an earlier --grid-until may do: \
-                          a deep groove is stiff, and the grids are explicit";
+            let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may do: a deep \
+                          groove is stiff, and the grids are explicit";
             Failure::Run(format!("grid: {error}; {advice}"))
         }
         error => Failure::Run(format!("grid: {error}")),

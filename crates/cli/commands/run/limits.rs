@@ -2,7 +2,7 @@
 
 use crate::arguments::ModelArguments;
 use crate::failure::{Failure, Typed};
-use stickslip_tip::Scenario;
+use stickslip_tip::{Model, Scenario};
 
 /// Positions beyond this are rounded by a thousandth of σ and more, a tenth of the largest tolerance.
 pub(super) const FARTHEST: f64 = 1e13;
@@ -11,15 +11,15 @@ pub(super) const FARTHEST: f64 = 1e13;
 pub(crate) fn within_range(arguments: &ModelArguments, scenario: &Scenario) -> Result<(), Failure> {
     let (x, kick, until) = (scenario.start_position, scenario.kick, scenario.until);
     let (r, lag) = (scenario.model.r(), scenario.model.steady_lag());
-    let alpha = match (arguments.alpha, arguments.alpha_above) {
-        (_, Some(above)) => format!("--alpha-above {}", Typed(above)),
-        _ => format!("--alpha {}", Typed(scenario.model.alpha())),
-    };
     let distances = [
         (format!("--start-position {}", Typed(x)), "the tip would start at", x),
         (format!("--kick {}", Typed(kick)), "the tip would be displaced by", kick),
         (format!("--until {}", Typed(until)), "the support would go to r until =", r * until),
-        (alpha, "in steady motion the tip would lag behind by r + alpha f(0)/r =", lag),
+        (
+            behind_the_lag(arguments, &scenario.model),
+            "in steady motion the tip would lag behind by r + alpha f(0)/r =",
+            lag,
+        ),
     ];
     // What is not finite is left to the validation of the scenario.
     let far = |distance: f64| distance.abs() > FARTHEST;
@@ -33,5 +33,23 @@ pub(crate) fn within_range(arguments: &ModelArguments, scenario: &Scenario) -> R
                 Typed(distance)
             ),
         )),
+    }
+}
+
+/// The option that makes r + α f(0)/r what it is: the one farthest from 1.
+fn behind_the_lag(arguments: &ModelArguments, model: &Model) -> String {
+    let (alpha, r, height) = (model.alpha(), model.r(), model.tip().value(0.0).abs());
+    if height > alpha.max(r).max(1.0 / r) {
+        if let Some(beta) = arguments.tip.beta {
+            return format!("--beta {}", Typed(beta));
+        }
+        if let Some(path) = &arguments.tip.tip_file {
+            return format!("--tip-file {}", path.display());
+        }
+    }
+    match arguments.alpha_above {
+        _ if r.max(1.0 / r) > alpha => format!("--r {}", Typed(r)),
+        Some(above) => format!("--alpha-above {}", Typed(above)),
+        None => format!("--alpha {}", Typed(alpha)),
     }
 }

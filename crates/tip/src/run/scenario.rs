@@ -58,13 +58,13 @@ pub struct Scenario {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
     /// X is not finite.
-    #[error("the start position must be a finite number, not {0}")]
+    #[error("the start position must be a finite number, not {0:?}")]
     StartPosition(f64),
     /// The kick is not finite.
-    #[error("the kick must be a finite number, not {0}")]
+    #[error("the kick must be a finite number, not {0:?}")]
     Kick(f64),
     /// The run would end before it begins.
-    #[error("the run starts at t = {start}: it must end after that, not at {until}")]
+    #[error("the run starts at t = {start:?}: it must end after that, not at {until:?}")]
     Until {
         /// End asked for.
         until: f64,
@@ -90,7 +90,7 @@ pub enum RunError {
     },
     /// Noise that is not finite, of no spacing, or on too many points.
     #[error(
-        "noise of amplitude {} on a spacing of {}: both must be finite, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
+        "noise of amplitude {:?} on a spacing of {:?}: both must be finite, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
         noise.amplitude, noise.spacing
     )]
     Noise {

@@ -1,5 +1,6 @@
 //! The characteristic function h(Λ) = rΛ + 1 + (α/r) G(Λ) of (30), and where it cannot vanish.
 
+use super::StabilityError;
 use super::transform::{CurvatureTransform, Scaled};
 use crate::{Model, TipFunction};
 use num_complex::Complex64;
@@ -55,6 +56,22 @@ impl Characteristic {
             leftmost,
             bounds: Bounds::new(tip),
         }
+    }
+
+    /// Whether the terms of h, of sizes r/width, 1 and (α/r) ∫|f''|, are out of all proportion: the first two
+    /// cancel at the root -1/r, the last two near 0, and what is left of them is round-off.
+    pub(super) fn is_out_of_proportion(&self) -> bool {
+        let (drag, pull) = (self.r / self.length, self.ratio * self.bounds.area);
+        let relative = pull / drag.max(1.0);
+        !(1e-12..=1e12).contains(&drag) || (self.ratio > 0.0 && !(1e-50..=1e5).contains(&relative))
+    }
+
+    /// The reason behind an error: numbers out of all proportion, if they are.
+    pub(super) fn explain(&self, error: StabilityError) -> StabilityError {
+        if self.is_out_of_proportion() {
+            return StabilityError::TooFarApart { alpha: self.ratio * self.r, r: self.r };
+        }
+        error
     }
 
     /// h and h'.

@@ -6,10 +6,10 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum StabilityError {
     /// r must be finite and > 0.
-    #[error("r is {0}: the dimensionless support velocity (12) must be a finite number > 0")]
+    #[error("r is {0:?}: the dimensionless support velocity (12) must be a finite number > 0")]
     R(f64),
     /// α must be finite and > 0 here.
-    #[error("alpha is {0}: the dimensionless indentation rate (13) must be a finite number > 0")]
+    #[error("alpha is {0:?}: the dimensionless indentation rate (13) must be a finite number > 0")]
     Alpha(f64),
     /// No root reaches the imaginary axis, however large α.
     #[error(
@@ -26,7 +26,7 @@ pub enum StabilityError {
         alpha: f64,
     },
     /// The bound on Re λ must be finite.
-    #[error("the bound on Re λ is {0}: it must be a finite number")]
+    #[error("the bound on Re λ is {0:?}: it must be a finite number")]
     Bound(f64),
     /// A root lies on the line along which roots are counted.
     #[error("a root lies on the line Re λ = {re:?}, or too close to it to count: move the bound")]
@@ -34,9 +34,10 @@ pub enum StabilityError {
         /// Where.
         re: f64,
     },
-    /// α and r so far apart that the contour around the roots cannot be followed in floating point.
+    /// α, r and the tip so far apart that the roots cannot be counted, or told from each other, in floating
+    /// point.
     #[error(
-        "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: alpha/r² should be below 1e16"
+        "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: for a tip of height and width 1, alpha/r² should be between 1e-50 and 1e5, and r below 1e12"
     )]
     TooFarApart {
         /// The indentation rate asked for.
@@ -62,7 +63,7 @@ pub enum StabilityError {
     },
     /// A pulse that is none.
     #[error(
-        "pulse number {index}: amplitude, center and width must be finite and the width, {width}, above 0"
+        "pulse number {index}: amplitude, center and width must be finite and the width, {width:?}, above 0"
     )]
     Pulse {
         /// Counted from 1.

@@ -47,8 +47,8 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
         return bessel_roots::spectrum(model, Some(bound));
     }
     let h = Characteristic::new(model);
-    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
-    half_plane.spectrum(&h)
+    let half_plane = HalfPlane::counted(&h, bound / model.r());
+    half_plane.and_then(|half_plane| half_plane.spectrum(&h)).map_err(|error| h.explain(error))
 }
 
 /// At least `count` leading roots: all those right of a line chosen so that there are so many.
@@ -64,15 +64,19 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
         return bessel_roots::spectrum(model, None);
     }
     let h = Characteristic::new(model);
+    leading(&h, count).map_err(|error| h.explain(error))
+}
+
+fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if h.ratio <= 0.0 {
-        return HalfPlane::counted(&h, -2.0 / h.r)?.spectrum(&h);
+        return HalfPlane::counted(h, -2.0 / h.r)?.spectrum(h);
     }
     let mut left = -2.0 / h.length;
     loop {
         left = left.max(h.leftmost);
-        let half_plane = HalfPlane::counted(&h, left)?;
+        let half_plane = HalfPlane::counted(h, left)?;
         if half_plane.count >= count || left <= h.leftmost {
-            return half_plane.spectrum(&h);
+            return half_plane.spectrum(h);
         }
         left -= 1.0 / h.length;
     }
@@ -87,7 +91,8 @@ pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
         return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
     }
     let h = Characteristic::new(model);
-    Ok(HalfPlane::counted(&h, 0.0)?.count)
+    let half_plane = HalfPlane::counted(&h, 0.0).map_err(|error| h.explain(error))?;
+    Ok(half_plane.count)
 }
 
 /// Re Λ ≥ `left`, in which all zeros lie in the rectangle up to `right` and `top`.

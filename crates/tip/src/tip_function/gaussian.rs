@@ -1,6 +1,6 @@
 //! Sums of Gaussians a exp(-(x-c)²/(2w²)).
 
-use super::TipFunctionError;
+use super::{LARGEST, TipFunctionError};
 use crate::Footprint;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub struct GaussianSum {
 
 impl GaussianSum {
     /// # Errors
-    /// Not finite, a width ≤ 0, zero everywhere, or not even.
+    /// Not finite or far out of range, a width ≤ 0, zero everywhere, or not even.
     pub(super) fn new(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         for (i, term) in terms.iter().enumerate() {
             let index = i + 1;
@@ -42,6 +42,10 @@ impl GaussianSum {
             }
             if term.width <= 0.0 {
                 return Err(TipFunctionError::Width { index, width: term.width });
+            }
+            let sizes = [term.amplitude, term.center, term.width, 1.0 / term.width];
+            if sizes.iter().any(|size| size.abs() > LARGEST) {
+                return Err(TipFunctionError::OutOfRange { index });
             }
         }
         if terms.iter().all(|term| term.amplitude.abs() <= 0.0) {

@@ -19,6 +19,9 @@ pub enum TipFunction {
     Bessel,
 }
 
+/// Products of three numbers within this and their inverses are finite.
+const LARGEST: f64 = 1e100;
+
 /// Why a footprint was refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TipFunctionError {
@@ -40,6 +43,15 @@ pub enum TipFunctionError {
         index: usize,
         /// As given.
         width: f64,
+    },
+    /// A Gaussian whose numbers, multiplied with each other, leave floating point.
+    #[error(
+        "Gaussian number {index}: amplitude and center may be at most {largest:e} in size, the width between {smallest:e} and {largest:e}",
+        smallest = 1.0 / LARGEST, largest = LARGEST
+    )]
+    OutOfRange {
+        /// Counted from 1.
+        index: usize,
     },
     /// A Gaussian off the origin without its mirror image.
     #[error(
@@ -75,7 +87,7 @@ pub enum TipFunctionError {
         y: usize,
     },
     /// Side lobes that are not finite.
-    #[error("beta is {0}: it must be a finite number")]
+    #[error("beta is {0:?}: it must be a finite number")]
     Beta(f64),
     /// A table with too few or too many rows.
     #[error("the table has {found} rows: between {min} and {max} are needed")]
@@ -144,7 +156,7 @@ impl TipFunction {
     /// Any even sum of Gaussians.
     ///
     /// # Errors
-    /// Not finite, a width ≤ 0, zero everywhere, or not even.
+    /// Not finite or far out of range, a width ≤ 0, zero everywhere, or not even.
     pub fn gaussian_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         GaussianSum::new(terms).map(Self::Gaussians)
     }

@@ -1,0 +1,47 @@
+//! What would take too long is refused as soon as that is seen.
+
+use crate::failure::{Failure, Typed};
+use std::time::Instant;
+
+/// Seconds after which the rest is extrapolated from what was done, and no repetition is made.
+pub(super) const PATIENCE: f64 = 0.5;
+
+/// The time that one side takes, against the limit.
+pub(super) struct Pace {
+    option: &'static str,
+    start: f64,
+    end: f64,
+    limit: f64,
+    clock: Instant,
+}
+
+impl Pace {
+    /// Over a span of time, whose end `option` sets, in at most `limit` seconds.
+    pub(super) fn new(option: &'static str, (start, end): (f64, f64), limit: f64) -> Self {
+        Self { option, start, end, limit, clock: Instant::now() }
+    }
+
+    /// So far.
+    pub(super) fn seconds(&self) -> f64 {
+        self.clock.elapsed().as_secs_f64()
+    }
+
+    /// A refusal, where the rest at the pace until time t goes beyond the limit.
+    pub(super) fn too_slow(&self, t: f64) -> Option<Failure> {
+        let (seconds, done) = (self.seconds(), t - self.start);
+        let needed = seconds * (self.end - self.start) / done;
+        if seconds < PATIENCE.min(self.limit) || needed <= self.limit {
+            return None;
+        }
+        let affordable = self.start + 0.5 * self.limit * done / seconds;
+        Some(Failure::input(
+            format!("--time-limit {}", Typed(self.limit)),
+            format!(
+                "this would take about {needed:.0} s: {} {} will do within the limit, or a wider \
+                 --spacing of the grid, or a higher limit",
+                self.option,
+                Typed(affordable)
+            ),
+        ))
+    }
+}

@@ -237,3 +237,12 @@ fn a_folder_that_cannot_be_made_is_refused() {
     folder.refuses("figures", &["--out-dir"]);
     assert_eq!(folder.names(), ["file"]);
 }
+
+/// The table in the documents is the one that the program writes.
+#[test]
+fn the_table_in_the_documents_is_up_to_date() {
+    let folder = Folder::new("documents");
+    folder.prints("figures --out-dir . --only reproduction");
+    let ours = String::from_utf8(folder.read("reproduction.md")).unwrap();
+    assert_eq!(ours, include_str!("../docs/figures/paper/reproduction.md"));
+}

@@ -10,6 +10,7 @@ use common::{largest_difference, observed_order};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use stickslip_tip::memory::{Direct, Fft, Memory};
+use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{Force, InitialSurface, Integrator, Model, STAGES, TipFunction, Trajectory};
 
 const X: f64 = 14.0;
@@ -125,6 +126,12 @@ fn a_memory_cut_by_time_does_not_converge() {
             for (_, position, weight) in &kept {
                 self.0.remember(position, weight);
             }
+        }
+        fn save(&self, state: &mut State) {
+            self.0.save(state);
+        }
+        fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+            self.0.restore(state)
         }
         fn name(&self) -> &'static str {
             "forgetful"

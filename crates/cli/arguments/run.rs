@@ -28,17 +28,40 @@ pub(crate) enum MemoryName {
     Modes,
 }
 
+/// What a run is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum RunFormat {
+    /// One document with everything.
+    Json,
+    /// The samples.
+    Csv,
+    /// Samples and history as NumPy arrays.
+    Npz,
+    /// JSON Lines: what is run, a line for each sample as the run passes it, what became of it.
+    Jsonl,
+}
+
+/// Which part of the dense history a document holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HistoryName {
+    /// All of it.
+    All,
+    /// None: the memory that a run takes does not grow with its length.
+    None,
+}
+
 /// Integrate the tip's motion, and say what became of it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required_unless_present("resume")))]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
     /// Time at which the run ends (it starts when the support has pulled the tip to its start position:
     /// about t = 16 by default), in Γ/k.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub(crate) until: f64,
+    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "resume")]
+    pub(crate) until: Option<f64>,
 
     /// What the tip finds at the start.
     #[arg(long, value_enum, default_value = "steady", help_heading = "Start")]
@@ -119,13 +142,48 @@ pub(crate) struct RunArguments {
     pub(crate) sampling: SamplingArguments,
 
     /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
-    /// arrays; `-` is JSON on standard output.
+    /// arrays, .jsonl for samples written as the run passes them, in memory that does not grow; `-` is
+    /// standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
+
+    /// What is written, whatever the name of the file [default: by its extension; json on standard
+    /// output].
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
+    pub(crate) format: Option<RunFormat>,
+
+    /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.
+    #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
+    pub(crate) history: HistoryName,
 
     /// Draw l(t), the tip's velocity and the surface at the end to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
+
+    /// Repeat the run with another memory and a tighter tolerance, and say in the document how far the two
+    /// are apart; exit status 1 if that is more than the tolerance allows. Takes many times as
+    /// long as the run.
+    #[arg(long, help_heading = "Accuracy")]
+    pub(crate) verify: bool,
+
+    /// Save the state of the run to FILE as it goes on, so that `--resume FILE` can take it up again.
+    #[arg(long, value_name = "FILE", help_heading = "Long runs")]
+    pub(crate) checkpoint: Option<PathBuf>,
+
+    /// Time between two checkpoints, in Γ/k [default: a hundredth of the run].
+    #[arg(
+        long,
+        value_name = "T",
+        requires = "checkpoint",
+        allow_hyphen_values = true,
+        help_heading = "Long runs"
+    )]
+    pub(crate) checkpoint_every: Option<f64>,
+
+    /// Go on where the checkpoint FILE was made, and write what the run would have written: all other
+    /// options are those in FILE.
+    #[arg(long, value_name = "FILE", exclusive = true, help_heading = "Long runs")]
+    pub(crate) resume: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -136,4 +194,7 @@ const EXAMPLES: &str = "Examples:
   A tip of your own, two pulses, samples as CSV:
     stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:
-    stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json";
+    stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
+  A long run, its samples written as it passes them, that survives a loss of power:
+    stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
+    stickslip run --resume long.checkpoint";

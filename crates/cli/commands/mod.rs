@@ -1,6 +1,7 @@
 //! One file per command.
 
 pub(crate) mod boundary;
+pub(crate) mod compare;
 pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
@@ -10,7 +11,9 @@ pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod surface;
+pub(crate) mod sweep;
 pub(crate) mod units;
+pub(crate) mod verify;
 
 mod figure;
 mod progress;

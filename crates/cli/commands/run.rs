@@ -1,234 +1,136 @@
 //! `stickslip run`.
 
+mod checkpoint;
 pub(crate) mod document;
-mod limits;
+mod journey;
+pub(crate) mod limits;
+mod order;
+pub(crate) mod parameters;
+mod record;
 pub(crate) mod samples;
+mod write;
+
+pub(crate) use order::{option_at_fault, parse_pulse};
 
 use super::figure::Figure;
-use super::model::model;
-use super::progress::Progress;
-use crate::arguments::{MemoryName, RunArguments, StartName};
-use crate::documents::RunDocument;
-use crate::failure::{Failure, Typed};
-use crate::files::input::read_columns;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use crate::interrupt::Interrupt;
-use crate::plot;
-use document::Inputs;
-use limits::within_range;
-use std::ops::ControlFlow;
-use std::time::Instant;
-use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{
-    Force, MemoryChoice, Noise, Pulse, Run, RunError, Scenario, Start, run_observed,
-};
-
-const DEFAULT_NOISE_SPACING: f64 = 0.1;
-const DEFAULT_SEED: u64 = 1;
+use crate::arguments::{RunArguments, RunFormat};
+use crate::documents::Order;
+use crate::failure::Failure;
+use crate::files::output::{Output, Place, place};
+use crate::files::stream::Stream;
+use checkpoint::Checkpoints;
+use journey::{Journey, Travelled};
+use record::{Record, Sink};
+use std::path::Path;
+use stickslip_tip::{Running, Scenario};
+use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    let inputs = read_inputs(arguments)?;
-    let scenario = scenario(arguments, &inputs)?;
-    within_range(arguments, &scenario)?;
-    scenario.validate().map_err(|error| explain(&error, arguments))?;
-    let span = (scenario.start_time(), scenario.until);
-    let times = samples::times(&arguments.sampling, span, "the run")?;
-    let output = Output::open("--output", &arguments.output)?;
+    match &arguments.resume {
+        None => start(arguments),
+        Some(path) => resume(path),
+    }
+}
+
+fn start(arguments: &RunArguments) -> Result<(), Failure> {
+    let order = order::order(arguments)?;
+    let said = |message: String| Failure::input("the run", message);
+    let scenario = parameters::scenario(&order.parameters).map_err(said)?;
+    let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
+    let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
-    let (finished, seconds, signal) = integrate(arguments, &scenario)?;
-    let document = document::of(arguments, &scenario, &inputs, &finished, &times, seconds);
-    write(&document, format, output)?;
-    if arguments.output != std::path::Path::new("-") {
-        eprintln!("{}", summary(&document));
-    }
-    if let Some(figure) = figure {
-        figure.write(&draw(&document, &scenario, &finished)?)?;
-    }
-    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
-}
-
-fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
-    let read = |option, path: &Option<std::path::PathBuf>, heading| {
-        path.as_deref().map(|path| read_columns(option, path, heading)).transpose()
+    let surface = scenario.initial_surface().map_err(|error| order::explain(&error, arguments))?;
+    let running = Running::new(&scenario, &surface);
+    let running = running.map_err(|error| order::explain(&error, arguments))?;
+    let mut record = record(&order, &scenario, sink);
+    write::head(&mut record, &order, &scenario)?;
+    let start = scenario.start_time();
+    let mut journey = Journey {
+        running,
+        record,
+        checkpoints: checkpoint
+            .zip(order.checkpoint_every)
+            .map(|(path, every)| Checkpoints::new(&path, &order, start, every, start)),
+        seconds: 0.0,
     };
-    Ok(Inputs {
-        profile: read("--initial-surface", &arguments.initial_surface, "x,u")?,
-        force: read("--force-file", &arguments.force_file, "t,force")?,
-        pulses: arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?,
-    })
+    journey.checkpoint()?;
+    let travelled = journey.travel(&scenario)?;
+    write::all(&order, &scenario, &surface, travelled, target, figure)
 }
 
-/// A, T and W of `--pulse`.
-pub(crate) fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[amplitude, time, width])
-            if amplitude.is_finite() && time.is_finite() && width.is_finite() && width > 0.0 =>
-        {
-            Ok(Pulse { amplitude, time, width })
-        }
-        _ => Err(Failure::input(
-            format!("--pulse {text}"),
-            "needs three finite numbers A,T,W: amplitude, time and width, the width above 0, such as \
-             --pulse 2,30,0.5",
+/// Goes on where a checkpoint was made.
+fn resume(path: &Path) -> Result<(), Failure> {
+    let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let (head, state) = checkpoint::read(path)?;
+    let order = head.order;
+    let scenario = parameters::scenario(&order.parameters).map_err(named)?;
+    let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
+    let running = Running::resumed(&scenario, &surface, &state);
+    let running = running.map_err(|error| named(error.to_string()))?;
+    let figure = Figure::asked("--plot", order.plot.as_deref())?;
+    let (target, record) = if order.format == RunFormat::Jsonl {
+        let stream = Stream::resume(&order.output, head.written)?;
+        let mut record = record(&order, &scenario, Sink::Lines(stream));
+        record.taken = head.samples;
+        (Target::Lines, record)
+    } else {
+        let output = Output::open("--output", &order.output)?;
+        let mut record = record(&order, &scenario, Sink::Memory);
+        record.resume(&checkpoint::journal_of(path), head.written)?;
+        (Target::Document(output), record)
+    };
+    let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
+    let checkpoints = Some(Checkpoints::new(path, &order, start, every, head.t));
+    let journey = Journey { running, record, checkpoints, seconds: head.seconds };
+    let travelled: Travelled = journey.travel(&scenario)?;
+    write::all(&order, &scenario, &surface, travelled, target, figure)
+}
+
+/// The file that a checkpoint goes to.
+fn checkpoint_place(path: &Path) -> Result<std::path::PathBuf, Failure> {
+    // Its folder must take new files.
+    drop(Output::open("--checkpoint", path)?);
+    match place("--checkpoint", path)? {
+        Place::File(path) => Ok(order::resting_place(&path)),
+        Place::Stdout | Place::Special(_) => Err(Failure::input(
+            format!("--checkpoint {}", path.display()),
+            "must be a file, which is replaced by each checkpoint",
         )),
     }
 }
 
-fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failure> {
-    let model = model(&arguments.model)?;
-    let force = Force::new(inputs.pulses.clone(), inputs.force.clone()).map_err(|error| {
-        use stickslip_tip::ForceError as E;
-        let path = arguments.force_file.as_deref().unwrap_or(std::path::Path::new(""));
-        match error {
-            E::Table(error) => Failure::input(format!("--force-file {}", path.display()), error),
-            error => Failure::input("--pulse", error),
-        }
-    })?;
-    let noise = arguments.noise.map(|amplitude| Noise {
-        amplitude,
-        spacing: arguments.noise_spacing.unwrap_or(DEFAULT_NOISE_SPACING),
-        seed: arguments.seed.unwrap_or(DEFAULT_SEED),
-    });
-    Ok(Scenario {
-        start: match arguments.start {
-            StartName::Steady => Start::Steady,
-            StartName::Flat => Start::Flat,
-        },
-        start_position: arguments.start_position,
-        kick: arguments.kick,
-        noise,
-        profile: inputs.profile.clone(),
-        force,
-        tolerance: arguments.tolerance,
-        memory: match arguments.memory {
-            MemoryName::Auto => MemoryChoice::Auto,
-            MemoryName::Direct => MemoryChoice::Direct,
-            MemoryName::Fft => MemoryChoice::Fft,
-            MemoryName::Modes => MemoryChoice::Modes,
-        },
-        ..Scenario::new(model, arguments.until)
-    })
-}
-
-/// Names the option that an error of the library is about.
-fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
-    let option = match error {
-        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
-        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
-        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
-        RunError::Tolerance(tolerance) => format!("--tolerance {}", Typed(*tolerance)),
-        RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
-            format!("--start-position {}", arguments.start_position)
-        }
-        RunError::TooFar { tolerance, .. } => format!("--tolerance {tolerance}"),
-        RunError::Noise { noise, .. } => {
-            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
-        }
-        RunError::Modes(_) => "--memory modes".into(),
-        RunError::Profile(_) => {
-            let path = arguments.initial_surface.as_deref().unwrap_or(std::path::Path::new(""));
-            format!("--initial-surface {}", path.display())
-        }
-        RunError::Integration(_) => return Failure::Run(error.to_string()),
-    };
-    Failure::input(option, error)
-}
-
-/// The run, the seconds that it took, and the signal that stopped it.
-fn integrate(
-    arguments: &RunArguments,
-    scenario: &Scenario,
-) -> Result<(Run, f64, Option<u8>), Failure> {
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-    let mut progress = Progress::new(scenario.start_time(), scenario.until);
-    let started = Instant::now();
-    let run = run_observed(scenario, |step| {
-        progress.reached(step.end());
-        if interrupt.signal().is_some() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    let seconds = started.elapsed().as_secs_f64();
-    let run = run.map_err(|error| explain(&error, arguments))?;
-    let signal = interrupt.signal().filter(|_| run.interrupted);
-    Ok((run, seconds, signal))
-}
-
-fn write(document: &RunDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let samples = &document.samples;
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_csv(
-            "t,l,x0,velocity",
-            &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
-        ),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("t", &samples.t)?;
-            npz.vector("l", &samples.l)?;
-            npz.vector("x0", &samples.x0)?;
-            npz.vector("velocity", &samples.velocity)?;
-            npz.vector("history_nodes", &document.history.nodes)?;
-            npz.vector("history_weights", &document.history.weights)?;
-            npz.vector("history_t", &document.history.t)?;
-            npz.vector("history_extension", &document.history.extension)?;
-            npz.matrix("history_displacement", &document.history.displacement)?;
-            output.write_bytes(&npz.bytes()?)
-        }
+/// Opens what the run is written to: before the work, so that it is not in vain.
+fn open(
+    output: &Path,
+    order: &Order,
+    checkpoint: Option<&Path>,
+) -> Result<(Target, Sink), Failure> {
+    let taken = |path: &&Path| [Some(&*order.output), order.plot.as_deref()].contains(&Some(*path));
+    if let Some(path) = checkpoint.filter(taken) {
+        return Err(Failure::input(
+            format!("--checkpoint {}", path.display()),
+            "is what the run is written to: give it a name of its own",
+        ));
     }
+    if order.format == RunFormat::Jsonl {
+        let sink = Sink::Lines(Stream::open("--output", output, checkpoint.is_some())?);
+        return if checkpoint.is_none() || sink.can_be_cut_back() {
+            Ok((Target::Lines, sink))
+        } else {
+            Err(Failure::input(
+                format!("--output {}", output.display()),
+                "cannot be gone on with from a checkpoint: lines that have left cannot be taken back; write \
+                 them to a file",
+            ))
+        };
+    }
+    let target = Target::Document(Output::open("--output", output)?);
+    Ok((target, checkpoint.map_or(Ok(Sink::Memory), record::journal)?))
 }
 
-/// Points of the drawn surface.
-const DRAWN_POINTS: usize = 4000;
-
-fn draw(document: &RunDocument, scenario: &Scenario, run: &Run) -> Result<String, Failure> {
-    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
-    let (end, start) = (run.trajectory.end(), run.trajectory.start());
-    let (low, high) = super::surface::default_range(&run.trajectory);
-    let x = super::surface::evenly(low, high, DRAWN_POINTS);
-    let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
-    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
-    let title = title(document);
-    Ok(plot::run(&plot::RunFigure {
-        title: &title,
-        t: &document.samples.t,
-        l: &document.samples.l,
-        velocity: &document.samples.velocity,
-        steady_l: document.steady_state.l,
-        r: scenario.model.r(),
-        x: &x,
-        u: &u,
-        u_initial: Some(&before),
-        t_of_surface: end,
-    }))
-}
-
-fn title(document: &RunDocument) -> String {
-    let model = &document.parameters.model;
-    format!("α = {:.6}, r = {}: {}", model.alpha, model.r, document.regime)
-}
-
-/// One line for a person who sent the document to a file.
-fn summary(document: &RunDocument) -> String {
-    let work = &document.work;
-    let motion = document.oscillation.as_ref().map_or(String::new(), |o| {
-        let (period, amplitude) = (o.period, o.amplitude_x0);
-        format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
-    });
-    format!(
-        "{}{motion}: t = {} reached in {} steps with {}, {:.1} ms",
-        document.regime,
-        document.history.t.last().copied().unwrap_or_default(),
-        work.steps,
-        work.memory,
-        1e3 * work.seconds
-    )
+fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {
+    let is_written = order.history && matches!(order.format, RunFormat::Json | RunFormat::Npz);
+    let keeps_history = is_written || order.plot.is_some() || order.verify;
+    Record::new(scenario.model.r(), order.samples.clone(), keeps_history, sink)
 }

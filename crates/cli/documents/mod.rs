@@ -1,6 +1,8 @@
 //! The JSON documents, field by field. `stickslip schema NAME` prints their schemas.
 
 mod boundary;
+mod checkpoint;
+mod compare;
 mod continuation;
 mod cycle;
 mod figure;
@@ -8,12 +10,20 @@ mod model;
 mod reproduction;
 mod response;
 mod run;
+mod run_lines;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
+mod verification;
 
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridWork,
 };
 pub(crate) use continuation::{
     ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
@@ -30,6 +40,7 @@ pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
     RegimeName, RunDocument, RunParameters, Samples, SteadyState, WorkDocument,
 };
+pub(crate) use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub(crate) use stability::{
     CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
     StabilityParameters, TrappingDocument,
@@ -37,9 +48,12 @@ pub(crate) use stability::{
 pub(crate) use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
 };
+pub(crate) use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
+
+pub(crate) use verification::{LargestDifferenceDocument, VerificationDocument, VerifyDocument};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};
@@ -49,7 +63,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The program that wrote a document.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Software {
     pub(crate) name: String,
@@ -66,12 +80,17 @@ impl Software {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SchemaName {
     Run,
+    RunLines,
+    Checkpoint,
+    Verify,
     Surface,
     Stability,
     Boundary,
+    Compare,
     Response,
     Cycle,
     Continue,
+    Sweep,
     Units,
     Figure,
     Reproduction,
@@ -81,12 +100,17 @@ impl SchemaName {
     pub(crate) fn schema(self) -> Schema {
         match self {
             Self::Run => schema_for!(RunDocument),
+            Self::RunLines => schema_for!(RunLine),
+            Self::Checkpoint => schema_for!(CheckpointHead),
+            Self::Verify => schema_for!(VerifyDocument),
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
+            Self::Compare => schema_for!(CompareDocument),
             Self::Response => schema_for!(ResponseDocument),
             Self::Cycle => schema_for!(CycleDocument),
             Self::Continue => schema_for!(ContinueDocument),
+            Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
             Self::Figure => schema_for!(FigureDocument),
             Self::Reproduction => schema_for!(ReproductionDocument),

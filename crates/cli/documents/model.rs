@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError};
 
 /// The footprint f(x), x in units of σ.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub(crate) enum TipDocument {
     /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
@@ -24,7 +24,7 @@ pub(crate) enum TipDocument {
 
 /// g(x)h(y), g a sum of Gaussians, h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or
 /// exp(-y²/(2v²)) for d = 0.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LayerDocument {
     /// d, in σ
@@ -36,7 +36,7 @@ pub(crate) struct LayerDocument {
 }
 
 /// a exp(-(x-c)²/(2w²)).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GaussianDocument {
     /// a

@@ -1,9 +1,10 @@
 //! `stickslip/run`.
 
-use super::{ModelParameters, Software};
+use super::{ModelParameters, Software, VerificationDocument};
 use crate::arguments::{MemoryName, StartName};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::Regime;
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -21,14 +22,17 @@ pub(crate) struct RunDocument {
     pub(crate) steady_state: SteadyState,
     /// l, x0 and x0' at the times asked for.
     pub(crate) samples: Samples,
-    /// The dense history.
-    pub(crate) history: History,
+    /// The dense history; null where it was not asked for.
+    pub(crate) history: Option<History>,
     /// The kind of motion at the end of the run.
     pub(crate) regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub(crate) oscillation: Option<OscillationDocument>,
     /// Whether a signal stopped the run before `until`.
     pub(crate) interrupted: bool,
+    /// The run against a repetition, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) verification: Option<VerificationDocument>,
     /// What it took.
     pub(crate) work: WorkDocument,
 }
@@ -157,6 +161,17 @@ pub(crate) enum RegimeName {
     Trapped,
     /// None of these yet.
     Transient,
+}
+
+impl From<Regime> for RegimeName {
+    fn from(regime: Regime) -> Self {
+        match regime {
+            Regime::Steady => Self::Steady,
+            Regime::StickSlip => Self::StickSlip,
+            Regime::Trapped => Self::Trapped,
+            Regime::Transient => Self::Transient,
+        }
+    }
 }
 
 impl std::fmt::Display for RegimeName {

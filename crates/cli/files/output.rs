@@ -52,42 +52,93 @@ enum Sink {
     Beside(NamedTempFile),
 }
 
+/// What a name on the command line stands for.
+pub(crate) enum Place {
+    Stdout,
+    /// A device or a pipe.
+    Special(File),
+    /// A file that is there and can be written, or that may be made.
+    File(PathBuf),
+}
+
+/// Finds out, before the work, whether the place that `option` named (`-`: standard output) can be
+/// written.
+pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
+    writable(path).map_err(|error| refused(option, path, &error))
+}
+
+pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
+    let advice = "choose a place that exists and can be written to";
+    Failure::input(format!("{option} {}", path.display()), format!("{}; {advice}", error.kind()))
+}
+
+fn writable(path: &Path) -> io::Result<Place> {
+    if path == Path::new("-") {
+        return Ok(Place::Stdout);
+    }
+    if is_special(path) {
+        return OpenOptions::new().write(true).open(path).map(Place::Special);
+    }
+    if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    // A name that is too long, say, is no name that a file can get later.
+    match path.symlink_metadata() {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    // The file itself where the name is a link.
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    if path.exists() {
+        OpenOptions::new().write(true).open(&path)?;
+    }
+    Ok(Place::File(path))
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Puts on the disk that a file has got its name. Not every system can sync a folder: then the name is as
+/// safe as that system makes it.
+pub(super) fn sync_folder(path: &Path) {
+    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).ok();
+}
+
+/// Writes a file in one go: at any time its name stands for what was there before or for all of the new.
+pub(crate) fn replace(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut new = path.as_os_str().to_owned();
+    new.push(".new");
+    let done = File::create(&new)
+        .and_then(|file| through(&file, write).and_then(|()| file.sync_all()))
+        .and_then(|()| std::fs::rename(&new, path));
+    if done.is_err() {
+        std::fs::remove_file(&new).ok();
+    }
+    sync_folder(path);
+    done
+}
+
 impl Output {
     /// Opens the file (`-`: standard output) that `option` named.
     ///
     /// # Errors
     /// It cannot be written.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
-        let refused = |error: io::Error| {
-            let advice = "choose a place that exists and can be written to";
-            Failure::input(
-                format!("{option} {}", path.display()),
-                format!("{}; {advice}", error.kind()),
-            )
+        let sink = match place(option, path)? {
+            Place::Stdout => Sink::Stdout,
+            Place::Special(file) => Sink::Special(file),
+            Place::File(target) => {
+                let file = beside(folder_of(&target));
+                let file = file.map_err(|error| refused(option, path, &error))?;
+                return Ok(Self { path: target, sink: Sink::Beside(file) });
+            }
         };
-        if path == Path::new("-") {
-            return Ok(Self { path: path.into(), sink: Sink::Stdout });
-        }
-        if is_special(path) {
-            let file = OpenOptions::new().write(true).open(path).map_err(refused)?;
-            return Ok(Self { path: path.into(), sink: Sink::Special(file) });
-        }
-        if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-            return Err(refused(io::Error::from(io::ErrorKind::IsADirectory)));
-        }
-        // A name that is too long, say, is no name that a file can get later.
-        match path.symlink_metadata() {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(refused(error)),
-            _ => {}
-        }
-        // The file itself where the name is a link; its folder must take a new file.
-        let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-        if path.exists() {
-            OpenOptions::new().write(true).open(&path).map_err(refused)?;
-        }
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = beside(folder).map_err(refused)?;
-        Ok(Self { path, sink: Sink::Beside(file) })
+        Ok(Self { path: path.into(), sink })
     }
 
     /// Writes the document as JSON, with a line break at its end.
@@ -129,7 +180,8 @@ impl Output {
             Sink::Special(file) => through(file, write),
             Sink::Beside(mut file) => through(file.as_file_mut(), write)
                 .and_then(|()| file.as_file().sync_all())
-                .and_then(|()| file.persist(&self.path).map(drop).map_err(|error| error.error)),
+                .and_then(|()| file.persist(&self.path).map(drop).map_err(|error| error.error))
+                .map(|()| sync_folder(&self.path)),
         };
         done.map_err(|error| Failure::Write { target, error })
     }

@@ -42,6 +42,10 @@ impl Pen {
         Self { colour, mark: Mark::Line { width, dashes } }
     }
 
+    pub(super) const fn small_dots(colour: &'static str, radius: f64) -> Self {
+        Self { colour, mark: Mark::Dots { radius } }
+    }
+
     pub(super) const fn dots(colour: &'static str) -> Self {
         Self { colour, mark: Mark::Dots { radius: 5.0 } }
     }

@@ -29,6 +29,7 @@ mod run;
 mod sheet;
 mod style;
 mod surface;
+mod sweep;
 mod thin;
 
 pub(crate) use bifurcation::{BifurcationFigure, BranchCurve, SpecialMark, bifurcations};
@@ -43,3 +44,4 @@ pub(crate) use onset::onset;
 pub(crate) use roots::roots;
 pub(crate) use run::{RunFigure, run};
 pub(crate) use surface::{SurfaceFigure, surface};
+pub(crate) use sweep::{SweepKind, SweepMark, sweep};

@@ -86,6 +86,34 @@ impl Density {
         }
     }
 
+    /// Forgets all cells outside of `cells`, and gives back their room.
+    pub fn keep(&mut self, cells: &Range<i64>) {
+        let start = self.touched.start.clamp(cells.start, cells.end);
+        let end = self.touched.end.clamp(start, cells.end.max(start));
+        if start == self.touched.start && end == self.touched.end {
+            return;
+        }
+        let kept = (start - self.first) as usize..(end - self.first) as usize;
+        self.sums = self.sums[kept.clone()].to_vec();
+        self.excess = self.excess[kept].to_vec();
+        (self.first, self.touched) = (start, start..end);
+    }
+
+    /// First cell touched, sums and what they have in excess of their exact values, cell by cell: all
+    /// that the density holds.
+    pub fn parts(&self) -> (i64, &[f64], &[f64]) {
+        let at = (self.touched.start - self.first) as usize;
+        let held = at..at + (self.touched.end - self.touched.start) as usize;
+        (self.touched.start, &self.sums[held.clone()], &self.excess[held])
+    }
+
+    /// From its [`parts`](Self::parts); `None` if they do not match each other.
+    pub fn from_parts(spacing: f64, first: i64, sums: Vec<f64>, excess: Vec<f64>) -> Option<Self> {
+        let touched = first..first + sums.len() as i64;
+        let same = sums.len() == excess.len();
+        same.then(|| Self { sums, excess, first, touched, ..Self::new(spacing) })
+    }
+
     /// Moves the origin of positions and cells by `cells`: what was cell `i` becomes `i − cells`,
     /// what was position `x` becomes `x − cells · spacing`. Exact, and no data moves.
     ///

@@ -39,6 +39,12 @@ impl Field {
         position(self.first) + self.margin..=position(last) - self.margin
     }
 
+    /// The first cell of the window, as given to
+    /// [`Convolver::convolve`](crate::Convolver::convolve).
+    pub fn first_cell(&self) -> i64 {
+        self.first
+    }
+
     /// `S(x)`.
     ///
     /// # Panics

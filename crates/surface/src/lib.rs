@@ -25,9 +25,13 @@
 mod carved;
 mod image;
 mod ripple;
+mod verification;
 
 pub use carved::{Method, carved, carved_by};
 pub use ripple::{Ripple, ripple_behind};
+pub use verification::{
+    Claim, Difference, Growth, TOLERANCES_ALLOWED, Verification, VerificationError, verify,
+};
 
 use ndarray::Array1;
 use rayon::prelude::*;

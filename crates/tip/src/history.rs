@@ -21,6 +21,9 @@ pub struct Step {
     pub displacement: Stages,
 }
 
+/// How many numbers make a step.
+pub const STEP_NUMBERS: usize = 3 + STAGES;
+
 impl Step {
     /// Time at its end.
     #[must_use]
@@ -32,6 +35,45 @@ impl Step {
     #[must_use]
     pub fn extension_at_end(&self, r: f64) -> f64 {
         self.extension + (r * self.h - self.displacement[STAGES - 1])
+    }
+
+    /// l(t) = rt - r - x0(t) on its polynomial, for support velocity r.
+    #[must_use]
+    pub fn l(&self, r: f64, t: f64) -> f64 {
+        let moved = RADAU.value(&self.displacement, self.part(t));
+        self.extension - r + (r * (t - self.t) - moved)
+    }
+
+    /// x0(t) on its polynomial.
+    #[must_use]
+    pub fn x0(&self, r: f64, t: f64) -> f64 {
+        r * t - r - self.l(r, t)
+    }
+
+    /// x0'(t) on its polynomial: one order less accurate than x0.
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> f64 {
+        RADAU.slope(&self.displacement, self.part(t)) / self.h
+    }
+
+    /// The fraction of it that has passed at t.
+    fn part(&self, t: f64) -> f64 {
+        (t - self.t) / self.h
+    }
+
+    /// t, h, extension and displacements: all that it is.
+    #[must_use]
+    pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
+        let mut numbers = [0.0; STEP_NUMBERS];
+        numbers[..3].copy_from_slice(&[self.t, self.h, self.extension]);
+        numbers[3..].copy_from_slice(&self.displacement);
+        numbers
+    }
+
+    /// From its [`numbers`](Self::numbers).
+    #[must_use]
+    pub fn from_numbers([t, h, extension, displacement @ ..]: [f64; STEP_NUMBERS]) -> Self {
+        Self { t, h, extension, displacement }
     }
 }
 
@@ -87,22 +129,19 @@ impl Trajectory {
     /// l(t) = rt - r - x0(t). Outside of the run, the polynomials of its first and last step.
     #[must_use]
     pub fn l(&self, t: f64) -> f64 {
-        let (step, tau) = self.locate(t);
-        let moved = RADAU.value(&step.displacement, tau);
-        step.extension - self.r + (self.r * (t - step.t) - moved)
+        self.step_at(t).l(self.r, t)
     }
 
     /// x0(t).
     #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
-        self.r * t - self.r - self.l(t)
+        self.step_at(t).x0(self.r, t)
     }
 
     /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.
     #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
-        let (step, tau) = self.locate(t);
-        RADAU.slope(&step.displacement, tau) / step.h
+        self.step_at(t).velocity(t)
     }
 
     /// Where the tip was until time t, and for how long: positions and weights such that
@@ -127,10 +166,9 @@ impl Trajectory {
         (positions, weights)
     }
 
-    /// The step that holds t, and the fraction of it that has passed.
-    fn locate(&self, t: f64) -> (&Step, f64) {
+    /// The step that holds t.
+    fn step_at(&self, t: f64) -> &Step {
         let after = self.steps.partition_point(|step| step.t <= t);
-        let step = &self.steps[after.max(1) - 1];
-        (step, (t - step.t) / step.h)
+        &self.steps[after.max(1) - 1]
     }
 }

@@ -16,6 +16,7 @@
 pub mod cycle;
 pub mod memory;
 pub mod stability;
+pub mod state;
 pub mod tip_function;
 pub mod units;
 
@@ -35,12 +36,15 @@ mod spline;
 pub use collocation::{STAGES, Stages, nodes_and_weights};
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
-pub use history::{Step, Trajectory};
+pub use history::{STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use model::{Model, ModelError};
-pub use outcome::{Oscillation, Outcome, Regime, classify};
-pub use run::{MemoryChoice, Run, RunError, Scenario, Start, TOLERANCES, run, run_observed};
+pub use outcome::{Classifier, Oscillation, Outcome, Regime, classify};
+pub use run::{
+    MOST_STEPS, MemoryChoice, Run, RunError, Running, Scenario, Start, TOLERANCES, run,
+    run_observed,
+};
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};
 

@@ -1,95 +1,83 @@
 //! From a finished run to its document, and back.
 
+use super::journey::Travelled;
 use super::limits::FARTHEST;
-use crate::arguments::RunArguments;
 use crate::documents::{
-    FORMAT_VERSION, ForceTable, History, ModelParameters, NoiseParameters, OscillationDocument,
-    Profile, PulseParameters, RegimeName, RunDocument, RunParameters, Samples, Software,
-    SteadyState, WorkDocument,
+    FORMAT_VERSION, History, Order, OscillationDocument, RunDocument, RunEnd, SampleLine, Samples,
+    Software, SteadyState, WorkDocument,
 };
-use crate::files::input::Columns;
-use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::{Pulse, Regime, Run, Scenario, Step, Trajectory, nodes_and_weights};
+use crate::failure::Failure;
+use stickslip_surface::{Ripple, Surface, ripple_behind};
+use stickslip_tip::{
+    InitialSurface, Model, Oscillation, Scenario, Step, Trajectory, nodes_and_weights,
+};
 
-/// What came from files and repeated options.
-#[derive(Debug)]
-pub(super) struct Inputs {
-    pub(super) profile: Option<Columns>,
-    pub(super) force: Option<Columns>,
-    pub(super) pulses: Vec<Pulse>,
+/// What became of the run.
+pub(super) fn end(
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    travelled: &Travelled,
+) -> Result<RunEnd, Failure> {
+    let Travelled { running, seconds, signal, .. } = travelled;
+    let (outcome, work) = (running.outcome(), running.work());
+    let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
+    Ok(RunEnd {
+        end: running.t(),
+        regime: outcome.regime.into(),
+        oscillation: outcome.oscillation.map(|o| {
+            let surface = Surface::new(&scenario.model, initial, &tail);
+            oscillation(&o, ripple_behind(&surface, &tail, &o))
+        }),
+        interrupted: signal.is_some(),
+        work: WorkDocument {
+            memory: running.memory().into(),
+            memory_reason: running.memory_reason(),
+            steps: work.steps,
+            rejected: work.rejected,
+            newton_iterations: work.newton_iterations,
+            seconds: *seconds,
+        },
+    })
 }
 
+/// The whole document.
 pub(super) fn of(
-    arguments: &RunArguments,
+    order: &Order,
     scenario: &Scenario,
-    inputs: &Inputs,
-    run: &Run,
-    times: &[f64],
-    seconds: f64,
+    end: RunEnd,
+    samples: &[SampleLine],
+    trajectory: Option<&Trajectory>,
 ) -> RunDocument {
-    let model = &scenario.model;
-    let behind = model.steady_surface_behind();
+    let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();
     RunDocument {
         format: RunDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
-        parameters: parameters(arguments, scenario, inputs),
-        steady_state: SteadyState {
+        parameters: order.parameters.clone(),
+        steady_state: SteadyState::of(&scenario.model),
+        samples: Samples {
+            t: column(|s| s.t),
+            l: column(|s| s.l),
+            x0: column(|s| s.x0),
+            velocity: column(|s| s.velocity),
+        },
+        history: trajectory.filter(|_| order.history).map(history),
+        regime: end.regime,
+        oscillation: end.oscillation,
+        interrupted: end.interrupted,
+        verification: None,
+        work: end.work,
+    }
+}
+
+impl SteadyState {
+    pub(super) fn of(model: &Model) -> Self {
+        let behind = model.steady_surface_behind();
+        Self {
             l: model.steady_l(),
             lag: model.steady_lag(),
             surface_behind: behind.is_finite().then_some(behind),
-        },
-        samples: samples(&run.trajectory, times),
-        history: history(&run.trajectory),
-        regime: match run.outcome.regime {
-            Regime::Steady => RegimeName::Steady,
-            Regime::StickSlip => RegimeName::StickSlip,
-            Regime::Trapped => RegimeName::Trapped,
-            Regime::Transient => RegimeName::Transient,
-        },
-        oscillation: oscillation(scenario, run),
-        interrupted: run.interrupted,
-        work: WorkDocument {
-            memory: run.memory.into(),
-            memory_reason: run.memory_reason.clone(),
-            steps: run.work.steps,
-            rejected: run.work.rejected,
-            newton_iterations: run.work.newton_iterations,
-            seconds,
-        },
-    }
-}
-
-fn parameters(arguments: &RunArguments, scenario: &Scenario, inputs: &Inputs) -> RunParameters {
-    let pulse =
-        |p: &Pulse| PulseParameters { amplitude: p.amplitude, time: p.time, width: p.width };
-    RunParameters {
-        model: ModelParameters::of(&scenario.model, arguments.model.alpha_above),
-        start: arguments.start,
-        start_position: scenario.start_position,
-        kick: scenario.kick,
-        noise: scenario.noise.map(|noise| NoiseParameters {
-            amplitude: noise.amplitude,
-            spacing: noise.spacing,
-            seed: noise.seed,
-        }),
-        initial_surface: inputs.profile.clone().map(|(x, u)| Profile { x, u }),
-        pulses: inputs.pulses.iter().map(pulse).collect(),
-        force: inputs.force.clone().map(|(t, force)| ForceTable { t, force }),
-        until: scenario.until,
-        tolerance: scenario.tolerance,
-        memory: arguments.memory,
-    }
-}
-
-fn samples(trajectory: &Trajectory, times: &[f64]) -> Samples {
-    let t: Vec<f64> = times.iter().copied().filter(|t| *t <= trajectory.end()).collect();
-    let column = |f: &dyn Fn(f64) -> f64| t.iter().map(|t| f(*t)).collect();
-    Samples {
-        l: column(&|t| trajectory.l(t)),
-        x0: column(&|t| trajectory.x0(t)),
-        velocity: column(&|t| trajectory.velocity(t)),
-        t,
+        }
     }
 }
 
@@ -105,23 +93,22 @@ pub(crate) fn history(trajectory: &Trajectory) -> History {
     }
 }
 
-fn oscillation(scenario: &Scenario, run: &Run) -> Option<OscillationDocument> {
-    let o = run.outcome.oscillation?;
-    let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-    let ripple = ripple_behind(&surface, &run.trajectory, &o);
-    Some(OscillationDocument {
+fn oscillation(o: &Oscillation, ripple: Option<Ripple>) -> OscillationDocument {
+    OscillationDocument {
         period: o.period,
         wavelength: o.wavelength,
         amplitude_x0: o.amplitude_x0,
         amplitude_u: ripple.map(|ripple| ripple.amplitude),
         slips: o.slips,
         drift: o.drift,
-    })
+    }
 }
 
 /// The trajectory that a document holds.
 pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
-    trajectory_of(&document.history, document.parameters.model.r)
+    let history = document.history.as_ref();
+    let history = history.ok_or("history: it was left out; run it again with --history all")?;
+    trajectory_of(history, document.parameters.model.r)
 }
 
 /// The trajectory that a history under support velocity r tells.

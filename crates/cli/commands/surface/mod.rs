@@ -8,11 +8,10 @@ mod write;
 pub(crate) use places::{default_range, evenly};
 
 use super::figure::Figure;
-use super::run::document;
+use super::run::{document, parameters};
 use crate::arguments::SurfaceArguments;
 use crate::documents::{
-    FORMAT_VERSION, RunDocument, RunParameters, Software, SurfaceCurve, SurfaceDocument,
-    SurfaceParameters,
+    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
 };
 use crate::failure::Failure;
 use crate::files::input::read_run;
@@ -21,7 +20,6 @@ use crate::plot;
 use image::Images;
 use places::Places;
 use stickslip_surface::Surface;
-use stickslip_tip::{InitialSurface, Model, Noise, Scenario, Start};
 use units::Scale;
 use write::SurfaceFormat;
 
@@ -36,7 +34,8 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     let model = document.parameters.model.model().map_err(damaged)?;
     let trajectory = document::trajectory(&document).map_err(damaged)?;
-    let initial = initial_surface(&document.parameters, &model).map_err(damaged)?;
+    let scenario = parameters::scenario(&document.parameters).map_err(damaged)?;
+    let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory)?;
     let scale = Scale::asked(arguments, &model)?;
     let images = Images::asked(arguments, &model, &places)?;
@@ -59,27 +58,6 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         figure.write(&if images.is_some() { image::draw(&result)? } else { draw(&result) })?;
     }
     write::write(&result, format, &places, &scale, output)
-}
-
-fn initial_surface(parameters: &RunParameters, model: &Model) -> Result<InitialSurface, String> {
-    let scenario = Scenario {
-        start: match parameters.start {
-            crate::arguments::StartName::Steady => Start::Steady,
-            crate::arguments::StartName::Flat => Start::Flat,
-        },
-        start_position: parameters.start_position,
-        kick: parameters.kick,
-        noise: parameters.noise.as_ref().map(|noise| Noise {
-            amplitude: noise.amplitude,
-            spacing: noise.spacing,
-            seed: noise.seed,
-        }),
-        profile: parameters.initial_surface.clone().map(|profile| (profile.x, profile.u)),
-        tolerance: parameters.tolerance,
-        ..Scenario::new(model.clone(), parameters.until)
-    };
-    scenario.validate().map_err(|error| error.to_string())?;
-    scenario.initial_surface().map_err(|error| error.to_string())
 }
 
 fn curves(

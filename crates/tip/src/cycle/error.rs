@@ -73,7 +73,7 @@ impl From<FitError> for CycleError {
     fn from(error: FitError) -> Self {
         match error {
             FitError::NeverFades => Self::NeverFades,
-            error @ FitError::NotMet { .. } => Self::Fit(error),
+            error => Self::Fit(error),
         }
     }
 }

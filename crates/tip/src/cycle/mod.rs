@@ -35,7 +35,7 @@ pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
 pub use error::CycleError;
 
-use crate::outcome::Extrema;
+use crate::outcome::latest_extrema;
 use crate::stability::onset;
 use crate::{Model, Trajectory};
 use embedding::Embedding;
@@ -139,7 +139,7 @@ impl Cycle {
         let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
         let multipliers = linearisation::multipliers(&closed.linearisation.monodromy());
         let motion = closed.orbit.trajectory(r);
-        let extrema = Extrema::at_the_end_of(&motion).latest_first;
+        let extrema = latest_extrema(&motion);
         let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);
         let extremes = (lowest, motion.l(0.0));
         // Around a period there are as many maxima as minima; the first maximum is at the seam.

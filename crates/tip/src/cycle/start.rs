@@ -4,7 +4,7 @@ use super::CycleError;
 use super::embedding::Embedding;
 use super::mesh::{equidistributed, longest_displacement};
 use super::orbit::{Orbit, even_mesh};
-use crate::outcome::{Extrema, Extremum};
+use crate::outcome::{Extremum, latest_extrema};
 use crate::stability::{Criticality, Onset};
 use crate::{Model, Outcome, Regime, Scenario, Trajectory, run};
 use std::f64::consts::{PI, TAU};
@@ -82,7 +82,7 @@ pub(super) fn from_runs<T>(
 
 /// Between two maxima a period apart: the highest within the period, and the one before it.
 fn last_period(trajectory: &Trajectory, outcome: &Outcome) -> Option<(f64, f64)> {
-    let maxima = Extrema::at_the_end_of(trajectory).maxima();
+    let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
     let slips = outcome.oscillation.map_or(1, |o| o.slips);
     let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
     let (i, end) = maxima.iter().take(slips).enumerate().max_by(highest)?;

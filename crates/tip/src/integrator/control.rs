@@ -1,6 +1,7 @@
 //! Step lengths from error estimates, and the constants that tune the integrator.
 
 use crate::collocation::{RADAU, STAGES};
+use crate::state::{Damaged, Reader, State};
 
 /// The largest error allowed within one step, as a fraction of the tolerance. The rest is for what
 /// steps add up to and for what the motion amplifies; tests/tolerance_ladder.rs holds the balance.
@@ -53,6 +54,19 @@ impl Control {
 
     pub(super) fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    /// What the next lengths depend on, beside the tolerance.
+    pub(super) fn save(&self, state: &mut State) {
+        state.number(self.next);
+        state.flag(self.just_rejected);
+        state.pairs(self.last.iter());
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        (self.next, self.just_rejected) = (state.finite()?, state.flag()?);
+        self.last = state.pairs()?.pop();
+        Ok(())
     }
 
     /// Largest error allowed within a step.

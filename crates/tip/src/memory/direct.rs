@@ -3,6 +3,7 @@
 use super::Memory;
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
+use crate::state::{Damaged, Reader, State};
 
 /// Sums f' and f'' over every remembered node within reach of the tip: the oracle for the others.
 ///
@@ -44,6 +45,12 @@ impl Direct {
         STAGES * self.blocks.iter().filter(seen).count()
     }
 
+    /// Number of remembered steps.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.blocks.len()
+    }
+
     /// All that is remembered: displacements from where the tip stands now, and times spent there.
     pub fn past(&self) -> impl Iterator<Item = (f64, f64)> {
         let nodes =
@@ -75,8 +82,7 @@ impl Memory for Direct {
 
     fn remember(&mut self, position: &Stages, weight: &Stages) {
         let position = position.map(|p| self.position + p);
-        let (low, high) = range(&position);
-        self.blocks.push(Block { low, high, position, weight: *weight });
+        self.blocks.push(Block::of(position, *weight));
         self.position = position[STAGES - 1];
         if self.position.abs() > 2.0 * ORIGIN_STEP {
             let shift = ORIGIN_STEP.copysign(self.position);
@@ -91,6 +97,36 @@ impl Memory for Direct {
 
     fn name(&self) -> &'static str {
         "direct"
+    }
+
+    fn save(&self, state: &mut State) {
+        state.number(self.position);
+        state.count(self.blocks.len() as u64);
+        for block in &self.blocks {
+            block.position.iter().chain(&block.weight).for_each(|number| state.number(*number));
+        }
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.position = state.within(4.0 * ORIGIN_STEP)?;
+        let blocks = state.length(2 * STAGES)?;
+        self.blocks = (0..blocks).map(|_| Block::restored(state)).collect::<Result<_, _>>()?;
+        Ok(())
+    }
+}
+
+impl Block {
+    fn of(position: Stages, weight: Stages) -> Self {
+        let (low, high) = range(&position);
+        Self { low, high, position, weight }
+    }
+
+    fn restored(state: &mut Reader) -> Result<Self, Damaged> {
+        let (mut position, mut weight) = (Stages::default(), Stages::default());
+        for number in position.iter_mut().chain(&mut weight) {
+            *number = state.finite()?;
+        }
+        Ok(Self::of(position, weight))
     }
 }
 

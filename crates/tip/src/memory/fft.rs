@@ -3,6 +3,8 @@
 use super::{Memory, longest_look};
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
+use crate::state::{Damaged, Reader, State};
+use std::ops::Range;
 use stickslip_convolution::{Convolver, Density, Field, Kernel};
 
 /// ∫ f'(x - x0(t'))dt' = f' ∗ ρ with ρ the residence density of the tip, how long it spent where.
@@ -24,11 +26,21 @@ pub struct Fft {
     most_pending: usize,
     /// All of the past, for a footprint without reach: a longer window has another lattice.
     past: Option<Vec<(f64, f64)>>,
+    /// Cells outside of these may have been dropped.
+    known: Range<i64>,
 }
 
 /// The origin moves by this many cells at a time: positions stay small, so that their differences keep
 /// full precision however far the tip travels.
 const CELLS_PER_ORIGIN: i64 = 512;
+
+/// Cells of the density kept on either side of the tip, at least: 12,000 widths of a Gaussian. Beyond
+/// twice as many are dropped.
+const CELLS_KEPT: usize = 1 << 16;
+/// And at least so many windows.
+const WINDOWS_KEPT: usize = 4;
+/// Cells are numbered within these bounds.
+const EVERYWHERE: Range<i64> = -(1 << 60)..1 << 60;
 
 /// A transform of this many cells costs about as much as summing one step directly.
 const CELLS_PER_DIRECT_STEP: usize = 512;
@@ -55,7 +67,8 @@ impl Fft {
             field: Field::new(),
             position: 0.0,
             pending: past.to_vec(),
-            most_pending: STAGES * (convolver.length() / CELLS_PER_DIRECT_STEP).isqrt(),
+            most_pending: most_pending(&convolver),
+            known: EVERYWHERE,
             past: tip.reach().is_none().then(|| past.to_vec()),
             tip,
             convolver,
@@ -79,7 +92,28 @@ impl Fft {
             self.move_origin(CELLS_PER_ORIGIN * self.position.signum() as i64);
         }
         let first = self.convolver.first_cell_about(self.position);
+        if self.past.is_none() {
+            self.drop_far(first);
+        }
         self.convolver.convolve(&self.density, first, &mut self.field);
+    }
+
+    /// Drops what lies far from a window that starts at `first`: the density takes no more room, however
+    /// far the tip goes.
+    fn drop_far(&mut self, first: i64) {
+        let (range, kept) = (self.density.range(), self.kept());
+        if first - range.start > 2 * kept {
+            self.known.start = self.known.start.max(first - kept);
+        }
+        if range.end - first > 2 * kept {
+            self.known.end = self.known.end.min(first + kept);
+        }
+        self.density.keep(&self.known);
+    }
+
+    /// Cells kept on either side of the window.
+    fn kept(&self) -> i64 {
+        CELLS_KEPT.max(WINDOWS_KEPT * self.convolver.length()) as i64
     }
 
     /// Whether the window, for a footprint without reach, still spans everything that was visited.
@@ -100,8 +134,19 @@ impl Fft {
         let shift = cells as f64 * self.convolver.spacing();
         self.position -= shift;
         self.density.rebase(cells);
+        self.known = self.known.start - cells..self.known.end - cells;
         self.past.iter_mut().flatten().for_each(|(x, _)| *x -= shift);
     }
+}
+
+fn most_pending(convolver: &Convolver) -> usize {
+    STAGES * (convolver.length() / CELLS_PER_DIRECT_STEP).isqrt()
+}
+
+/// A separation that a saved state may have: one that a run of some length comes to.
+fn within(separation: f64, tip: &TipFunction) -> Result<f64, Damaged> {
+    let allowed = tip.reach().is_none() && (1.0..=1e6).contains(&separation);
+    if allowed { Ok(separation) } else { Err(Damaged::OutOfRange) }
 }
 
 fn plan(tip: &TipFunction, separation: f64) -> Convolver {
@@ -139,9 +184,61 @@ impl Memory for Fft {
     fn name(&self) -> &'static str {
         "fft"
     }
+
+    fn save(&self, state: &mut State) {
+        state.number(self.position);
+        state.number(self.convolver.plan().separation);
+        state.pairs(self.pending.iter());
+        state.flag(self.past.is_some());
+        state.pairs(self.past.iter().flatten().collect::<Vec<_>>().into_iter());
+        let (first, sums, excess) = self.density.parts();
+        state.whole(first);
+        state.numbers(sums.iter().copied());
+        state.numbers(excess.iter().copied());
+        state.whole(self.field.first_cell());
+        [self.known.start, self.known.end].into_iter().for_each(|cell| state.whole(cell));
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.position = state.finite()?;
+        let separation = state.finite()?;
+        if separation.to_bits() != self.convolver.plan().separation.to_bits() {
+            self.convolver = plan(&self.tip, within(separation, &self.tip)?);
+        }
+        self.most_pending = most_pending(&self.convolver);
+        self.pending = state.pairs()?;
+        let past = (state.flag()?, state.pairs()?);
+        self.past = past.0.then_some(past.1);
+        let (first, sums, excess) = (state.whole()?, state.numbers()?, state.numbers()?);
+        let density = Density::from_parts(self.convolver.spacing(), first, sums, excess);
+        self.density = density.ok_or(Damaged::OutOfRange)?;
+        self.convolver.convolve(&self.density, state.whole()?, &mut self.field);
+        self.known = state.whole()?..state.whole()?;
+        if self.field_holds(self.position) && self.stands_on_its_past() {
+            return Ok(());
+        }
+        Err(Damaged::OutOfRange)
+    }
+
+    fn forgotten(&self) -> Option<f64> {
+        let first = self.field.first_cell();
+        let seen = first..first + self.convolver.length() as i64;
+        let forgot = seen.start < self.known.start || seen.end > self.known.end;
+        forgot.then(|| self.kept() as f64 * self.convolver.spacing())
+    }
 }
 
 impl Fft {
+    /// Whether the tip is where it has been and, unless that is all kept, near the origin.
+    fn stands_on_its_past(&self) -> bool {
+        let (cells, cell) = (self.density.range(), self.position / self.convolver.spacing());
+        let about = |cells: &Range<i64>| {
+            (cells.start as f64 - 1.0..=cells.end as f64 + 1.0).contains(&cell)
+        };
+        let near = self.past.is_some() || cell.abs() <= 4.0 * CELLS_PER_ORIGIN as f64;
+        near && (cells.is_empty() || about(&cells))
+    }
+
     /// Whether the field is right wherever the tip may look from x.
     fn field_holds(&self, x: f64) -> bool {
         let look = longest_look(&self.tip);

@@ -9,13 +9,14 @@ mod direct;
 mod fft;
 mod modes;
 
-pub use auto::{Auto, CROSSOVER_NODES};
+pub use auto::{Auto, CROSSOVER_NODES, CROSSOVER_STEPS};
 pub use direct::Direct;
 pub use fft::Fft;
 pub use modes::{Certificate, Fit, FitError, Modes, Term, accuracy_needed};
 
 use crate::TipFunction;
 use crate::collocation::Stages;
+use crate::state::{Damaged, Reader, State};
 
 /// Memory of the tip's past. Positions are displacements from where the tip stands now, at most
 /// [`longest_look`] of them.
@@ -30,6 +31,15 @@ pub trait Memory {
 
     /// Its name on the command line and in documents.
     fn name(&self) -> &'static str;
+
+    /// Writes down all that it holds: what [`restore`](Self::restore) takes up to the last bit.
+    fn save(&self, state: &mut State);
+
+    /// Takes up what [`save`](Self::save) wrote, on a memory made by the same choices.
+    ///
+    /// # Errors
+    /// A state of something else.
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged>;
 
     /// What is worth knowing of how it fared.
     fn note(&self) -> Option<String> {

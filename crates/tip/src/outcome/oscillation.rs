@@ -1,8 +1,8 @@
 //! Period and amplitude of a motion that repeats itself.
 
-use super::extrema::{Extrema, Extremum};
+use super::extrema::Extremum;
 use crate::Trajectory;
-use crate::roots::bisect;
+use crate::roots::zero_between;
 
 /// The periodic motion at the end of a run. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,20 +30,21 @@ const CYCLES: usize = 3;
 
 impl Oscillation {
     /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
-    pub(super) fn of(trajectory: &Trajectory, extrema: &Extrema) -> Option<Self> {
-        let maxima = extrema.maxima();
-        (1..=MOST_SLIPS).find_map(|slips| Self::with_slips(trajectory, extrema, &maxima, slips))
+    pub(super) fn of(trajectory: &Trajectory, latest_first: &[Extremum]) -> Option<Self> {
+        let maxima: Vec<_> = latest_first.iter().filter(|e| e.is_maximum).copied().collect();
+        (1..=MOST_SLIPS)
+            .find_map(|slips| Self::with_slips(trajectory, latest_first, &maxima, slips))
     }
 
     fn with_slips(
         trajectory: &Trajectory,
-        extrema: &Extrema,
+        latest_first: &[Extremum],
         maxima: &[Extremum],
         slips: usize,
     ) -> Option<Self> {
         let compared = maxima.get(..CYCLES * slips + 1)?;
         let (last, before) = (compared[0], compared[slips]);
-        let cycle = extrema.latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
+        let cycle = latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
         let (low, high) = cycle.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| {
             (low.min(e.l), high.max(e.l))
         });
@@ -58,7 +59,7 @@ impl Oscillation {
         }
         // A crossing of the mean level is better defined than the time of a flat maximum.
         let middle = 0.5 * (high + low);
-        let crossing = |e: &Extremum| last_rise_through(trajectory, extrema, middle, e.t);
+        let crossing = |e: &Extremum| last_rise_through(trajectory, latest_first, middle, e.t);
         let (end, start) = (crossing(&last)?, crossing(&before)?);
         let period = end - start;
         let wavelength = trajectory.r() * period;
@@ -69,11 +70,11 @@ impl Oscillation {
 /// The last time before t at which l rises through a level.
 fn last_rise_through(
     trajectory: &Trajectory,
-    extrema: &Extrema,
+    latest_first: &[Extremum],
     level: f64,
     t: f64,
 ) -> Option<f64> {
-    let earlier: Vec<_> = extrema.latest_first.iter().filter(|e| e.t <= t).collect();
+    let earlier: Vec<_> = latest_first.iter().filter(|e| e.t <= t).collect();
     let rise = earlier.windows(2).find(|e| e[0].l > level && e[1].l <= level)?;
-    Some(bisect(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
+    Some(zero_between(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
 }

@@ -78,6 +78,31 @@ impl GaussianSum {
         })
     }
 
+    /// From g' = -(x-c)/w² g: (n+1) `g_{n+1}` = (c `g_n` - `g_{n-1}`)/w².
+    pub(super) fn taylor(&self, degree: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; degree + 1];
+        for g in &self.terms {
+            let z = g.center / g.width;
+            let (mut before, mut here) = (0.0, g.amplitude * (-0.5 * z * z).exp());
+            for (n, coefficient) in sum.iter_mut().enumerate() {
+                *coefficient += here;
+                let next = (g.center * here - before) / (g.width * g.width * (n + 1) as f64);
+                (before, here) = (here, next);
+            }
+        }
+        // Odd ones cancel between twins, to round-off.
+        sum.iter_mut().skip(1).step_by(2).for_each(|odd| *odd = 0.0);
+        sum
+    }
+
+    /// Cramér's bound of Hermite functions: |d^n/dz^n e^{-z²/2}| < 1.0865 √(n!).
+    pub(super) fn derivative_bound(&self, n: usize) -> f64 {
+        let root_factorial: f64 = (1..=n).map(|k| (k as f64).sqrt()).product();
+        let power = i32::try_from(n).unwrap_or(i32::MAX);
+        let term = |g: &Gaussian| g.amplitude.abs() / g.width.powi(power);
+        1.0865 * root_factorial * self.terms.iter().map(term).sum::<f64>()
+    }
+
     pub(super) fn tail(&self, x: f64) -> f64 {
         let term = |g: &Gaussian| {
             let z = (x - g.center) / g.width;

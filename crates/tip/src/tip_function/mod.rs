@@ -1,10 +1,12 @@
 //! The footprint f(x) of the tip: how fast it indents the surface at distance x from its apex.
 
+mod apex;
 mod bessel;
 mod gaussian;
 pub(crate) mod table;
 
 use crate::Footprint;
+pub(crate) use apex::Apex;
 pub use gaussian::{Gaussian, GaussianSum};
 use thiserror::Error;
 
@@ -197,6 +199,23 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.slope_and_curvature(x),
             Self::Bessel => bessel::slope_and_curvature(x),
+        }
+    }
+
+    /// Coefficients of x^n, n up to `degree`, in the Taylor series of f about its apex.
+    fn taylor(&self, degree: usize) -> Vec<f64> {
+        match self {
+            Self::Gaussians(sum) => sum.taylor(degree),
+            Self::Bessel => bessel::taylor(degree),
+        }
+    }
+
+    /// A bound of |f^{(n)}| everywhere.
+    fn derivative_bound(&self, n: usize) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.derivative_bound(n),
+            // J0 is the mean of cosines of wave numbers up to 1.
+            Self::Bessel => 1.0,
         }
     }
 

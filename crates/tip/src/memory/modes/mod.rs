@@ -15,6 +15,7 @@ pub use fit::{Fit, FitError, Term};
 use super::{Fft, Memory};
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
+use crate::state::{Damaged, Reader, State};
 use bank::{Bank, LocalGroove};
 use past::Past;
 use std::sync::Arc;
@@ -55,6 +56,14 @@ impl Modes {
     /// A footprint that the sum cannot represent so well.
     pub fn new(tip: TipFunction, accuracy: f64) -> Result<Self, FitError> {
         let fit = Fit::cached(&tip, accuracy)?;
+        Self::with_fit(tip, fit)
+    }
+
+    /// Nothing remembered yet; f' as in the fit given, however good that is.
+    ///
+    /// # Errors
+    /// A footprint that never fades.
+    pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         Ok(Self {
             bank: Bank::new(&fit),
@@ -67,6 +76,28 @@ impl Modes {
             fit,
             tip,
         })
+    }
+
+    /// Which the past (displacements from the tip, weights) is put into at once.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_past(
+        tip: TipFunction,
+        accuracy: f64,
+        past: &[(f64, f64)],
+    ) -> Result<Self, FitError> {
+        let mut modes = Self::new(tip, accuracy)?;
+        for &(position, weight) in past {
+            modes.past.add(position, weight);
+            modes.farthest = modes.farthest.max(position);
+        }
+        if modes.farthest > SHARE_OF_RETREAT * modes.fit.retreat() {
+            modes.hand_over();
+        } else {
+            modes.take_back();
+        }
+        Ok(modes)
     }
 
     /// The sum in use.
@@ -157,6 +188,31 @@ impl Memory for Modes {
 
     fn name(&self) -> &'static str {
         "modes"
+    }
+
+    fn save(&self, state: &mut State) {
+        self.bank.save(state);
+        state.number(self.farthest);
+        self.past.save(state);
+        state.count(self.retreats);
+        state.flag(self.forgotten);
+        state.flag(self.fft.is_some());
+        self.fft.iter().for_each(|fft| fft.save(state));
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.bank.restore(state)?;
+        self.groove.forget();
+        self.farthest = state.number()?;
+        self.past.restore(state)?;
+        (self.retreats, self.forgotten) = (state.count()?, state.flag()?);
+        self.fft = None;
+        if state.flag()? {
+            let mut fft = Box::new(Fft::new(self.tip.clone()));
+            fft.restore(state)?;
+            self.fft = Some(fft);
+        }
+        Ok(())
     }
 
     fn note(&self) -> Option<String> {

@@ -6,6 +6,8 @@
 //! wave in f: the coefficients beyond degree 15 are below 6e-9 of that wave, which itself is below round-off,
 //! and below round-off for all that are longer.
 
+mod saved;
+
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
 use std::collections::VecDeque;
@@ -59,6 +61,14 @@ impl Past {
     /// Whether something dropped may lie within reach of a displacement from the tip.
     pub(super) fn forgot(&self, at: f64) -> bool {
         self.forgot && self.position + at - self.reach < self.first as f64 * self.length
+    }
+
+    /// A time spent at a displacement from the tip.
+    pub(super) fn add(&mut self, position: f64, weight: f64) {
+        if self.nodes.len() == MOST_NODES {
+            self.gather();
+        }
+        self.nodes.push((self.position + position, weight));
     }
 
     pub(super) fn remember(&mut self, position: &Stages, weight: &Stages) {

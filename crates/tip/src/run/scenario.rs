@@ -1,11 +1,10 @@
-//! A run: a tip set going from a given start, integrated to a given time, and what became of it.
+//! Everything that defines a run, and what no run can be made of.
 
-use crate::integrator::{IntegrationError, Integrator, Work};
+use crate::integrator::IntegrationError;
 use crate::memory::{Auto, Direct, Fft, FitError, Memory, Modes, accuracy_needed};
-use crate::outcome::{Outcome, classify};
 use crate::series::SeriesError;
-use crate::{Force, InitialSurface, Model, Noise, Step, Trajectory};
-use std::ops::ControlFlow;
+use crate::state::Damaged;
+use crate::{Force, InitialSurface, Model, Noise};
 use thiserror::Error;
 
 /// What the tip finds when it starts.
@@ -109,7 +108,21 @@ pub enum RunError {
     /// The integration could not go on.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
+    /// More steps than a history can hold.
+    #[error(
+        "at t = {t}: the history has {MOST_STEPS} steps, more than memory is allowed to hold; end the run earlier, or keep no history"
+    )]
+    HistoryTooLong {
+        /// Time reached.
+        t: f64,
+    },
+    /// A saved state that is not one of this scenario.
+    #[error("the saved state cannot be taken up: {0}")]
+    State(#[from] Damaged),
 }
+
+/// The longest history that is kept: 300 MB of steps.
+pub const MOST_STEPS: usize = 4_000_000;
 
 /// Tolerances that can be met: below 1e-13 round-off of positions takes over.
 pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
@@ -120,25 +133,6 @@ const MOST_NOISE_POINTS: f64 = 2e7;
 const SHARE_OF_ROUNDING: f64 = 0.05;
 /// Noise reaches this far behind the start and ahead of the support's last position.
 const NOISE_BEYOND: f64 = 30.0;
-
-/// A finished run.
-#[derive(Debug, Clone)]
-pub struct Run {
-    /// u0(x), what the tip found at the start.
-    pub initial_surface: InitialSurface,
-    /// x0(t) at every t of the run.
-    pub trajectory: Trajectory,
-    /// Its regime and oscillation.
-    pub outcome: Outcome,
-    /// Counts.
-    pub work: Work,
-    /// Name of the memory in use at the end.
-    pub memory: &'static str,
-    /// Why that one.
-    pub memory_reason: String,
-    /// Whether the observer stopped it before `until`.
-    pub interrupted: bool,
-}
 
 impl Scenario {
     /// The steady start at X = 14 without any disturbance, to a tolerance of 1e-9.
@@ -165,7 +159,7 @@ impl Scenario {
     }
 
     /// rt - x0 at the start, before the kick.
-    fn start_extension(&self) -> f64 {
+    pub(super) fn start_extension(&self) -> f64 {
         match self.start {
             Start::Steady => self.model.steady_lag(),
             Start::Flat => 0.0,
@@ -229,11 +223,11 @@ impl Scenario {
         Ok(())
     }
 
-    fn new_memory(&self) -> Result<Box<dyn Memory>, RunError> {
+    pub(super) fn new_memory(&self) -> Result<Box<dyn Memory>, RunError> {
         let tip = self.model.tip().clone();
         let accuracy = accuracy_needed(&self.model, self.tolerance);
         Ok(match self.memory {
-            MemoryChoice::Auto => Box::new(Auto::new(tip)),
+            MemoryChoice::Auto => Box::new(Auto::new(tip, accuracy)),
             MemoryChoice::Direct => Box::new(Direct::new(tip)),
             MemoryChoice::Fft => Box::new(Fft::new(tip)),
             MemoryChoice::Modes => Box::new(Modes::new(tip, accuracy)?),
@@ -241,52 +235,9 @@ impl Scenario {
     }
 }
 
-/// Integrates (15) from the start of the scenario to its end.
-///
-/// # Errors
-/// A parameter out of range, or a tolerance that turned out not to be met.
-pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
-    run_observed(scenario, |_| ControlFlow::Continue(()))
-}
-
-/// As [`run`], showing each accepted step to an observer, who may stop the run there.
-///
-/// # Errors
-/// As [`run`].
-pub fn run_observed(
-    scenario: &Scenario,
-    mut observe: impl FnMut(&Step) -> ControlFlow<()>,
-) -> Result<Run, RunError> {
-    scenario.validate()?;
-    let surface = scenario.initial_surface()?;
-    let start = (scenario.start_time(), scenario.start_extension() + scenario.kick);
-    let mut integrator = Integrator::new(
-        &scenario.model,
-        &surface,
-        &scenario.force,
-        scenario.new_memory()?,
-        start,
-        scenario.tolerance,
-    );
-    let mut steps = vec![];
-    let mut interrupted = false;
-    while integrator.t() < scenario.until && !interrupted {
-        let step = integrator.step(scenario.until)?;
-        steps.push(step);
-        interrupted = observe(&step).is_break();
-    }
-    let trajectory = Trajectory::new(scenario.model.r(), steps);
-    let outcome = classify(&trajectory, &scenario.model, scenario.tolerance);
-    let (work, memory) = (integrator.work(), integrator.memory().name());
-    let memory_reason = scenario.memory.reason(integrator.memory());
-    drop(integrator);
-    let initial_surface = surface;
-    Ok(Run { initial_surface, trajectory, outcome, work, memory, memory_reason, interrupted })
-}
-
 impl MemoryChoice {
     /// Why this choice came to the memory that was used, and how that fared.
-    fn reason(self, used: &dyn Memory) -> String {
+    pub(super) fn reason(self, used: &dyn Memory) -> String {
         let asked = (self != Self::Auto).then(|| "asked for".to_string());
         asked.into_iter().chain(used.note()).collect::<Vec<_>>().join("; ")
     }

@@ -1,0 +1,64 @@
+//! The work itself: step by step to the end, or to a signal.
+
+use super::checkpoint::Checkpoints;
+use super::record::Record;
+use crate::commands::progress::Progress;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use std::time::Instant;
+use stickslip_tip::{Running, Scenario};
+
+/// A run under way, with all that accompanies it.
+pub(super) struct Journey<'a> {
+    pub(super) running: Running<'a>,
+    pub(super) record: Record,
+    pub(super) checkpoints: Option<Checkpoints>,
+    /// Spent before.
+    pub(super) seconds: f64,
+}
+
+/// A run that has come to an end.
+pub(super) struct Travelled<'a> {
+    pub(super) running: Running<'a>,
+    pub(super) record: Record,
+    pub(super) seconds: f64,
+    /// That stopped it before its end.
+    pub(super) signal: Option<u8>,
+}
+
+impl<'a> Journey<'a> {
+    /// Makes a checkpoint here, if any are to be made.
+    pub(super) fn checkpoint(&mut self) -> Result<(), Failure> {
+        match &mut self.checkpoints {
+            None => Ok(()),
+            Some(checkpoints) => checkpoints.write(&self.running, &mut self.record, self.seconds),
+        }
+    }
+
+    /// Goes to the end of the scenario.
+    pub(super) fn travel(mut self, scenario: &Scenario) -> Result<Travelled<'a>, Failure> {
+        let interrupt = Interrupt::listen()
+            .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+        let mut progress = Progress::new(scenario.start_time(), scenario.until);
+        let (started, before) = (Instant::now(), self.seconds);
+        let failed = |error: stickslip_tip::RunError| Failure::Run(error.to_string());
+        let mut signal = None;
+        while signal.is_none()
+            && let Some(step) = self.running.step().map_err(failed)?
+        {
+            self.record.take(&step)?;
+            progress.reached(step.end());
+            signal = interrupt.signal();
+            let due = |c: &Checkpoints| c.is_due(step.end()) || signal.is_some();
+            if self.checkpoints.as_ref().is_some_and(due) {
+                self.seconds = before + started.elapsed().as_secs_f64();
+                self.checkpoint()?;
+            }
+        }
+        let seconds = before + started.elapsed().as_secs_f64();
+        if let Some(last) = self.running.last() {
+            self.record.end(&last)?;
+        }
+        Ok(Travelled { running: self.running, record: self.record, seconds, signal })
+    }
+}

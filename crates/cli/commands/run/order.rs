@@ -1,0 +1,185 @@
+//! From the command line to an order: what is run, and what is written of it.
+
+use super::super::model::model;
+use super::checkpoint;
+use super::limits::within_range;
+use super::parameters;
+use super::samples::Times;
+use crate::arguments::{HistoryName, RunArguments, RunFormat};
+use crate::documents::Order;
+use crate::failure::{Failure, Typed};
+use crate::files::input::{Columns, read_columns};
+use crate::files::output::OutputFormat;
+use std::path::{Path, PathBuf, absolute};
+use stickslip_tip::{Force, ForceError, Noise, Pulse, RunError, Scenario};
+
+const DEFAULT_NOISE_SPACING: f64 = 0.1;
+const DEFAULT_SEED: u64 = 1;
+
+/// What came from files and repeated options.
+struct Inputs {
+    profile: Option<Columns>,
+    force: Option<Columns>,
+    pulses: Vec<Pulse>,
+}
+
+/// What is asked for, judged as a whole.
+pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
+    let format = format(arguments)?;
+    let inputs = read_inputs(arguments)?;
+    let scenario = scenario(arguments, &inputs)?;
+    within_range(&arguments.model, &scenario)?;
+    scenario.validate().map_err(|error| explain(&error, arguments))?;
+    let span = (scenario.start_time(), scenario.until);
+    let are_kept = format != RunFormat::Jsonl;
+    let every = checkpoint::interval(arguments.checkpoint_every, span)?;
+    let Inputs { pulses, force, .. } = inputs;
+    let order = Order {
+        samples: Times::asked(&arguments.sampling, span, "the run", are_kept)?,
+        parameters: parameters::of(&scenario, arguments.model.alpha_above, &pulses, force),
+        output: resting_place(&arguments.output),
+        format,
+        history: arguments.history == HistoryName::All,
+        plot: arguments.plot.as_deref().map(resting_place),
+        verify: arguments.verify,
+        checkpoint_every: arguments.checkpoint.is_some().then_some(every),
+    };
+    judged(order, arguments)
+}
+
+/// What does not go together.
+fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
+    if order.format != RunFormat::Jsonl {
+        return Ok(order);
+    }
+    let plot = arguments.plot.as_deref().map(|path| format!("--plot {}", path.display()));
+    let verify = arguments.verify.then(|| "--verify".to_string());
+    if let Some(option) = plot.or(verify) {
+        return Err(Failure::input(
+            option,
+            "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz",
+        ));
+    }
+    Ok(order)
+}
+
+/// The same file from wherever a run is taken up again.
+pub(super) fn resting_place(path: &Path) -> PathBuf {
+    if path == Path::new("-") {
+        return path.into();
+    }
+    path.canonicalize().or_else(|_| absolute(path)).unwrap_or_else(|_| path.into())
+}
+
+fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
+    if let Some(format) = arguments.format {
+        return Ok(format);
+    }
+    let extension = arguments.output.extension().and_then(|e| e.to_str());
+    if extension.is_some_and(|e| e.eq_ignore_ascii_case("jsonl")) {
+        return Ok(RunFormat::Jsonl);
+    }
+    Ok(match OutputFormat::of(&arguments.output)? {
+        OutputFormat::Json => RunFormat::Json,
+        OutputFormat::Csv => RunFormat::Csv,
+        OutputFormat::Npz => RunFormat::Npz,
+    })
+}
+
+fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
+    let read = |option, path: &Option<PathBuf>, heading| {
+        path.as_deref().map(|path| read_columns(option, path, heading)).transpose()
+    };
+    Ok(Inputs {
+        profile: read("--initial-surface", &arguments.initial_surface, "x,u")?,
+        force: read("--force-file", &arguments.force_file, "t,force")?,
+        pulses: arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?,
+    })
+}
+
+/// A, T and W of `--pulse`.
+pub(crate) fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[amplitude, time, width])
+            if amplitude.is_finite() && time.is_finite() && width.is_finite() && width > 0.0 =>
+        {
+            Ok(Pulse { amplitude, time, width })
+        }
+        _ => Err(Failure::input(
+            format!("--pulse {text}"),
+            "needs three finite numbers A,T,W: amplitude, time and width, the width above 0, such as \
+             --pulse 2,30,0.5",
+        )),
+    }
+}
+
+fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failure> {
+    let until = arguments.until.ok_or_else(|| {
+        Failure::input("--until", "the end of the run is missing: give --until T")
+    })?;
+    let model = model(&arguments.model)?;
+    let force = Force::new(inputs.pulses.clone(), inputs.force.clone()).map_err(|error| {
+        let path = arguments.force_file.as_deref().unwrap_or(Path::new(""));
+        match error {
+            ForceError::Table(error) => {
+                Failure::input(format!("--force-file {}", path.display()), error)
+            }
+            error => Failure::input("--pulse", error),
+        }
+    })?;
+    let noise = arguments.noise.map(|amplitude| Noise {
+        amplitude,
+        spacing: arguments.noise_spacing.unwrap_or(DEFAULT_NOISE_SPACING),
+        seed: arguments.seed.unwrap_or(DEFAULT_SEED),
+    });
+    Ok(Scenario {
+        start: parameters::start(arguments.start),
+        start_position: arguments.start_position,
+        kick: arguments.kick,
+        noise,
+        profile: inputs.profile.clone(),
+        force,
+        tolerance: arguments.tolerance,
+        memory: parameters::memory(arguments.memory),
+        ..Scenario::new(model, until)
+    })
+}
+
+/// Names the option that an error of the library is about.
+pub(super) fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
+    let option = match error {
+        RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
+            format!("--start-position {}", arguments.start_position)
+        }
+        RunError::Profile(_) => {
+            let path = arguments.initial_surface.as_deref().unwrap_or(Path::new(""));
+            format!("--initial-surface {}", path.display())
+        }
+        _ => match option_at_fault(error) {
+            Some(option) => option,
+            None => return Failure::Run(error.to_string()),
+        },
+    };
+    Failure::input(option, error)
+}
+
+/// The option that an error is about, as far as the error itself tells; `None` for a failure at run time.
+pub(crate) fn option_at_fault(error: &RunError) -> Option<String> {
+    Some(match error {
+        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
+        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
+        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
+        RunError::Tolerance(tolerance) | RunError::TooFar { tolerance, .. } => {
+            format!("--tolerance {}", Typed(*tolerance))
+        }
+        RunError::Noise { noise, .. } => {
+            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
+        }
+        RunError::Modes(_) => "--memory modes".into(),
+        RunError::Profile(_) => "--initial-surface".into(),
+        RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
+            return None;
+        }
+    })
+}

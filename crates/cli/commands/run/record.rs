@@ -1,0 +1,139 @@
+//! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
+
+use super::checkpoint::journal_of;
+use super::samples::Times;
+use crate::documents::SampleLine;
+use crate::failure::Failure;
+use crate::files::journal::{Journal, Mark, rows, write_row};
+use crate::files::stream::Stream;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Step};
+
+/// The record of a run with support velocity r.
+pub(super) struct Record {
+    r: f64,
+    times: Times,
+    /// Place of each sample in the order asked for, where that is not the order of time.
+    places: Vec<usize>,
+    /// Samples taken.
+    pub(super) taken: u64,
+    pub(super) samples: Vec<SampleLine>,
+    /// The history, where it is kept.
+    pub(super) steps: Option<Vec<Step>>,
+    pub(super) sink: Sink,
+}
+
+/// Where what is kept goes as the run goes on.
+pub(super) enum Sink {
+    /// Nowhere but to memory.
+    Memory,
+    /// Samples go out as lines.
+    Lines(Stream),
+    /// Beside a checkpoint: steps where the history is kept, or else samples.
+    Journal(PathBuf, Journal),
+}
+
+const SAMPLE_NUMBERS: usize = 4;
+
+impl Record {
+    pub(super) fn new(r: f64, times: Times, keeps_history: bool, sink: Sink) -> Self {
+        let (times, places) = times.in_order();
+        let steps = keeps_history.then(Vec::new);
+        Self { r, times, places, taken: 0, samples: vec![], steps, sink }
+    }
+
+    /// Takes note of a step.
+    pub(super) fn take(&mut self, step: &Step) -> Result<(), Failure> {
+        if let Some(steps) = &mut self.steps {
+            if steps.len() == MOST_STEPS {
+                return Err(history_too_long(step.t));
+            }
+            steps.push(*step);
+            if let Sink::Journal(path, journal) = &mut self.sink {
+                write_row(journal, step.numbers()).map_err(|error| failed(path, error))?;
+            }
+        }
+        // A time at which one step ends is the next one's.
+        self.sample(step, |t| t < step.end())
+    }
+
+    /// Takes the samples at the very end.
+    pub(super) fn end(&mut self, last: &Step) -> Result<(), Failure> {
+        self.sample(last, |t| t <= last.end())?;
+        if !self.places.is_empty() {
+            let places = self.places.iter().copied().zip(self.samples.drain(..));
+            let mut placed: Vec<_> = places.collect();
+            placed.sort_by_key(|(place, _)| *place);
+            self.samples = placed.into_iter().map(|(_, sample)| sample).collect();
+        }
+        Ok(())
+    }
+
+    fn sample(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) -> Result<(), Failure> {
+        while let Some(t) = self.times.at(self.taken).filter(|t| is_due(*t)) {
+            let (l, x0, velocity) = (step.l(self.r, t), step.x0(self.r, t), step.velocity(t));
+            let sample = SampleLine { t, l, x0, velocity };
+            match &mut self.sink {
+                Sink::Lines(stream) => stream.line(&sample)?,
+                Sink::Journal(path, journal) if self.steps.is_none() => {
+                    let row = [t, l, x0, velocity];
+                    write_row::<SAMPLE_NUMBERS>(journal, row)
+                        .map_err(|error| failed(path, error))?;
+                    self.samples.push(sample);
+                }
+                _ => self.samples.push(sample),
+            }
+            self.taken += 1;
+        }
+        Ok(())
+    }
+
+    /// Puts what was written on the disk, and says what that is.
+    pub(super) fn sync(&mut self) -> Result<Mark, Failure> {
+        match &mut self.sink {
+            Sink::Memory => Ok(Mark::default()),
+            Sink::Lines(stream) => stream.sync(),
+            Sink::Journal(path, journal) => journal.sync().map_err(|error| failed(path, error)),
+        }
+    }
+
+    /// Fills the record with what a journal holds up to a mark, and goes on with it.
+    pub(super) fn resume(&mut self, path: &Path, mark: Mark) -> Result<(), Failure> {
+        let unusable = |error: io::Error| {
+            let needed = "the checkpoint cannot be resumed without it";
+            Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
+        };
+        let journal = Journal::resume(path, mark).map_err(unusable)?;
+        if self.steps.is_some() {
+            for row in rows::<STEP_NUMBERS>(path).map_err(unusable)? {
+                self.take(&Step::from_numbers(row))?;
+            }
+        } else {
+            for [t, l, x0, velocity] in rows(path).map_err(unusable)? {
+                self.samples.push(SampleLine { t, l, x0, velocity });
+            }
+            self.taken = self.samples.len() as u64;
+        }
+        self.sink = Sink::Journal(path.into(), journal);
+        Ok(())
+    }
+}
+
+/// A journal for the checkpoint at `path`.
+pub(super) fn journal(path: &Path) -> Result<Sink, Failure> {
+    let path = journal_of(path);
+    let journal = Journal::create(&path).map_err(|error| failed(&path, error))?;
+    Ok(Sink::Journal(path, journal))
+}
+
+fn failed(path: &Path, error: io::Error) -> Failure {
+    Failure::Write { target: path.display().to_string(), error }
+}
+
+fn history_too_long(t: f64) -> Failure {
+    Failure::Run(format!(
+        "at t = {t} the history has {MOST_STEPS} steps, more than is kept in memory: write the samples as \
+         lines (-o FILE.jsonl), leave the history out (--history none), or end the run earlier (--until {t})"
+    ))
+}

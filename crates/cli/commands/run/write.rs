@@ -1,0 +1,160 @@
+//! A run on its way out.
+
+use super::document;
+use super::journey::Travelled;
+use super::record::{Record, Sink};
+use crate::arguments::RunFormat;
+use crate::commands::figure::Figure;
+use crate::commands::{surface, verify};
+use crate::documents::{Order, RunDocument, RunEnd, RunHead, SteadyState};
+use crate::failure::Failure;
+use crate::files::npz::Npz;
+use crate::files::output::Output;
+use crate::plot;
+use std::path::Path;
+use stickslip_surface::{Surface, SurfaceError};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory};
+
+/// What the run is written to.
+pub(super) enum Target {
+    /// A document at the end.
+    Document(Output),
+    /// Lines, which the record has.
+    Lines,
+}
+
+/// The first line, where lines are written.
+pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
+    match &mut record.sink {
+        Sink::Lines(stream) => {
+            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
+        }
+        Sink::Memory | Sink::Journal(..) => Ok(()),
+    }
+}
+
+/// The whole document, or the last line; and the figure.
+pub(super) fn all(
+    order: &Order,
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    mut travelled: Travelled,
+    target: Target,
+    figure: Option<Figure>,
+) -> Result<(), Failure> {
+    let end = document::end(scenario, initial, &travelled)?;
+    let said = summary(&end);
+    let steps = travelled.record.steps.take();
+    let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
+    let mut failure = None;
+    match target {
+        Target::Lines => {
+            let Sink::Lines(mut stream) = travelled.record.sink else {
+                unreachable!("lines are written to a stream")
+            };
+            stream.line(&end)?;
+            stream.finish()?;
+        }
+        Target::Document(output) => {
+            let samples = &travelled.record.samples;
+            let memory = end.work.memory.clone();
+            let mut document = document::of(order, scenario, end, samples, trajectory.as_ref());
+            let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
+            // What was computed is written even if a signal ends its verification.
+            let verified = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
+            document.verification = verified.as_ref().ok().cloned().flatten();
+            write(&document, order.format, output)?;
+            if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
+                figure.write(&draw(&document, scenario, initial, trajectory)?)?;
+            }
+            failure = match verified {
+                Err(failure) => Some(failure),
+                Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),
+            };
+        }
+    }
+    if order.output != Path::new("-") {
+        eprintln!("{said}");
+    }
+    let interrupted = travelled.signal.map(Failure::Interrupted);
+    interrupted.or(failure).map_or(Ok(()), Err)
+}
+
+fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<(), Failure> {
+    let samples = &document.samples;
+    match format {
+        RunFormat::Json | RunFormat::Jsonl => output.write_json(document),
+        RunFormat::Csv => output.write_csv(
+            "t,l,x0,velocity",
+            &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
+        ),
+        RunFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("t", &samples.t)?;
+            npz.vector("l", &samples.l)?;
+            npz.vector("x0", &samples.x0)?;
+            npz.vector("velocity", &samples.velocity)?;
+            if let Some(history) = &document.history {
+                npz.vector("history_nodes", &history.nodes)?;
+                npz.vector("history_weights", &history.weights)?;
+                npz.vector("history_t", &history.t)?;
+                npz.vector("history_extension", &history.extension)?;
+                npz.matrix("history_displacement", &history.displacement)?;
+            }
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+/// Points of the drawn surface.
+const DRAWN_POINTS: usize = 4000;
+
+fn draw(
+    document: &RunDocument,
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    trajectory: &Trajectory,
+) -> Result<String, Failure> {
+    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
+    let (end, start) = (trajectory.end(), trajectory.start());
+    let (low, high) = surface::default_range(trajectory);
+    let x = surface::evenly(low, high, DRAWN_POINTS);
+    let surface = Surface::new(&scenario.model, initial, trajectory);
+    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
+    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
+    let title = title(document);
+    Ok(plot::run(&plot::RunFigure {
+        title: &title,
+        t: &document.samples.t,
+        l: &document.samples.l,
+        velocity: &document.samples.velocity,
+        steady_l: document.steady_state.l,
+        r: scenario.model.r(),
+        x: &x,
+        u: &u,
+        u_initial: Some(&before),
+        t_of_surface: end,
+    }))
+}
+
+fn title(document: &RunDocument) -> String {
+    let model = &document.parameters.model;
+    format!("α = {:.6}, r = {}: {}", model.alpha, model.r, document.regime)
+}
+
+/// One line for a person who sent the run to a file.
+fn summary(end: &RunEnd) -> String {
+    let work = &end.work;
+    let motion = end.oscillation.as_ref().map_or(String::new(), |o| {
+        let (period, amplitude) = (o.period, o.amplitude_x0);
+        format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
+    });
+    format!(
+        "{}{motion}: t = {} reached in {} steps with {}, {:.1} ms",
+        end.regime,
+        end.end,
+        work.steps,
+        work.memory,
+        1e3 * work.seconds
+    )
+}

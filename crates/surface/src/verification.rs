@@ -1,0 +1,266 @@
+//! Does a run keep its promise? It is repeated with another memory and a tighter tolerance, and a twin with
+//! a slightly different start tells how much an error grows.
+
+mod growth;
+mod spread;
+
+pub use growth::Growth;
+
+use crate::{Surface, SurfaceError};
+use growth::growth;
+use spread::{Spread, places};
+use std::ops::ControlFlow;
+use stickslip_tip::{
+    InitialSurface, MemoryChoice, Model, Run, RunError, Scenario, TOLERANCES, Trajectory,
+    run_observed,
+};
+use thiserror::Error;
+
+/// What is promised of l is so many tolerances: the errors of steps add up, and slips amplify them. It is
+/// what the test-suite holds every memory to (tests/tolerance_ladder.rs).
+pub const TOLERANCES_ALLOWED: f64 = 10.0;
+
+/// The second run's tolerance is smaller by this factor, where f64 allows that.
+const TIGHTER: f64 = 0.01;
+/// The twin's start is off by so many of its tolerances, far above its errors,
+const SHIFT: f64 = 1e4;
+/// but by no more than this, far below the motion.
+const LARGEST_SHIFT: f64 = 1e-4;
+/// A direct sum over more steps takes longer than a person waits.
+const MOST_STEPS_OF_DIRECT: u64 = 3000;
+/// l and heights of order one are not known better than this, whatever the tolerance,
+const ROUND_OFF: f64 = 1e-12;
+/// a large l not to this part of itself,
+const DIGITS: f64 = 8.0 * f64::EPSILON;
+/// and a height not to this part of what was carved there.
+const DIGITS_OF_SUM: f64 = 1e-13;
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verification {
+    /// Memory of the second run.
+    pub memory: &'static str,
+    /// Tolerance of the second run.
+    pub tolerance: f64,
+    /// In l, over all of the run.
+    pub l: Difference,
+    /// In the surface at the end of the run; `None` without a dense history.
+    pub u: Option<Difference>,
+    /// The first time at which l differs by more than is allowed.
+    pub trusted_until: Option<f64>,
+    /// How a small error grows with time.
+    pub growth: Growth,
+}
+
+/// The largest difference of two runs; where differences are not allowed, the one that is least so.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// |difference|
+    pub largest: f64,
+    /// Time or position.
+    pub at: f64,
+    /// By the tolerance that was asked for.
+    pub allowed: f64,
+}
+
+/// What is verified.
+#[derive(Debug, Clone, Copy)]
+pub enum Claim<'a> {
+    /// The dense history of a run.
+    History(&'a Trajectory),
+    /// Samples of a run that lasted to a given time: pairs of t and l.
+    Samples(&'a [(f64, f64)], f64),
+}
+
+/// Why a run could not be verified.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum VerificationError {
+    /// It could not be repeated.
+    #[error("the run could not be repeated: {0}")]
+    Run(#[from] RunError),
+    /// The surface could not be had.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The observer stopped it.
+    #[error("the verification was interrupted")]
+    Interrupted,
+}
+
+impl Verification {
+    /// Whether all differences are allowed.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        self.l.is_allowed() && self.u.is_none_or(|u| u.is_allowed())
+    }
+}
+
+impl Difference {
+    /// Whether it is no larger than allowed. NaN is larger.
+    #[must_use]
+    pub fn is_allowed(&self) -> bool {
+        self.largest <= self.allowed
+    }
+
+    /// The one of two that is to be reported.
+    fn worse(self, other: Self) -> Self {
+        let of_self = if self.is_allowed() && other.is_allowed() {
+            self.largest >= other.largest
+        } else {
+            // A NaN is worse than all.
+            self.largest.is_nan() || self.largest / self.allowed >= other.largest / other.allowed
+        };
+        if of_self { self } else { other }
+    }
+}
+
+/// Repeats a run of `scenario` that was made with the memory of that name, and compares.
+///
+/// l is promised to [`TOLERANCES_ALLOWED`] tolerances ε. Where the tip strays by that much, the surface does
+/// by at most α ε ∫|f'(x - x0(t'))|dt', what is allowed of it.
+///
+/// `observe` is told the part of the work that is done, and may stop it.
+///
+/// # Errors
+/// The run cannot be repeated, or was stopped.
+pub fn verify(
+    scenario: &Scenario,
+    memory: &str,
+    claim: Claim,
+    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Verification, VerificationError> {
+    let steps = match claim {
+        Claim::History(trajectory) => trajectory.steps().len() as u64,
+        Claim::Samples(..) => u64::MAX,
+    };
+    let until = match claim {
+        Claim::History(trajectory) => trajectory.end(),
+        Claim::Samples(_, until) => until,
+    };
+    let tolerance = tighter(scenario);
+    let other = Scenario { tolerance, until, ..scenario.clone() };
+    let reference = repeat(&other, another(memory, steps), 0.0, &mut observe)?;
+    let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(tolerance / TIGHTER);
+    let twin = Scenario { kick: scenario.kick + shift, ..other };
+    let twin = repeat(&twin, vec![MemoryChoice::Fft, MemoryChoice::Direct], 0.5, &mut observe)?;
+
+    let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
+    let (l, trusted_until) = compare_l(claim, &reference.trajectory, allowed);
+    let u = match claim {
+        Claim::Samples(..) => None,
+        Claim::History(trajectory) => {
+            Some(compare_u(&scenario.model, trajectory, &reference, allowed)?)
+        }
+    };
+    let growth = growth(&reference.trajectory, &twin.trajectory, shift, tolerance);
+    let memory = reference.memory;
+    Ok(Verification { memory, tolerance, l, u, trusted_until, growth })
+}
+
+/// The tightest tolerance, down to a hundredth, that can be asked for.
+fn tighter(scenario: &Scenario) -> f64 {
+    let asked = scenario.tolerance;
+    let factors = [TIGHTER, 0.03, 0.1, 0.3];
+    let tried = factors.map(|factor| (factor * asked).max(TOLERANCES.0)).into_iter();
+    let can_be_met =
+        |tolerance: &f64| Scenario { tolerance: *tolerance, ..scenario.clone() }.validate().is_ok();
+    tried.filter(|tolerance| *tolerance < asked).find(can_be_met).unwrap_or(asked)
+}
+
+/// Memories that may repeat a run, the best witness first.
+fn another(used: &str, steps: u64) -> Vec<MemoryChoice> {
+    let mut others = vec![MemoryChoice::Modes, MemoryChoice::Fft, MemoryChoice::Direct];
+    if steps <= MOST_STEPS_OF_DIRECT {
+        others.rotate_right(1);
+    }
+    let name = |choice: &MemoryChoice| match choice {
+        MemoryChoice::Auto => "auto",
+        MemoryChoice::Direct => "direct",
+        MemoryChoice::Fft => "fft",
+        MemoryChoice::Modes => "modes",
+    };
+    others.retain(|choice| name(choice) != used);
+    others
+}
+
+/// Runs with the first of the memories that applies.
+fn repeat(
+    scenario: &Scenario,
+    memories: Vec<MemoryChoice>,
+    done: f64,
+    observe: &mut impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, VerificationError> {
+    let (start, until) = (scenario.start_time(), scenario.until);
+    let mut last = None;
+    for memory in memories {
+        let scenario = Scenario { memory, ..scenario.clone() };
+        let part = |t: f64| done + 0.5 * (t - start) / (until - start);
+        match run_observed(&scenario, |step| observe(part(step.end()))) {
+            Ok(run) if run.interrupted => return Err(VerificationError::Interrupted),
+            Ok(run) => return Ok(run),
+            Err(error @ (RunError::Modes(_) | RunError::Integration(_))) => last = Some(error),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Err(last.map_or(VerificationError::Interrupted, VerificationError::Run))
+}
+
+/// Largest difference in l, and the first time at which it is not allowed.
+fn compare_l(claim: Claim, reference: &Trajectory, allowed: f64) -> (Difference, Option<f64>) {
+    let mut worst = Difference { largest: 0.0, at: reference.start(), allowed };
+    let mut trusted_until = None;
+    let mut compare = |t: f64, l: f64| {
+        let other = reference.l(t);
+        let difference = Difference {
+            largest: (l - other).abs(),
+            at: t,
+            allowed: allowed + ROUND_OFF + DIGITS * other.abs(),
+        };
+        if !difference.is_allowed() && trusted_until.is_none_or(|earlier| t < earlier) {
+            trusted_until = Some(t);
+        }
+        worst = worst.worse(difference);
+    };
+    match claim {
+        Claim::Samples(samples, _) => samples.iter().for_each(|(t, l)| compare(*t, *l)),
+        Claim::History(trajectory) => {
+            let end = trajectory.end().min(reference.end());
+            for step in trajectory.steps().iter().chain(reference.steps()) {
+                for part in [0.0, 0.25, 0.5, 0.75] {
+                    let t = step.t + part * step.h;
+                    if t <= end {
+                        compare(t, trajectory.l(t));
+                    }
+                }
+            }
+            compare(end, trajectory.l(end));
+        }
+    }
+    (worst, trusted_until)
+}
+
+/// Largest difference in the surface at the end, against what is allowed there.
+fn compare_u(
+    model: &Model,
+    trajectory: &Trajectory,
+    reference: &Run,
+    allowed: f64,
+) -> Result<Difference, SurfaceError> {
+    let flat = InitialSurface::flat();
+    let end = trajectory.end().min(reference.trajectory.end());
+    let x = places(model, trajectory);
+    let carved = |by: &Trajectory| Surface::new(model, &flat, by).heights(end, &x);
+    let (one, other) = (carved(trajectory)?, carved(&reference.trajectory)?);
+    let spread = Spread::of(model.tip(), trajectory, &x);
+    let mut worst = Difference { largest: 0.0, at: x[0], allowed };
+    for (i, at) in x.iter().enumerate() {
+        let allowed =
+            model.alpha() * (allowed * spread.slope[i] + DIGITS_OF_SUM * spread.height[i]);
+        let difference = Difference {
+            largest: (one[i] - other[i]).abs(),
+            at: *at,
+            allowed: allowed + ROUND_OFF,
+        };
+        worst = worst.worse(difference);
+    }
+    Ok(worst)
+}

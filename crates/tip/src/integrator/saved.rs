@@ -1,0 +1,37 @@
+//! The integrator between two steps, written down and taken up again.
+
+use super::{Integrator, Work};
+use crate::state::{Damaged, Reader, State};
+
+impl Integrator<'_> {
+    /// All that the next steps depend on, beside what [`Integrator::new`] is given.
+    pub fn save(&self, state: &mut State) {
+        let (slope, force) = self.limits_from_before;
+        for number in [self.t, self.extension, self.velocity, self.curvature, slope, force] {
+            state.number(number);
+        }
+        state.steps(self.last.iter());
+        let Work { steps, rejected, newton_iterations } = self.work;
+        [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));
+        self.control.save(state);
+        self.memory.save(state);
+    }
+
+    /// Takes up what [`save`](Self::save) wrote, on an integrator made for the same problem.
+    ///
+    /// # Errors
+    /// A state of something else.
+    pub fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        (self.t, self.extension) = (state.finite()?, state.finite()?);
+        (self.velocity, self.curvature) = (state.finite()?, state.finite()?);
+        self.limits_from_before = (state.finite()?, state.finite()?);
+        self.last = state.steps()?.pop();
+        self.work = Work {
+            steps: state.count()?,
+            rejected: state.count()?,
+            newton_iterations: state.count()?,
+        };
+        self.control.restore(state)?;
+        self.memory.restore(state)
+    }
+}

@@ -1,0 +1,68 @@
+//! A run: a tip set going from a given start, integrated to a given time, and what became of it.
+
+mod running;
+mod scenario;
+
+pub use running::Running;
+pub use scenario::{MOST_STEPS, MemoryChoice, RunError, Scenario, Start, TOLERANCES};
+
+use crate::integrator::Work;
+use crate::outcome::Outcome;
+use crate::{InitialSurface, Step, Trajectory};
+use std::ops::ControlFlow;
+
+/// A finished run.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// u0(x), what the tip found at the start.
+    pub initial_surface: InitialSurface,
+    /// x0(t) at every t of the run.
+    pub trajectory: Trajectory,
+    /// Its regime and oscillation.
+    pub outcome: Outcome,
+    /// Counts.
+    pub work: Work,
+    /// Name of the memory in use at the end.
+    pub memory: &'static str,
+    /// Why that one.
+    pub memory_reason: String,
+    /// Whether the observer stopped it before `until`.
+    pub interrupted: bool,
+}
+
+/// Integrates (15) from the start of the scenario to its end, and keeps the whole history; for more than
+/// [`MOST_STEPS`] of it take the steps one by one from [`Running`].
+///
+/// # Errors
+/// A parameter out of range, a tolerance that turned out not to be met, or too long a history.
+pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
+    run_observed(scenario, |_| ControlFlow::Continue(()))
+}
+
+/// As [`run`], showing each accepted step to an observer, who may stop the run there.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_observed(
+    scenario: &Scenario,
+    mut observe: impl FnMut(&Step) -> ControlFlow<()>,
+) -> Result<Run, RunError> {
+    scenario.validate()?;
+    let surface = scenario.initial_surface()?;
+    let mut running = Running::new(scenario, &surface)?;
+    let mut steps = vec![];
+    let mut interrupted = false;
+    while !interrupted && let Some(step) = running.step()? {
+        if steps.len() == MOST_STEPS {
+            return Err(RunError::HistoryTooLong { t: step.t });
+        }
+        steps.push(step);
+        interrupted = observe(&step).is_break();
+    }
+    let (outcome, work, memory) = (running.outcome(), running.work(), running.memory());
+    let memory_reason = running.memory_reason();
+    drop(running);
+    let trajectory = Trajectory::new(scenario.model.r(), steps);
+    let initial_surface = surface;
+    Ok(Run { initial_surface, trajectory, outcome, work, memory, memory_reason, interrupted })
+}

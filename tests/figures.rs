@@ -166,15 +166,26 @@ fn every_figure_is_written_as_json_svg_and_png() {
         }
     }
     // What the figures of the doubled period and of the settled ripple must show.
-    let bifurcation = folder.json("made/here/bifurcation.json");
-    let maxima = |low: f64, high: f64| -> usize {
-        let curve = &bifurcation["panels"][0]["curves"][0]["x"];
-        let x = curve.as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
+    let panels = folder.json("made/here/bifurcation.json")["panels"].clone();
+    let named = |panel: usize, name: &str| {
+        let curves = panels[panel]["curves"].as_array().unwrap();
+        curves.iter().find(|curve| curve["name"] == name).unwrap().clone()
+    };
+    let maxima = named(1, "maxima of l in runs");
+    let count = |low: f64, high: f64| -> usize {
+        let x = maxima["x"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
         x.filter(|x| (low..high).contains(x)).count()
     };
-    assert_eq!(maxima(1.599, 1.601), 2, "a doubled period");
-    assert_eq!(maxima(1.399, 1.401), 1);
-    assert_eq!(maxima(1.0, 1.06), 0, "steady");
+    assert_eq!(count(1.599, 1.601), 2, "a doubled period");
+    assert_eq!(count(1.399, 1.401), 1);
+    // At 1.06 the oscillation has not died out yet.
+    assert_eq!(count(1.0, 1.055), 0, "steady");
+    // The doublings that the branch finds lie where the runs begin and cease to have two maxima.
+    let doublings = named(0, "period doubling")["x"].as_array().unwrap().clone();
+    let [first, last] = [0, 1].map(|i| doublings[i].as_f64().unwrap());
+    assert_eq!(doublings.len(), 2);
+    assert_eq!(count(first + 0.011, first + 0.0211), 2, "beyond {first}");
+    assert_eq!(count(last + 0.011, last + 0.0211), 1, "beyond {last}");
     let ripple = &folder.json("made/here/fig4.json")["panels"][0]["curves"][0];
     let u: Vec<f64> =
         ripple["y"].as_array().unwrap()[3800..4400].iter().map(|u| u.as_f64().unwrap()).collect();
@@ -226,4 +237,13 @@ fn a_folder_that_cannot_be_made_is_refused() {
     folder.refuses("figures --out-dir . --only fig8", &["fig8", "fig7"]);
     folder.refuses("figures", &["--out-dir"]);
     assert_eq!(folder.names(), ["file"]);
+}
+
+/// The table in the documents is the one that the program writes.
+#[test]
+fn the_table_in_the_documents_is_up_to_date() {
+    let folder = Folder::new("documents");
+    folder.prints("figures --out-dir . --only reproduction");
+    let ours = String::from_utf8(folder.read("reproduction.md")).unwrap();
+    assert_eq!(ours, include_str!("../docs/figures/paper/reproduction.md"));
 }

@@ -232,6 +232,32 @@ fn what_is_not_even_is_refused_with_the_term_that_stands_alone() {
     assert!(Footprint::separable(TipFunction::Bessel, -1.0).is_err());
 }
 
+/// (24) for every y: -(α/r) ∫ f(ξ,y)dξ from x - X on, by Gauss's rule on panels of 0.1.
+#[test]
+fn a_steady_past_was_carved_by_the_same_footprint() {
+    let footprint = Footprint::gaussian_sum(&crater()).unwrap();
+    let (alpha, r) = (1.3, 0.8);
+    let model = Model::new(TipFunction::of_footprint(footprint.clone()), alpha, r).unwrap();
+    let scenario = Scenario::new(model, 30.0);
+    let (trajectory, initial) = finished(&scenario);
+    let surface = Surface::new(&scenario.model, &initial, &trajectory);
+    let start = trajectory.start();
+    for (x, y) in [(14.0, 0.0), (13.1, 0.9), (15.7, -1.8), (2.0, 1.3)] {
+        let rule = GaussLegendre::new(NonZeroUsize::new(10).unwrap());
+        let panels = |f: &dyn Fn(f64) -> f64, from: f64| -> f64 {
+            (0..300)
+                .map(|i| {
+                    let left = from + 0.1 * f64::from(i);
+                    rule.integrate(left, left + 0.1, f)
+                })
+                .sum()
+        };
+        let exact = -alpha / r * panels(&|xi| value(&crater(), xi, y), x - 14.0);
+        let found = surface.image(&footprint, start, &[x], &[y]).unwrap()[[0, 0]];
+        ROUND_OFF.judge(&format!("u({x}, {y}, t1)"), (found - exact).abs(), 0.0);
+    }
+}
+
 #[test]
 fn noise_and_profile_are_the_same_for_all_y() {
     let tip = TipFunction::gaussian(1.0).unwrap();

@@ -33,9 +33,9 @@ pub(crate) fn gsf(field: &Field) -> Vec<u8> {
     line("YRes", &counts[1]);
     for (axis, i) in [("X", 0), ("Y", 1)] {
         let spacing = field.spacing[i];
-        line(&format!("{axis}Real"), &(spacing * counts[i] as f64));
+        line(&format!("{axis}Real"), &format!("{:e}", spacing * counts[i] as f64));
         // Of the image's edge, half a pixel before the first centre.
-        line(&format!("{axis}Offset"), &(field.first[i] - 0.5 * spacing));
+        line(&format!("{axis}Offset"), &format!("{:e}", field.first[i] - 0.5 * spacing));
     }
     if !field.unit.is_empty() {
         line("XYUnits", &field.unit);
@@ -73,7 +73,9 @@ mod tests {
             assert!(bytes[zeros..data].iter().all(|b| *b == 0));
             assert_eq!(bytes[data..data + 4], 2.0_f32.to_le_bytes());
             let header = String::from_utf8(bytes[..zeros].to_vec()).unwrap();
-            for line in ["XRes = 3", "YReal = 4", "XOffset = 9.75", "YOffset = -2", "ZUnits = m"] {
+            for line in
+                ["XRes = 3", "YReal = 4e0", "XOffset = 9.75e0", "YOffset = -2e0", "ZUnits = m"]
+            {
                 assert!(header.lines().any(|l| l == line), "{line}:\n{header}");
             }
         }

@@ -99,7 +99,13 @@ impl Surface<'_> {
             return Array1::zeros(x.len());
         };
         let depth = self.model.alpha() / self.model.r();
-        x.iter().map(|x| -depth * layer.along.tail(x - position)).collect()
+        let (all, reach) = (layer.along.integral(), layer.along.reach().unwrap_or(f64::INFINITY));
+        let tail = |x: f64| match x - position {
+            ahead if ahead > reach => 0.0,
+            behind if behind < -reach => all,
+            near => layer.along.tail(near),
+        };
+        x.iter().map(|x| -depth * tail(*x)).collect()
     }
 
     fn check(&self, t: f64, x: &[f64], y: &[f64]) -> Result<(), SurfaceError> {

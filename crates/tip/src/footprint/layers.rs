@@ -80,11 +80,12 @@ fn has_twin_across(terms: &[Gaussian2d], term: &Gaussian2d) -> bool {
     close(total(term.center_y), total(-term.center_y), term.amplitude.abs().max(1e-300))
 }
 
-/// The terms of f(x,0): those of the layers times h(0), those of one center and width put together.
-pub(super) fn path_of(layers: &[Layer]) -> Vec<Gaussian> {
+/// The terms of Σ_k g_k(x) `factor`(h_k), those of one center and width put together: f(x,0) for the
+/// factor h(0). Layers that are no Gaussians are left out.
+pub(super) fn combined(layers: &[Layer], factor: impl Fn(&Across) -> f64) -> Vec<Gaussian> {
     let scaled = |layer: &Layer| {
         let TipFunction::Gaussians(sum) = &layer.along else { return vec![] };
-        let factor = layer.across.value(0.0);
+        let factor = factor(&layer.across);
         let term = |g: &Gaussian| Gaussian { amplitude: factor * g.amplitude, ..*g };
         sum.terms().iter().map(term).collect()
     };

@@ -132,7 +132,8 @@ impl Footprint {
             let width = layers[i].across.width;
             return Err(TipFunctionError::Width { index: i + 1, width });
         }
-        let path = TipFunction::gaussian_sum(layers::path_of(&layers))?;
+        let path =
+            TipFunction::gaussian_sum(layers::combined(&layers, |across| across.value(0.0)))?;
         Ok(Self { layers, path })
     }
 
@@ -171,9 +172,13 @@ impl Footprint {
     /// infinite one among them. `depth` is α/r.
     #[must_use]
     pub fn transverse_stiffness_needed(&self, depth: f64) -> f64 {
+        // A table's many layers are one sum of few Gaussians.
+        let combined = layers::combined(&self.layers, Across::curvature_at_0);
+        let gaussians = TipFunction::gaussian_sum(combined).ok();
         let transform = |q: f64| -> f64 {
             let layer = |layer: &Layer| layer.across.curvature_at_0() * layer.along.fourier(q);
-            self.layers.iter().map(layer).sum()
+            let each = || self.layers.iter().map(layer).sum();
+            gaussians.as_ref().map_or_else(each, |sum| sum.fourier(q))
         };
         let band = self.layers.iter().map(|layer| layer.along.band()).fold(0.0, f64::max);
         let at_rest = transform(0.0);

@@ -4,12 +4,15 @@ use crate::documents::{NumberDocument, ReproductionDocument};
 
 const HEAD: &str = "# The paper's numbers beside ours
 
-Printed decimals are taken to half a unit of their last digit, whole numbers as exact. What differs is explained by an entry of
-`docs/corrections.md`, whose number is given; each entry has a test.
+Printed decimals are taken to half a unit of their last digit, whole numbers as exact. What
+differs is explained by an entry of `docs/corrections.md`, whose number is given; each entry has a test.
 
 | quantity | for | where | printed | ours | relative difference | |
 |---|---|---|---|---|---|---|
 ";
+
+/// Below this, numbers are round-off of 0.
+const ROUND_OFF: f64 = 1e-9;
 
 /// The whole page.
 pub(super) fn page(document: &ReproductionDocument) -> String {
@@ -21,7 +24,11 @@ pub(super) fn page(document: &ReproductionDocument) -> String {
 
 fn row(number: &NumberDocument) -> String {
     let NumberDocument { quantity, case, place, printed, ours, .. } = number;
-    let difference = number.relative_difference.map(|d| format!("{d:+.1e}")).unwrap_or_default();
+    let difference = match number.relative_difference {
+        Some(d) if d.abs() < ROUND_OFF => "0".into(),
+        Some(d) => format!("{d:+.1e}"),
+        None => String::new(),
+    };
     let verdict = match (number.agrees, number.correction, &number.remark) {
         (true, ..) => "agrees".into(),
         (false, Some(entry), Some(remark)) => format!("correction {entry}: {remark}"),
@@ -30,8 +37,7 @@ fn row(number: &NumberDocument) -> String {
     // Bars would end the cell.
     let cells = [quantity, case, place].map(|cell| cell.replace('|', "\\|"));
     let [quantity, case, place] = cells;
-    // Round-off of a zero is a zero.
-    let ours = if ours.abs() < 1e-9 { 0.0 } else { *ours };
+    let ours = if ours.abs() < ROUND_OFF { 0.0 } else { *ours };
     format!(
         "| {quantity} | {case} | {place} | {printed} | {ours:.9} | {difference} | {verdict} |\n"
     )

@@ -89,7 +89,7 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let said = program::said(&refusal);
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
     // tests/long_runs.rs judges lines, checkpoints and verifications.
-    let runs = ["run", "run-lines", "checkpoint", "surface"];
+    let runs = ["run", "run-lines", "checkpoint", "verify", "surface"];
     let tested: Vec<&str> = runs.into_iter().chain(OTHERS.map(|o| o.0)).collect();
     assert_eq!(offered.split(", ").collect::<Vec<_>>(), tested);
 }

@@ -365,6 +365,8 @@ fn checkpoints_that_cannot_be_gone_on_with_are_refused() {
         ("\"until\":300", "\"until\":30", "out of range"),
         ("\"format\":\"stickslip/checkpoint\"", "\"format\":\"stickslip/run\"", "stickslip/run"),
         ("\"kick\":", "\"kicks\":", "is damaged"),
+        ("\"every\":", "\"every\":-", "not above 0"),
+        ("\"checkpoint_every\":", "\"checkpoint_every\":-", "not above 0"),
     ] {
         resealed(from, to);
         folder.refuses("run --resume other.ck", &["--resume other.ck", words]);

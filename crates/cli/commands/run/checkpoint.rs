@@ -130,6 +130,10 @@ fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     if words.len() as u64 != head.words || !rest.is_empty() {
         return Err("is damaged: it does not hold as many words as it says".into());
     }
+    let every = head.order.checkpoint_every;
+    if !head.order.samples.are_usable() || !every.is_some_and(|every| every > 0.0) {
+        return Err("is damaged: an interval is not above 0".into());
+    }
     let words = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
     Ok((head, State::from_words(words)))
 }

@@ -62,6 +62,14 @@ impl Times {
         Ok(Self::Every { start, every, end, intervals: (count + 1e-9).floor() as u64 })
     }
 
+    /// Whether they go on in time, and end.
+    pub(crate) fn are_usable(&self) -> bool {
+        match self {
+            Self::Every { every, .. } => *every > 0.0,
+            Self::At(_) => true,
+        }
+    }
+
     /// How many there are.
     pub(crate) fn count(&self) -> u64 {
         match self {

@@ -14,7 +14,7 @@ mod verification;
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
-pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use checkpoint::{CheckpointHead, Order, Times};
 pub(crate) use model::{ModelParameters, TipDocument};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{

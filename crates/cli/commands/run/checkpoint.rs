@@ -1,6 +1,6 @@
 //! Checkpoints: written so that a kill at any moment leaves the last good one.
 
-use super::record::{Record, Sink};
+use super::record::Record;
 use crate::documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use crate::failure::{Failure, Typed};
 use crate::files::output::replace;
@@ -147,15 +147,5 @@ pub(super) fn interval(asked: Option<f64>, (start, end): (f64, f64)) -> Result<f
             format!("--checkpoint-every {}", Typed(every)),
             "must be a finite time above 0",
         )),
-    }
-}
-
-impl Sink {
-    /// Whether a checkpoint can say how to go on with what was written.
-    pub(super) fn can_be_cut_back(&self) -> bool {
-        match self {
-            Self::Lines(stream) => stream.is_file(),
-            Self::Memory | Self::Journal(..) => true,
-        }
     }
 }

@@ -8,10 +8,10 @@ comma := ,
 stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive check bench doc install clean
+.PHONY: help run test survive check bench work-precision figures doc install clean
 
 help: ## list these verbs
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a picture
 	@$(call stickslip,run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT))
@@ -37,6 +37,14 @@ bench: ## measure: cost per step, whole runs, surfaces
 	$(CARGO) bench --locked --bench runs
 	@echo "surface: reconstruction against the number of points, fft and direct"
 	$(CARGO) bench --locked --bench surface
+	@echo "cycles: a cycle with its multipliers, from onset to relaxation, and a branch of them"
+	$(CARGO) bench --locked --bench cycles
+
+work-precision: ## measure time against error, and draw it: data/work_precision.json, docs/figures/work_precision.svg
+	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json docs/figures/work_precision.svg
+
+figures: ## the paper's figures, and its numbers beside ours, in target/figures
+	@$(call stickslip,figures --out-dir target/figures)
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked

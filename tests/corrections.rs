@@ -245,3 +245,32 @@ fn with_depth_limited_indentation_the_pair_of_position_and_rate_is_closed() {
     assert!((x - from_10_and_61).abs() < LATTICE, "{x} {from_10_and_61}");
     assert!((x - unlimited).abs() > 0.05, "{x} {unlimited}");
 }
+
+#[test]
+fn the_steady_surface_of_the_triple_gaussian_is_not_flat_under_the_tip() {
+    let alpha = critical(&triple(1.0), 1.0).unwrap().alpha - 0.01;
+    let steady = Scenario::new(model(triple(1.0), alpha, 1.0), 50.0);
+    let surface = steady.initial_surface().unwrap();
+    let largest = (0..2800).map(|i| surface.height(0.01 * f64::from(i)).abs()).fold(0.0, f64::max);
+    assert!((largest / alpha - 0.7088).abs() < 1e-4, "{largest}");
+    // Far from the tip it is flat, as printed.
+    assert!(surface.height(0.0).abs() + surface.height(28.0).abs() < 1e-12);
+    // The paper's start: the tip at 14, the support at 15 + α, the surface flat.
+    let support = 15.0 + alpha;
+    let flat = Scenario {
+        start: Start::Flat,
+        start_position: support,
+        kick: support - 14.0,
+        ..steady.clone()
+    };
+    assert!((flat.start_time() - support).abs() < 1e-12);
+    let swing = |scenario: &Scenario| {
+        let run = run(scenario).unwrap();
+        assert!((run.trajectory.x0(run.trajectory.start()) - 14.0).abs() < 1e-12);
+        let l = (0..3000).map(|i| run.trajectory.l(run.trajectory.start() + 0.01 * f64::from(i)));
+        let l0 = scenario.model.steady_l();
+        l.map(|l| (l - l0).abs()).fold(0.0, f64::max)
+    };
+    assert!(swing(&flat) > 0.3, "{}", swing(&flat));
+    assert!(swing(&steady) < 1e-6, "{}", swing(&steady));
+}

@@ -67,10 +67,13 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 4] = [
+const OTHERS: [(&str, &str); 7] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
+    ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
     ("response", "response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60"),
+    ("cycle", "cycle --alpha 1.2 --r 1"),
+    ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     (
         "units",
         "units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1",
@@ -88,10 +91,16 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let refusal = folder.stickslip("schema none");
     let said = program::said(&refusal);
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
-    // tests/long_runs.rs judges lines, checkpoints and verifications.
-    let runs = ["run", "run-lines", "checkpoint", "verify", "surface"];
-    let tested: Vec<&str> = runs.into_iter().chain(OTHERS.map(|o| o.0)).collect();
-    assert_eq!(offered.split(", ").collect::<Vec<_>>(), tested);
+    // Judged in files of their own: lines and checkpoints, figures, verifications, sweeps.
+    let runs = ["run", "run-lines", "checkpoint", "surface"];
+    let figures = ["figure", "reproduction"];
+    let others = OTHERS.map(|o| o.0);
+    let mut tested: Vec<&str> =
+        runs.into_iter().chain(others).chain(figures).chain(["verify", "sweep"]).collect();
+    let mut offered: Vec<&str> = offered.split(", ").collect();
+    tested.sort_unstable();
+    offered.sort_unstable();
+    assert_eq!(offered, tested);
 }
 
 /// A schema that accepts anything would pass the tests above.

@@ -6,7 +6,7 @@ mod common;
 
 use common::{Acceptance, largest_difference};
 use stickslip_tip::{
-    Force, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction, run,
+    Force, MemoryChoice, Model, Noise, Pulse, Run, RunError, Scenario, Start, TipFunction, run,
 };
 
 /// Both runs are within the tolerance of the truth; steps may differ by a rounding.
@@ -106,15 +106,37 @@ fn on_a_tip_from_a_table() {
 }
 
 #[test]
-fn auto_begins_with_direct_and_goes_over_to_fft_without_a_trace() {
+fn auto_begins_with_direct_and_goes_over_to_modes_without_a_trace() {
     let scenario =
         Scenario { kick: 0.05, tolerance: 1e-11, ..Scenario::new(triple(1.2, 1.0), 76.0) };
-    let auto = run(&scenario).unwrap();
-    assert_eq!(auto.memory, "fft");
-    assert_eq!(run(&Scenario { until: 16.5, ..scenario.clone() }).unwrap().memory, "direct");
-    let direct = run(&Scenario { memory: MemoryChoice::Direct, ..scenario }).unwrap();
+    auto_becomes("modes", &scenario);
+    assert_eq!(run(&Scenario { until: 16.5, ..scenario }).unwrap().memory, "direct");
+}
+
+#[test]
+fn auto_goes_over_to_modes_while_the_tip_is_behind_where_it_has_been() {
+    // The pulse that drives it back falls into the steps that are summed directly.
+    let back = Pulse { amplitude: -60.0, time: 16.3, width: 0.1 };
+    let force = Force::new(vec![back], None).unwrap();
+    let scenario = Scenario { force, tolerance: 1e-9, ..Scenario::new(triple(0.9, 1.0), 40.0) };
+    let run = auto_becomes("modes", &scenario);
+    assert!(run.memory_reason.contains("retreated"), "{}", run.memory_reason);
+}
+
+#[test]
+fn auto_goes_over_to_fft_where_modes_do_not_fit() {
+    let bessel = Model::new(TipFunction::Bessel, 1.1, 1.0).unwrap();
+    auto_becomes("fft", &Scenario { kick: 0.05, ..Scenario::new(bessel, 76.0) });
+}
+
+fn auto_becomes(name: &str, scenario: &Scenario) -> Run {
+    let auto = run(scenario).unwrap();
+    println!("{}: {}", auto.memory, auto.memory_reason);
+    assert_eq!(auto.memory, name);
+    let direct = run(&Scenario { memory: MemoryChoice::Direct, ..scenario.clone() }).unwrap();
     let range = (auto.trajectory.start(), auto.trajectory.end());
     let difference =
         largest_difference(|t| direct.trajectory.l(t), |t| auto.trajectory.l(t), range, 5000);
-    AGREE.judge("auto", difference, 1e-11);
+    AGREE.judge(&format!("auto, {name}"), difference, scenario.tolerance);
+    auto
 }

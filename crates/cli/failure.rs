@@ -37,10 +37,18 @@ pub(crate) enum Failure {
         /// Why.
         error: io::Error,
     },
+    /// Stopped by a signal, what there was kept to go on from. Status 128 + signal.
+    #[error("interrupted: {message}")]
+    Unfinished {
+        /// The signal.
+        signal: u8,
+        /// How far it came, and how to go on.
+        message: String,
+    },
     /// Stopped by a signal, after writing what there was. Status 128 + signal.
     #[error("interrupted: the result holds what was computed until then")]
     Interrupted(u8),
-    /// Stopped by a signal, with nothing to write. Status 128 + signal.
+    /// Stopped by a signal before there was a result. Status 128 + signal.
     #[error("interrupted: nothing was written")]
     Stopped(u8),
 }
@@ -54,7 +62,9 @@ impl Failure {
         match self {
             Self::Input { .. } => 2,
             Self::Run(_) | Self::Write { .. } => 1,
-            Self::Interrupted(signal) | Self::Stopped(signal) => 128 + signal,
+            Self::Interrupted(signal) | Self::Stopped(signal) | Self::Unfinished { signal, .. } => {
+                128 + signal
+            }
         }
     }
 

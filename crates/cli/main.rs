@@ -25,8 +25,13 @@ fn main() -> ExitCode {
         Command::Surface(arguments) => commands::surface::surface(arguments),
         Command::Stability(arguments) => commands::stability::stability(arguments),
         Command::Boundary(arguments) => commands::boundary::boundary(arguments),
+        Command::Compare(arguments) => commands::compare::compare(arguments),
         Command::Response(arguments) => commands::response::response(arguments),
+        Command::Cycle(arguments) => commands::cycle::cycle(arguments),
+        Command::Continue(arguments) => commands::continuation::follow(arguments),
+        Command::Sweep(arguments) => commands::sweep::sweep(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
+        Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };
     match done {

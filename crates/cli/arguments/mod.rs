@@ -1,22 +1,32 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
 mod boundary;
+mod compare;
+mod continuation;
+mod cycle;
+mod figures;
 mod model;
 mod response;
 mod run;
 mod sampling;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 mod verify;
 
 pub(crate) use boundary::BoundaryArguments;
+pub(crate) use compare::{CompareArguments, GridName};
+pub(crate) use continuation::{ContinueArguments, OverName};
+pub(crate) use cycle::{CycleArguments, CycleStart};
+pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, MemoryName, RunArguments, RunFormat, StartName};
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::{SolveFor, StabilityArguments};
 pub(crate) use surface::SurfaceArguments;
+pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
@@ -42,7 +52,12 @@ const EXAMPLES: &str = "Examples:
   stickslip stability --r 1
   stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
+  stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
+  stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
+  stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip figures --out-dir figures
   stickslip schema run
 
 `stickslip COMMAND --help` explains each command and gives examples.";
@@ -54,8 +69,13 @@ pub(crate) enum Command {
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),
+    Compare(CompareArguments),
     Response(ResponseArguments),
+    Cycle(CycleArguments),
+    Continue(ContinueArguments),
+    Sweep(SweepArguments),
     Units(UnitsArguments),
+    Figures(FiguresArguments),
     Schema(SchemaArguments),
 }
 

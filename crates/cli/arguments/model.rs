@@ -29,7 +29,9 @@ pub(crate) struct TipArguments {
     pub(crate) width: Option<f64>,
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f`
-    /// sampled on x ≥ 0.
+    /// sampled on x ≥ 0. In three dimensions each Gaussian has a "width_y" too, and a "center_y" if that
+    /// is not 0, or the CSV is `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and
+    /// `surface --y-range` shows the rest.
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
 }

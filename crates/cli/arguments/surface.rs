@@ -27,16 +27,52 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "DX", allow_hyphen_values = true)]
     pub(crate) spacing: Option<f64>,
 
+    /// First and last position across the path: images u(x,y,t) instead of curves u(x,t).
+    #[arg(
+        long,
+        value_name = "LO,HI",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        help_heading = "Three dimensions"
+    )]
+    pub(crate) y_range: Option<Vec<f64>>,
+
+    /// Distance of the positions across the path [default: that of --spacing].
+    #[arg(
+        long,
+        value_name = "DY",
+        requires = "y_range",
+        allow_hyphen_values = true,
+        help_heading = "Three dimensions"
+    )]
+    pub(crate) spacing_y: Option<f64>,
+
+    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a run whose tip file had no f(x,y) of its own [default:
+    /// the width of the tip's Gaussians].
+    #[arg(
+        long,
+        value_name = "V",
+        requires = "y_range",
+        allow_hyphen_values = true,
+        help_heading = "Three dimensions"
+    )]
+    pub(crate) width_y: Option<f64>,
+
+    /// Document that `stickslip units` wrote for this α and r: the .gsf file is in metres.
+    #[arg(long, value_name = "UNITS.json", help_heading = "Three dimensions")]
+    pub(crate) units: Option<PathBuf>,
+
     /// Only what the tip has carved, as the surface is left far behind it, (35): without the initial
     /// surface.
     #[arg(long)]
     pub(crate) far_behind: bool,
 
-    /// File to write: .json, .csv (`t,x,u`) or .npz; `-` is JSON on standard output.
+    /// File to write: .json, .csv (`t,x,u` or `t,x,y,u`), .npz, or .gsf (Gwyddion, one image); `-` is
+    /// JSON on standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     pub(crate) output: PathBuf,
 
-    /// Draw the surfaces to this .svg or .png.
+    /// Draw the surfaces to this .svg or .png; images as height maps with a colour bar.
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -44,4 +80,7 @@ pub(crate) struct SurfaceArguments {
 const EXAMPLES: &str = "Examples:
   stickslip surface run.json --at 457 --range 400,460 --spacing 0.02 -o surface.csv
   stickslip surface run.json --at 100,200,457 --plot surface.png
-  stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 80 | stickslip surface - --x 60,60.5,61";
+  An image for Gwyddion, and a height map of the same:
+    stickslip surface run.json --range 400,450 --y-range -2,2 --spacing 0.025 -o image.gsf --plot map.png
+  Piped:
+    stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 80 | stickslip surface - --x 60,60.5,61";

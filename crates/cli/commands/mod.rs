@@ -1,12 +1,17 @@
 //! One file per command.
 
 pub(crate) mod boundary;
+pub(crate) mod compare;
+pub(crate) mod continuation;
+pub(crate) mod cycle;
+pub(crate) mod figures;
 pub(crate) mod model;
 pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod surface;
+pub(crate) mod sweep;
 pub(crate) mod units;
 pub(crate) mod verify;
 

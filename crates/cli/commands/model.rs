@@ -2,8 +2,8 @@
 
 use crate::arguments::{ModelArguments, TipArguments, TipName};
 use crate::failure::{Failure, Typed};
-use crate::files::input::{TipFile, read_tip};
-use stickslip_tip::{Gaussian, Model, ModelError, TipFunction, stability};
+use crate::files::input::{GaussianEntry, TipFile, read_tip};
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction, stability};
 
 /// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
 /// holds the groove.
@@ -14,13 +14,22 @@ pub(crate) fn model(arguments: &ModelArguments) -> Result<Model, Failure> {
     let r = arguments
         .r
         .ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))?;
-    let tip = tip(&arguments.tip)?;
-    let alpha = alpha(arguments, &tip, r)?;
+    model_of(tip(&arguments.tip)?, r, arguments.alpha, arguments.alpha_above)
+}
+
+/// The model of this footprint at this r, α given as such or as αc(r) + D.
+pub(crate) fn model_of(
+    tip: TipFunction,
+    r: f64,
+    given: Option<f64>,
+    above: Option<f64>,
+) -> Result<Model, Failure> {
+    let alpha = alpha((given, above), &tip, r)?;
     Model::new(tip, alpha, r).map_err(|error| match error {
         ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
-        ModelError::Alpha(_) => match (arguments.alpha, arguments.alpha_above) {
-            (_, Some(above)) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
-            _ => Failure::input(format!("--alpha {}", Typed(alpha)), error),
+        ModelError::Alpha(_) => match above {
+            Some(above) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
+            None => Failure::input(format!("--alpha {}", Typed(alpha)), error),
         },
     })
 }
@@ -73,21 +82,40 @@ fn details(tip: &TipFunction) -> f64 {
     tip.reach().map_or(0.0, |reach| reach * tip.band())
 }
 
-fn from_file(file: TipFile) -> Result<TipFunction, stickslip_tip::TipFunctionError> {
-    match file {
+fn from_file(file: TipFile) -> Result<TipFunction, String> {
+    let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
+        TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
+        TipFile::Gaussians(entries) if entries.iter().any(is_2d) => {
+            let terms: Option<Vec<Gaussian2d>> = entries.iter().map(gaussian_2d).collect();
+            let terms =
+                terms.ok_or("width_y is given for some Gaussians: give it for all of them")?;
+            Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
+        }
         TipFile::Gaussians(entries) => TipFunction::gaussian_sum(
             entries
                 .iter()
                 .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
                 .collect(),
         ),
-    }
+    };
+    tip.map_err(|error| error.to_string())
+}
+
+fn is_2d(entry: &GaussianEntry) -> bool {
+    entry.width_y.is_some() || entry.center_y.is_some()
+}
+
+/// Centered on the path unless told otherwise; `None` without a width in y.
+fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
+    let GaussianEntry { amplitude, center, width, .. } = *entry;
+    let center_y = entry.center_y.unwrap_or(0.0);
+    entry.width_y.map(|width_y| Gaussian2d { amplitude, center, width, center_y, width_y })
 }
 
 /// The α that the options ask for at this r.
-fn alpha(arguments: &ModelArguments, tip: &TipFunction, r: f64) -> Result<f64, Failure> {
-    match (arguments.alpha, arguments.alpha_above) {
+fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result<f64, Failure> {
+    match asked {
         (Some(alpha), None) => Ok(alpha),
         (None, Some(above)) => {
             // A bad r is reported as such when the model is made.

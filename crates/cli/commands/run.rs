@@ -3,14 +3,14 @@
 mod checkpoint;
 pub(crate) mod document;
 mod journey;
-mod limits;
+pub(crate) mod limits;
 mod order;
 pub(crate) mod parameters;
 mod record;
 pub(crate) mod samples;
 mod write;
 
-pub(crate) use order::parse_pulse;
+pub(crate) use order::{option_at_fault, parse_pulse};
 
 use super::figure::Figure;
 use crate::arguments::{RunArguments, RunFormat};

@@ -4,7 +4,8 @@ use super::progress::Progress;
 use super::run::{document, parameters};
 use crate::arguments::VerifyArguments;
 use crate::documents::{
-    DifferenceDocument, FORMAT_VERSION, RunDocument, Software, VerificationDocument, VerifyDocument,
+    FORMAT_VERSION, LargestDifferenceDocument, RunDocument, Software, VerificationDocument,
+    VerifyDocument,
 };
 use crate::failure::Failure;
 use crate::files::input::read_run;
@@ -108,8 +109,11 @@ fn repeated(
 }
 
 fn document(found: &Verification) -> VerificationDocument {
-    let difference =
-        |d: &Difference| DifferenceDocument { largest: d.largest, at: d.at, allowed: d.allowed };
+    let difference = |d: &Difference| LargestDifferenceDocument {
+        largest: d.largest,
+        at: d.at,
+        allowed: d.allowed,
+    };
     VerificationDocument {
         kept: found.is_kept(),
         memory: found.memory.into(),

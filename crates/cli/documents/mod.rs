@@ -2,12 +2,18 @@
 
 mod boundary;
 mod checkpoint;
+mod compare;
+mod continuation;
+mod cycle;
+mod figure;
 mod model;
+mod reproduction;
 mod response;
 mod run;
 mod run_lines;
 mod stability;
 mod surface;
+mod sweep;
 mod units;
 mod verification;
 
@@ -15,7 +21,20 @@ pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
 pub(crate) use checkpoint::{CheckpointHead, Order, Times};
+pub(crate) use compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridWork,
+};
+pub(crate) use continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, SpecialDocument, SpecialName,
+};
+pub(crate) use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
+pub(crate) use figure::{
+    ColoursName, CurveDocument, FigureDocument, FigureParameters, MapDocument, PanelDocument,
+    StyleName,
+};
 pub(crate) use model::{ModelParameters, TipDocument};
+pub(crate) use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub(crate) use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub(crate) use run::{
     ForceTable, History, NoiseParameters, OscillationDocument, Profile, PulseParameters,
@@ -26,12 +45,15 @@ pub(crate) use stability::{
     CertificateDocument, ComplexDocument, CriticalityName, OnsetDocument, StabilityDocument,
     StabilityParameters, TrappingDocument,
 };
-pub(crate) use surface::{SurfaceCurve, SurfaceDocument, SurfaceParameters};
+pub(crate) use surface::{
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+};
+pub(crate) use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
 pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 
-pub(crate) use verification::{DifferenceDocument, VerificationDocument, VerifyDocument};
+pub(crate) use verification::{LargestDifferenceDocument, VerificationDocument, VerifyDocument};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};
@@ -41,7 +63,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The program that wrote a document.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Software {
     pub(crate) name: String,
@@ -64,8 +86,14 @@ pub(crate) enum SchemaName {
     Surface,
     Stability,
     Boundary,
+    Compare,
     Response,
+    Cycle,
+    Continue,
+    Sweep,
     Units,
+    Figure,
+    Reproduction,
 }
 
 impl SchemaName {
@@ -78,8 +106,14 @@ impl SchemaName {
             Self::Surface => schema_for!(SurfaceDocument),
             Self::Stability => schema_for!(StabilityDocument),
             Self::Boundary => schema_for!(BoundaryDocument),
+            Self::Compare => schema_for!(CompareDocument),
             Self::Response => schema_for!(ResponseDocument),
+            Self::Cycle => schema_for!(CycleDocument),
+            Self::Continue => schema_for!(ContinueDocument),
+            Self::Sweep => schema_for!(SweepDocument),
             Self::Units => schema_for!(UnitsDocument),
+            Self::Figure => schema_for!(FigureDocument),
+            Self::Reproduction => schema_for!(ReproductionDocument),
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Gaussian, Model, TipFunction};
+use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError};
 
 /// The footprint f(x), x in units of σ.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub(crate) enum TipDocument {
     /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
@@ -15,10 +15,28 @@ pub(crate) enum TipDocument {
     },
     /// J0(x).
     Bessel {},
+    /// f(x,0) of a footprint f(x,y) in three dimensions, a sum of layers g(x)h(y).
+    Footprint {
+        /// Its terms.
+        layers: Vec<LayerDocument>,
+    },
+}
+
+/// g(x)h(y), g a sum of Gaussians, h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or
+/// exp(-y²/(2v²)) for d = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LayerDocument {
+    /// d, in σ
+    pub(crate) center_y: f64,
+    /// v, in σ
+    pub(crate) width_y: f64,
+    /// g
+    pub(crate) gaussians: Vec<GaussianDocument>,
 }
 
 /// a exp(-(x-c)²/(2w²)).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GaussianDocument {
     /// a
@@ -35,20 +53,59 @@ impl From<&GaussianDocument> for Gaussian {
     }
 }
 
+impl From<&Gaussian> for GaussianDocument {
+    fn from(g: &Gaussian) -> Self {
+        Self { amplitude: g.amplitude, center: g.center, width: g.width }
+    }
+}
+
 impl From<&TipFunction> for TipDocument {
     fn from(tip: &TipFunction) -> Self {
-        match tip {
-            TipFunction::Bessel => Self::Bessel {},
-            TipFunction::Gaussians(sum) => {
-                let term = |g: &Gaussian| GaussianDocument {
-                    amplitude: g.amplitude,
-                    center: g.center,
-                    width: g.width,
+        match (tip.footprint(), tip) {
+            (Some(footprint), _) => {
+                Self::Footprint { layers: footprint.layers().iter().map(layer_document).collect() }
+            }
+            (None, TipFunction::Bessel) => Self::Bessel {},
+            (None, tip) => Self::Gaussians { gaussians: gaussian_documents(tip) },
+        }
+    }
+}
+
+fn gaussian_documents(tip: &TipFunction) -> Vec<GaussianDocument> {
+    match tip {
+        TipFunction::Gaussians(sum) => sum.terms().iter().map(GaussianDocument::from).collect(),
+        TipFunction::Bessel => vec![],
+    }
+}
+
+fn layer_document(layer: &Layer) -> LayerDocument {
+    LayerDocument {
+        center_y: layer.across.center,
+        width_y: layer.across.width,
+        gaussians: gaussian_documents(&layer.along),
+    }
+}
+
+impl TipDocument {
+    /// The tip again.
+    pub(crate) fn tip(&self) -> Result<TipFunction, TipFunctionError> {
+        match self {
+            Self::Bessel {} => Ok(TipFunction::Bessel),
+            Self::Gaussians { gaussians } => sum_of(gaussians),
+            Self::Footprint { layers } => {
+                let layer = |layer: &LayerDocument| -> Result<Layer, TipFunctionError> {
+                    let across = Across { center: layer.center_y, width: layer.width_y };
+                    Ok(Layer { along: sum_of(&layer.gaussians)?, across })
                 };
-                Self::Gaussians { gaussians: sum.terms().iter().map(term).collect() }
+                let layers = layers.iter().map(layer).collect::<Result<_, _>>()?;
+                Footprint::from_layers(layers).map(TipFunction::of_footprint)
             }
         }
     }
+}
+
+fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionError> {
+    TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
 }
 
 /// Footprint, α and r.
@@ -71,13 +128,7 @@ impl ModelParameters {
 
     /// The model again.
     pub(crate) fn model(&self) -> Result<Model, String> {
-        let tip = match &self.tip {
-            TipDocument::Bessel {} => TipFunction::Bessel,
-            TipDocument::Gaussians { gaussians } => {
-                TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
-                    .map_err(|error| error.to_string())?
-            }
-        };
+        let tip = self.tip.tip().map_err(|error| error.to_string())?;
         Model::new(tip, self.alpha, self.r).map_err(|error| error.to_string())
     }
 }

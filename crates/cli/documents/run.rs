@@ -4,6 +4,7 @@ use super::{ModelParameters, Software, VerificationDocument};
 use crate::arguments::{MemoryName, StartName};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::Regime;
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -160,6 +161,17 @@ pub(crate) enum RegimeName {
     Trapped,
     /// None of these yet.
     Transient,
+}
+
+impl From<Regime> for RegimeName {
+    fn from(regime: Regime) -> Self {
+        match regime {
+            Regime::Steady => Self::Steady,
+            Regime::StickSlip => Self::StickSlip,
+            Regime::Trapped => Self::Trapped,
+            Regime::Transient => Self::Transient,
+        }
+    }
 }
 
 impl std::fmt::Display for RegimeName {

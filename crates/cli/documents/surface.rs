@@ -16,8 +16,11 @@ pub(crate) struct SurfaceDocument {
     pub(crate) software: Software,
     /// Of the run that they come from.
     pub(crate) parameters: SurfaceParameters,
-    /// One curve per time.
+    /// One curve per time; none where images were asked for.
     pub(crate) surfaces: Vec<SurfaceCurve>,
+    /// One image per time, in three dimensions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) images: Vec<SurfaceImage>,
 }
 
 impl SurfaceDocument {
@@ -32,6 +35,31 @@ pub(crate) struct SurfaceParameters {
     pub(crate) model: ModelParameters,
     /// Whether the initial surface was left out, (35).
     pub(crate) far_behind: bool,
+    /// Of images.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) across: Option<AcrossParameters>,
+}
+
+/// What images depend on besides the run.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AcrossParameters {
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)); null where the tip has its own f(x,y).
+    pub(crate) width_y: Option<f64>,
+    /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring (52);
+    /// null where no k' is certain to do.
+    pub(crate) transverse_stiffness_needed: Option<f64>,
+}
+
+/// u(x,y,t) at one t.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SurfaceImage {
+    pub(crate) t: f64,
+    pub(crate) x: Vec<f64>,
+    pub(crate) y: Vec<f64>,
+    /// A row for each y.
+    pub(crate) u: Vec<Vec<f64>>,
 }
 
 /// u(x,t) at one t.

@@ -35,10 +35,10 @@ pub(crate) struct VerificationDocument {
     /// Its tolerance.
     pub(crate) tolerance: f64,
     /// In l, over all of the run: ten tolerances are allowed.
-    pub(crate) l: DifferenceDocument,
+    pub(crate) l: LargestDifferenceDocument,
     /// In the surface at the end; null for a run without its history. Allowed is what an allowed error of x0
     /// does to it.
-    pub(crate) u: Option<DifferenceDocument>,
+    pub(crate) u: Option<LargestDifferenceDocument>,
     /// The first time at which l differs by more than is allowed; null where it never does.
     pub(crate) trusted_until: Option<f64>,
     /// What a small error of the start is amplified by, at most, in the course of the run.
@@ -51,7 +51,7 @@ pub(crate) struct VerificationDocument {
 /// A difference where it is largest against what is allowed there.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct DifferenceDocument {
+pub(crate) struct LargestDifferenceDocument {
     pub(crate) largest: f64,
     /// Time (of l) or position (of u).
     pub(crate) at: f64,

@@ -3,6 +3,7 @@
 use crate::documents::{FORMAT_VERSION, RunDocument};
 use crate::failure::Failure;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -42,31 +43,44 @@ pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<C
 }
 
 fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let (mut first, mut second) = (vec![], vec![]);
-    for (index, record) in reader.records().enumerate() {
+    parse_table::<2>(text, heading).map(|[first, second]| (first, second))
+}
+
+/// N columns of numbers.
+fn parse_table<const N: usize>(text: &str, heading: &str) -> Result<[Vec<f64>; N], String> {
+    let mut columns = std::array::from_fn(|_| vec![]);
+    for (index, record) in csv_reader(text).records().enumerate() {
         let record = record.map_err(|error| format!("not CSV: {error}"))?;
         let line = record.position().map_or(0, csv::Position::line);
         let numbers: Result<Vec<f64>, _> = record.iter().map(str::parse).collect();
-        match numbers.as_deref() {
-            Ok([a, b]) => {
-                first.push(*a);
-                second.push(*b);
+        match numbers {
+            Ok(row) if row.len() == N => {
+                columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
             }
             Err(_) if index == 0 && is_heading(&record) => {}
             _ => {
+                let count = ["no", "one", "two", "three"].get(N).unwrap_or(&"too many");
                 return Err(format!(
-                    "line {line} is not two numbers `{heading}` separated by a comma"
+                    "line {line} is not {count} numbers `{heading}` separated by commas"
                 ));
             }
         }
     }
-    Ok((first, second))
+    Ok(columns)
+}
+
+fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes())
+}
+
+/// Fields of the first line.
+fn width_of(text: &str) -> usize {
+    csv_reader(text).records().next().and_then(Result::ok).map_or(0, |record| record.len())
 }
 
 /// A first line without any number; a mistyped row is none.
@@ -74,10 +88,11 @@ fn is_heading(record: &csv::StringRecord) -> bool {
     record.iter().all(|field| field.parse::<f64>().is_err())
 }
 
-/// A tip file: JSON {"gaussians":[…]} or CSV `x,f`.
+/// A tip file: JSON {"gaussians":[…]}, CSV `x,f` or CSV `x,y,f`.
 pub(crate) enum TipFile {
     Gaussians(Vec<GaussianEntry>),
     Table(Columns),
+    Table2d([Vec<f64>; 3]),
 }
 
 #[derive(Debug, Deserialize)]
@@ -93,6 +108,12 @@ pub(crate) struct GaussianEntry {
     pub(crate) amplitude: f64,
     pub(crate) center: f64,
     pub(crate) width: f64,
+    /// Center in y, for a tip in three dimensions.
+    #[serde(default)]
+    pub(crate) center_y: Option<f64>,
+    /// Width in y, for a tip in three dimensions.
+    #[serde(default)]
+    pub(crate) width_y: Option<f64>,
 }
 
 pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
@@ -107,6 +128,9 @@ pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
         })?;
         return Ok(TipFile::Gaussians(tip.gaussians));
     }
+    if width_of(&text) == 3 {
+        return parse_table(&text, "x,y,f").map(TipFile::Table2d).map_err(refused);
+    }
     parse_columns(&text, "x,f").map(TipFile::Table).map_err(refused)
 }
 
@@ -119,16 +143,26 @@ struct Kind {
 
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
-    let text = read_text("RUN.json", path, LARGEST_DOCUMENT)?;
-    let refused = |message: String| Failure::input(format!("RUN.json {}", path.display()), message);
+    read_document("RUN.json", path, RunDocument::FORMAT)
+}
+
+/// A document of this format, that of a command of the same name.
+pub(crate) fn read_document<D: DeserializeOwned>(
+    option: &str,
+    path: &Path,
+    wanted: &str,
+) -> Result<D, Failure> {
+    let text = read_text(option, path, LARGEST_DOCUMENT)?;
+    let refused = |message: String| Failure::input(format!("{option} {}", path.display()), message);
     let kind: Kind = serde_json::from_str(&text).map_err(|error| {
+        let command = wanted.replace('/', " ");
         refused(format!(
-            "not a whole JSON document ({error}); write it again with `stickslip run -o FILE.json`"
+            "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
         ))
     })?;
     match (kind.format.as_deref(), kind.format_version) {
-        (Some(RunDocument::FORMAT), Some(FORMAT_VERSION)) => {}
-        (Some(RunDocument::FORMAT), version) => {
+        (Some(format), Some(FORMAT_VERSION)) if format == wanted => {}
+        (Some(format), version) if format == wanted => {
             let found = version.map_or("none".into(), |v| v.to_string());
             return Err(refused(format!(
                 "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
@@ -136,10 +170,7 @@ pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
         }
         (format, _) => {
             let found = format.unwrap_or("missing");
-            return Err(refused(format!(
-                "format is {found}, \"{}\" is needed",
-                RunDocument::FORMAT
-            )));
+            return Err(refused(format!("format is {found}, \"{wanted}\" is needed")));
         }
     }
     serde_json::from_str(&text).map_err(|error| refused(format!("damaged: {error}")))

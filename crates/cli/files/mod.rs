@@ -1,5 +1,6 @@
 //! Files that come in and go out.
 
+pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;
 pub(crate) mod npz;

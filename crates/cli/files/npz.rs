@@ -1,7 +1,7 @@
 //! NumPy archives.
 
 use crate::failure::Failure;
-use ndarray::{Array1, Array2};
+use ndarray::{Array1, Array2, Array3};
 use ndarray_npy::NpzWriter;
 use std::io::Cursor;
 
@@ -22,6 +22,18 @@ impl Npz {
     pub(crate) fn matrix(&mut self, name: &str, rows: &[Vec<f64>]) -> Result<(), Failure> {
         let width = rows.first().map_or(0, Vec::len);
         let array = Array2::from_shape_vec((rows.len(), width), rows.concat());
+        let array = array.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
+        self.0.add_array(name, &array).map_err(failed).map(drop)
+    }
+
+    /// An array of three axes, its values in row-major order.
+    pub(crate) fn cube(
+        &mut self,
+        name: &str,
+        shape: [usize; 3],
+        values: Vec<f64>,
+    ) -> Result<(), Failure> {
+        let array = Array3::from_shape_vec(shape, values);
         let array = array.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
         self.0.add_array(name, &array).map_err(failed).map(drop)
     }

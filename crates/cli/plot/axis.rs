@@ -69,9 +69,15 @@ impl Axis {
 
     /// The labels of all ticks.
     pub(super) fn labels(&self) -> Vec<String> {
+        self.ticks().into_iter().map(|(_, label)| label).collect()
+    }
+
+    /// All ticks with their labels.
+    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
         let (first, last) = ((self.low / self.step).ceil(), (self.high / self.step).floor());
         let count = (last - first).clamp(0.0, 100.0) as usize;
-        (0..=count).map(|i| self.label((first + i as f64) * self.step)).collect()
+        let tick = |i: usize| (first + i as f64) * self.step;
+        (0..=count).map(|i| (tick(i), self.label(tick(i)))).collect()
     }
 }
 

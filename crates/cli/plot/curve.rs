@@ -19,11 +19,12 @@ pub(super) struct Pen {
     pub(super) mark: Mark,
 }
 
-/// A line of some width and dash pattern (SVG `stroke-dasharray`, empty: solid), or dots.
+/// A line of some width and dash pattern (SVG `stroke-dasharray`, empty: solid), or a mark for each point.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Mark {
     Line { width: f64, dashes: &'static str },
     Dots { radius: f64 },
+    Triangles { radius: f64 },
 }
 
 impl Pen {
@@ -34,12 +35,31 @@ impl Pen {
     /// What was there before.
     pub(super) const BEFORE: Self = Self::line(BLACK, 1.4, "2 4");
 
+    /// One of many.
+    pub(super) const POINTS: Self = Self { colour: BLACK, mark: Mark::Dots { radius: 1.3 } };
+
     const fn line(colour: &'static str, width: f64, dashes: &'static str) -> Self {
         Self { colour, mark: Mark::Line { width, dashes } }
     }
 
+    pub(super) const fn small_dots(colour: &'static str, radius: f64) -> Self {
+        Self { colour, mark: Mark::Dots { radius } }
+    }
+
     pub(super) const fn dots(colour: &'static str) -> Self {
         Self { colour, mark: Mark::Dots { radius: 5.0 } }
+    }
+
+    pub(super) const fn triangles(colour: &'static str) -> Self {
+        Self { colour, mark: Mark::Triangles { radius: 6.0 } }
+    }
+
+    /// The same, dashed if it draws a line.
+    pub(super) const fn dashed(self) -> Self {
+        match self.mark {
+            Mark::Line { width, .. } => Self::line(self.colour, width, "6 4"),
+            Mark::Dots { .. } | Mark::Triangles { .. } => self,
+        }
     }
 
     /// The pen of curve number `index`: colours first, then the same colours dashed.

@@ -21,7 +21,6 @@ pub(crate) enum PlotError {
     #[error("{0} by {1} pixels do not fit into memory")]
     Size(u32, u32),
     /// The picture cannot be packed.
-    #[cfg(feature = "png")]
     #[error("the pixels cannot be packed: {0}")]
     Png(String),
 }

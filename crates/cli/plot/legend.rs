@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, Mark, Pen};
 use super::style::{LEGEND_SIZE, text_width};
-use kuva::render::render::{Primitive, Scene, TextAnchor};
+use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 /// Length of a sample line.
 const LINE: f64 = 34.0;
@@ -62,7 +62,7 @@ impl<'a> Legend<'a> {
 fn length(pen: Pen) -> f64 {
     match pen.mark {
         Mark::Line { .. } => LINE,
-        Mark::Dots { radius } => 2.0 * radius,
+        Mark::Dots { radius } | Mark::Triangles { radius } => 2.0 * radius,
     }
 }
 
@@ -77,6 +77,9 @@ fn sample(x: f64, y: f64, pen: Pen) -> Primitive {
             stroke_width: width + 0.4,
             stroke_dasharray: (!dashes.is_empty()).then(|| dashes.to_owned()),
         },
+        Mark::Triangles { radius } => {
+            Primitive::Path(Box::new(triangle(x + radius, y, radius, pen)))
+        }
         Mark::Dots { radius } => Primitive::Circle {
             cx: x + radius,
             cy: y,
@@ -86,5 +89,18 @@ fn sample(x: f64, y: f64, pen: Pen) -> Primitive {
             stroke: None,
             stroke_width: None,
         },
+    }
+}
+
+/// As kuva draws the marks in the panel.
+fn triangle(x: f64, y: f64, radius: f64, pen: Pen) -> PathData {
+    let (half, base) = (0.866 * radius, y + 0.5 * radius);
+    PathData {
+        d: format!("M{x},{} L{},{base} L{},{base} Z", y - radius, x - half, x + half),
+        fill: Some(pen.colour.into()),
+        stroke: pen.colour.into(),
+        stroke_width: 0.0,
+        opacity: None,
+        stroke_dasharray: None,
     }
 }

@@ -26,6 +26,7 @@ pub(crate) fn onset(title: &str, r: &[f64], excess: &[f64], logarithmic: bool) -
     let notes =
         vec![note("supercritical", 0.1 * y_axis.high), note("subcritical", 0.5 * y_axis.low)];
     let panel = Panel {
+        heading: "",
         x: x_axis,
         y: y_axis,
         x_label: if logarithmic { "log₁₀ r,  r = Γv₀/(kσ)" } else { "r = Γv₀/(kσ)" },
@@ -34,6 +35,7 @@ pub(crate) fn onset(title: &str, r: &[f64], excess: &[f64], logarithmic: bool) -
         curves,
         shades: Vec::new(),
         notes,
+        map: None,
     };
     sheet(title, &[panel])
 }

@@ -3,11 +3,13 @@
 use super::axis::{Axis, Fit};
 use super::curve::{Curve, Mark};
 use super::legend::Legend;
+use super::map::Drawn;
 use super::style::{
     GRID, LABEL_SIZE, MARGIN_BOTTOM, MARGIN_RIGHT, MARGIN_TOP, TICK_SIZE, WIDTH, text_width,
 };
 use super::thin::thin;
 use kuva::Theme;
+use kuva::plot::scatter::MarkerShape;
 use kuva::prelude::{BandPlot, Layout, LinePlot, LineStyle, Plot, ScatterPlot, TickFormat};
 use kuva::render::annotations::{ShadedRegion, TextAnnotation};
 use kuva::render::render::{Primitive, Scene, TextAnchor, render_multiple};
@@ -18,6 +20,8 @@ const POINTS: usize = 12_000;
 
 /// Axes, labels and curves.
 pub(super) struct Panel<'a> {
+    /// Above the axes; may be empty.
+    pub(super) heading: &'a str,
     pub(super) x: Axis,
     pub(super) y: Axis,
     pub(super) x_label: &'a str,
@@ -27,6 +31,8 @@ pub(super) struct Panel<'a> {
     pub(super) curves: Vec<Curve<'a>>,
     pub(super) shades: Vec<Shade<'a>>,
     pub(super) notes: Vec<Note<'a>>,
+    /// A height map that fills the axes.
+    pub(super) map: Option<Drawn<'a>>,
 }
 
 /// An area in a light colour, behind the curves.
@@ -58,6 +64,7 @@ impl<'a> Panel<'a> {
         let padding = if winding { 0.06 } else { 0.0 };
         let ordinates = curves.iter().flat_map(|c| c.y.iter().copied());
         Self {
+            heading: "",
             x: Axis::fit(abscissas, Fit { padding, natural: 0.0, ticks: 9.0 }),
             y: Axis::fit(ordinates, Fit { padding: 0.06, natural, ticks: height / 65.0 }),
             x_label: labels.0,
@@ -66,6 +73,7 @@ impl<'a> Panel<'a> {
             curves,
             shades: Vec::new(),
             notes: Vec::new(),
+            map: None,
         }
     }
 
@@ -76,24 +84,61 @@ impl<'a> Panel<'a> {
         widest + 14.0 + 1.9 * f64::from(LABEL_SIZE)
     }
 
-    /// Draws the panel, `left` pixels of it left of the axes.
-    pub(super) fn draw(&self, left: f64) -> Scene {
-        let legend = Legend::of(&self.curves, WIDTH - left - MARGIN_RIGHT);
-        let top = MARGIN_TOP + legend.height();
+    /// Room right of the axes.
+    pub(super) fn margin_right(&self) -> f64 {
+        self.map.as_ref().map_or(MARGIN_RIGHT, Drawn::margin_right)
+    }
+
+    /// Draws the panel, its axes between `left` and `right`.
+    pub(super) fn draw(&self, (left, right): (f64, f64)) -> Scene {
+        let legend = self.legend(left, right);
+        let top = self.top(&legend);
         let shades = self.shades.iter().filter_map(|shade| self.band(shade));
         let curves = self.curves.iter().map(|curve| self.plot(curve));
-        let mut scene = render_multiple(shades.chain(curves).collect(), self.layout(left, top));
-        legend.draw(left, MARGIN_TOP, &mut scene);
+        let mut scene =
+            render_multiple(shades.chain(curves).collect(), self.layout((left, right), top));
+        legend.draw(left, self.legend_top(), &mut scene);
         scene.add(self.y_title(top));
+        if !self.heading.is_empty() {
+            scene.add(self.heading_line(left));
+        }
+        if let Some(map) = &self.map {
+            map.draw_bar(right, (top, self.bottom()), &mut scene);
+        }
         scene
     }
 
-    fn layout(&self, left: f64, top: f64) -> Layout {
+    /// The map's picture, drawn upon the panel at this place of the sheet.
+    pub(super) fn image(&self, (left, right): (f64, f64), above: f64) -> Option<String> {
+        let top = self.top(&self.legend(left, right));
+        let map = self.map.as_ref()?;
+        Some(map.image((left, right), (above + top, above + self.bottom())))
+    }
+
+    fn legend(&self, left: f64, right: f64) -> Legend<'_> {
+        Legend::of(&self.curves, right - left)
+    }
+
+    /// Where the axes end above and below.
+    fn top(&self, legend: &Legend) -> f64 {
+        self.legend_top() + legend.height()
+    }
+
+    fn legend_top(&self) -> f64 {
+        let line = 1.5 * f64::from(LABEL_SIZE);
+        MARGIN_TOP + if self.heading.is_empty() { 0.0 } else { line }
+    }
+
+    fn bottom(&self) -> f64 {
+        self.height - MARGIN_BOTTOM
+    }
+
+    fn layout(&self, (left, right): (f64, f64), top: f64) -> Layout {
         let (x, y) = (self.x.clone(), self.y.clone());
         let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
             .with_width(WIDTH)
             .with_height(self.height)
-            .with_force_margins(left, MARGIN_RIGHT)
+            .with_force_margins(left, WIDTH - right)
             .with_force_margins_y(top, MARGIN_BOTTOM)
             .with_x_axis_min(x.low)
             .with_x_axis_max(x.high)
@@ -123,7 +168,10 @@ impl<'a> Panel<'a> {
     }
 
     fn plot(&self, curve: &Curve) -> Plot {
-        let points = thin(curve.x, curve.y, (self.x.low, self.x.high), self.columns());
+        // Marks that share a column are all meant to be seen.
+        let line = matches!(curve.pen.mark, Mark::Line { .. });
+        let columns = if line { self.columns() } else { curve.x.len() };
+        let points = thin(curve.x, curve.y, (self.x.low, self.x.high), columns);
         match curve.pen.mark {
             Mark::Line { width, dashes } if points.len() > 1 => Plot::Line(
                 LinePlot::new()
@@ -133,11 +181,14 @@ impl<'a> Panel<'a> {
                     .with_line_style(line_style(dashes)),
             ),
             // A line of a single point would not show.
-            Mark::Line { width: radius, .. } | Mark::Dots { radius } => Plot::Scatter(
+            Mark::Line { width: radius, .. }
+            | Mark::Dots { radius }
+            | Mark::Triangles { radius } => Plot::Scatter(
                 ScatterPlot::new()
                     .with_data(points)
                     .with_color(curve.pen.colour)
-                    .with_size(radius.max(3.0)),
+                    .with_marker(shape(curve.pen.mark))
+                    .with_size(if let Mark::Line { .. } = curve.pen.mark { 3.0 } else { radius }),
             ),
         }
     }
@@ -153,6 +204,19 @@ impl<'a> Panel<'a> {
         let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         let top = vec![self.y.high; x.len()];
         Some(Plot::Band(BandPlot::new(x, y, top).with_color(colour).with_opacity(SHADE_OPACITY)))
+    }
+
+    fn heading_line(&self, left: f64) -> Primitive {
+        Primitive::Text {
+            x: left,
+            y: MARGIN_TOP + 0.55 * f64::from(LABEL_SIZE),
+            content: self.heading.to_owned(),
+            size: LABEL_SIZE,
+            anchor: TextAnchor::Start,
+            rotate: None,
+            bold: false,
+            color: None,
+        }
     }
 
     /// The label of the ordinates. Ours, because kuva puts it next to the tick labels, hence at
@@ -172,6 +236,10 @@ impl<'a> Panel<'a> {
 }
 
 const SHADE_OPACITY: f64 = 0.16;
+
+fn shape(mark: Mark) -> MarkerShape {
+    if let Mark::Triangles { .. } = mark { MarkerShape::Triangle } else { MarkerShape::Circle }
+}
 
 fn line_style(dashes: &str) -> LineStyle {
     if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_owned()) }

@@ -25,7 +25,21 @@ pub(crate) fn roots(title: &str, re: &[f64], im: &[f64]) -> String {
     let shades = vec![Shade::Columns(0.0, x.high, VERMILLION)];
     let (x_label, y_label) = ("Re λ (k/Γ)", "Im λ (k/Γ)");
     let notes = Vec::new();
-    sheet(title, &[Panel { x, y, x_label, y_label, height: TALL, curves, shades, notes }])
+    sheet(
+        title,
+        &[Panel {
+            heading: "",
+            x,
+            y,
+            x_label,
+            y_label,
+            height: TALL,
+            curves,
+            shades,
+            notes,
+            map: None,
+        }],
+    )
 }
 
 /// Abscissas and ordinates of the roots in one half of the plane.

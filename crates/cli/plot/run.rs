@@ -6,7 +6,7 @@ use super::sheet::sheet;
 use super::style::LOW;
 
 /// Natural size of the dimensionless quantities: variations far below are round-off.
-const NATURAL: f64 = 1.0;
+pub(super) const NATURAL: f64 = 1.0;
 
 /// What a run looked like.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +54,7 @@ pub(crate) fn run(figure: &RunFigure) -> String {
 }
 
 /// A curve against time with a constant, unless that is not finite.
-fn with_reference<'a>(
+pub(super) fn with_reference<'a>(
     labels: (&'a str, &'a str),
     (t, y, name): (&'a [f64], &'a [f64], String),
     (ends, constant, constant_name): (&'a [f64], &'a [f64], String),
@@ -79,12 +79,12 @@ fn surface<'a>(figure: &RunFigure<'a>) -> Panel<'a> {
 }
 
 /// First and last, where a constant line begins and ends.
-fn ends(values: &[f64]) -> Vec<f64> {
+pub(super) fn ends(values: &[f64]) -> Vec<f64> {
     values.first().into_iter().chain(values.last()).copied().collect()
 }
 
 /// At most four decimals, and no zeros behind.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.replace('-', "−") }

@@ -13,17 +13,22 @@ pub(super) fn sheet(title: &str, panels: &[Panel]) -> String {
     let head = if title.is_empty() { 0.0 } else { 8.0 + TITLE_LINE * title.len() as f64 };
     let height = head + panels.iter().map(|p| p.height).sum::<f64>();
     let left = panels.iter().map(Panel::margin_left).fold(0.0, f64::max);
+    let right = WIDTH - panels.iter().map(Panel::margin_right).fold(0.0, f64::max);
 
     let mut scene = Scene::new(WIDTH, height);
     for (i, line) in title.into_iter().enumerate() {
         scene.add(title_line(i, line));
     }
     let mut top = head;
+    let mut images = String::new();
     for (i, panel) in panels.iter().enumerate() {
-        place(panel.draw(left), i, top, &mut scene);
+        place(panel.draw((left, right)), i, top, &mut scene);
+        images.extend(panel.image((left, right), top));
         top += panel.height;
     }
     let svg = SvgBackend::new().render_scene(&scene);
+    // kuva has no pictures.
+    let svg = svg.replacen("</svg>", &format!("{images}</svg>"), 1);
     // kuva gives no viewBox, without which a browser crops the figure instead of scaling it.
     svg.replacen("<svg ", &format!("<svg viewBox=\"0 0 {WIDTH} {height}\" "), 1)
 }

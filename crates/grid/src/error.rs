@@ -69,6 +69,12 @@ pub enum GridError {
         /// The last step tried
         step: f64,
     },
+    /// The observer broke off.
+    #[error("stopped at t = {time}, as asked")]
+    Stopped {
+        /// t
+        time: f64,
+    },
     /// The stepper's crate gave up: it judged the problem stiff.
     #[error("the explicit stepper judged the problem stiff at t = {time}: bound the step")]
     Stiff {

@@ -62,7 +62,7 @@ mod unknowns;
 
 pub use error::GridError;
 pub use footprint::Footprint;
-pub use method::{Method, solve};
+pub use method::{Method, Observer, solve, solve_observed};
 pub use problem::Problem;
 pub use run::{Request, Run, Work};
 pub use start::Start;

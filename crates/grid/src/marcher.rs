@@ -5,7 +5,7 @@ use crate::control::{Control, reached, too_small, towards};
 use crate::patch::Patch;
 use crate::scheme::Scheme;
 use crate::tableau::Tableau;
-use crate::{GridError, Problem, Request, Run, Start, Stepping, Work};
+use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 
 /// An embedded Runge–Kutta step of the tip and of all cells, with three savings that change no result
 /// but for round-off: f is evaluated only within its reach of the tip's stage position; the cells'
@@ -71,18 +71,22 @@ impl<'a, S: Scheme> Marcher<'a, S> {
     }
 
     /// Runs through the requested times.
-    pub(crate) fn run(mut self, request: &Request) -> Result<Run, GridError> {
+    pub(crate) fn run(
+        mut self,
+        request: &Request,
+        observe: &mut Observer,
+    ) -> Result<Run, GridError> {
         let mut x0 = Vec::with_capacity(request.times.len());
         self.evaluate(0, self.t, self.x0, 0.0);
         for &time in request.times {
-            self.advance_to(time)?;
+            self.advance_to(time, observe)?;
             x0.push(self.x0);
         }
         let u = request.points.iter().map(|&x| self.height(x)).collect();
         Ok(Run { x0, u, work: self.work })
     }
 
-    fn advance_to(&mut self, target: f64) -> Result<(), GridError> {
+    fn advance_to(&mut self, target: f64, observe: &mut Observer) -> Result<(), GridError> {
         while !reached(self.t, target) {
             let h = towards(target, self.t, self.control.step);
             if too_small(h, self.t) && h < target - self.t {
@@ -91,9 +95,13 @@ impl<'a, S: Scheme> Marcher<'a, S> {
             let x0 = self.stages_of_step(h);
             let error = x0.map_or(f64::INFINITY, |x0| self.carve_and_estimate(h, x0));
             let accepted = self.control.judge(h, error);
-            match x0.filter(|_| accepted) {
-                Some(x0) => self.accept(h, x0),
-                None => self.work.rejected += 1,
+            let Some(x0) = x0.filter(|_| accepted) else {
+                self.work.rejected += 1;
+                continue;
+            };
+            self.accept(h, x0);
+            if observe(self.t, self.x0).is_break() {
+                return Err(GridError::Stopped { time: self.t });
             }
         }
         self.t = target;

@@ -8,6 +8,7 @@ use crate::tableau::Tableau;
 use crate::theta::Theta;
 use crate::three_point::ThreePoint;
 use crate::{Gaussian, GridError, Problem, Request, Run, Stepping, uniform};
+use std::ops::ControlFlow;
 
 /// A discretisation of [`Problem`].
 #[derive(Debug, Clone, PartialEq)]
@@ -55,27 +56,46 @@ pub fn solve(
     stepping: &Stepping,
     request: &Request,
 ) -> Result<Run, GridError> {
+    solve_observed(problem, method, stepping, request, &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// Told the time t that each accepted step has come to, and x0(t); may stop the run there.
+pub type Observer<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
+
+/// As [`solve`], showing the end of each accepted step to an observer.
+///
+/// # Errors
+/// As [`solve`], and [`GridError::Stopped`] where the observer breaks off.
+pub fn solve_observed(
+    problem: &Problem,
+    method: &Method,
+    stepping: &Stepping,
+    request: &Request,
+    observe: &mut Observer,
+) -> Result<Run, GridError> {
     stepping.check()?;
     request.check(problem.start.time)?;
     match method {
         &Method::Uniform { spacing, from, to } => {
-            uniform::run(problem, (positive(spacing)?, from, to), stepping, request)
+            uniform::run(problem, (positive(spacing)?, from, to), stepping, request, observe)
         }
         &Method::Windowed { spacing } => {
             let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
             let start = |cell: i64| problem.start.height(cell as f64 * spacing);
             let cells = Cells::new(&start);
-            Marcher::new(problem, scheme, Tableau::dopri5(), *stepping, cells, None).run(request)
+            Marcher::new(problem, scheme, Tableau::dopri5(), *stepping, cells, None)
+                .run(request, observe)
         }
         Method::Spectral { gaussians, spacing } => {
-            spectral(problem, Theta::new(gaussians, positive(*spacing)?)?, stepping, request)
+            let scheme = Theta::new(gaussians, positive(*spacing)?)?;
+            spectral(problem, scheme, stepping, request, observe)
         }
         &Method::Sinc { spacing, half_width } => {
             if !(1..=10_000).contains(&half_width) {
                 return Err(GridError::HalfWidth(half_width));
             }
             let scheme = Sinc::new(problem.footprint, positive(spacing)?, half_width);
-            spectral(problem, scheme, stepping, request)
+            spectral(problem, scheme, stepping, request, observe)
         }
     }
 }
@@ -86,6 +106,7 @@ fn spectral(
     scheme: impl Scheme,
     stepping: &Stepping,
     request: &Request,
+    observe: &mut Observer,
 ) -> Result<Run, GridError> {
     let defect = crate::scheme::defect(&scheme, &problem.footprint);
     if defect > 0.01 {
@@ -93,7 +114,8 @@ fn spectral(
     }
     let nothing = |_: i64| 0.0;
     let (cells, start) = (Cells::new(&nothing), &problem.start);
-    Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start)).run(request)
+    Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start))
+        .run(request, observe)
 }
 
 fn positive(spacing: f64) -> Result<f64, GridError> {

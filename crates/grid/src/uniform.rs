@@ -5,7 +5,7 @@ use crate::patch::Patch;
 use crate::scheme::Scheme;
 use crate::three_point::ThreePoint;
 use crate::unknowns::Unknowns;
-use crate::{GridError, Problem, Request, Run, Stepping, Work};
+use crate::{GridError, Observer, Problem, Request, Run, Stepping, Work};
 use differential_equations::error::Error;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
@@ -71,6 +71,7 @@ pub(crate) fn run(
     (spacing, from, to): (f64, f64, f64),
     stepping: &Stepping,
     request: &Request,
+    observe: &mut Observer,
 ) -> Result<Run, GridError> {
     let first = (from / spacing).ceil();
     let len = (to / spacing).floor() - first + 1.0;
@@ -88,7 +89,7 @@ pub(crate) fn run(
     let mut runner = Runner::new(&grid, stepping, request)?;
     let mut x0 = Vec::with_capacity(request.times.len());
     for &time in request.times {
-        runner.advance_to(time)?;
+        runner.advance_to(time, observe)?;
         x0.push(runner.solver.y().0[0]);
     }
     let u = request.points.iter().map(|&x| grid.height(&runner.solver.y().0[1..], x)).collect();
@@ -125,7 +126,7 @@ impl<'g> Runner<'g> {
         Ok(Self { grid, solver, t, work })
     }
 
-    fn advance_to(&mut self, target: f64) -> Result<(), GridError> {
+    fn advance_to(&mut self, target: f64, observe: &mut Observer) -> Result<(), GridError> {
         while !reached(self.t, target) {
             let proposed = self.solver.h();
             let h = towards(target, self.t, proposed);
@@ -144,6 +145,9 @@ impl<'g> Runner<'g> {
             self.t = self.solver.t();
             if h < proposed {
                 self.solver.set_h(proposed.max(self.solver.h()));
+            }
+            if observe(self.t, self.solver.y().0[0]).is_break() {
+                return Err(GridError::Stopped { time: self.t });
             }
         }
         Ok(())

@@ -23,6 +23,7 @@
 //! ```
 
 mod carved;
+mod image;
 mod ripple;
 mod verification;
 
@@ -51,7 +52,7 @@ pub enum SurfaceError {
         end: f64,
     },
     /// A position that is not finite.
-    #[error("x = {0} is not a finite number")]
+    #[error("the position {0} is not a finite number")]
     Position(f64),
 }
 

@@ -28,6 +28,11 @@ pub(crate) struct Collocation {
     pub(crate) defect_to_error: f64,
     /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation, per divided difference.
     largest_node_product: f64,
+    /// `1/Π_{k≠j}(c_j - c_k)`: the Lagrange polynomials less their products of differences.
+    scales: Stages,
+    /// Row m: coefficient of (τ-1)^{m+1} in the polynomial that is 0 at τ = 0 and has given values at the
+    /// nodes.
+    about_the_end: [Stages; STAGES],
 }
 
 /// The method, built once.
@@ -36,17 +41,22 @@ pub(crate) static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::rada
 impl Collocation {
     fn radau() -> Self {
         let c = nodes();
+        let scales = std::array::from_fn(|j| {
+            let others = (0..STAGES).filter(|&k| k != j);
+            1.0 / others.map(|k| c[j] - c[k]).product::<f64>()
+        });
+        let lagrange = |j: usize, tau: f64| lagrange(&c, &scales, tau)[j];
         let mut a = [[0.0; STAGES]; STAGES];
         for (row, &ci) in a.iter_mut().zip(&c) {
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry = integral(ci, |tau| lagrange(&c, j, tau));
+                *entry = integral(ci, |tau| lagrange(j, tau));
             }
         }
         let mut derivative = [[0.0; STAGES]; STAGES];
         let mut derivative_at_start = [0.0; STAGES];
         for j in 0..STAGES {
             // d/dτ (τ/c_j ℓ_j) = (ℓ_j + τ ℓ_j')/c_j.
-            derivative_at_start[j] = lagrange(&c, j, 0.0) / c[j];
+            derivative_at_start[j] = lagrange(j, 0.0) / c[j];
             for i in 0..STAGES {
                 derivative[i][j] = if i == j {
                     let others = (0..STAGES).filter(|&k| k != j);
@@ -66,7 +76,17 @@ impl Collocation {
         let from_defect = largest(&|tau| integral(tau, node_product));
         let defect_to_error = from_defect / node_product(0.0).abs();
         let largest_node_product = largest(&|tau| tau * node_product(tau));
-        Self { c, a, derivative, derivative_at_start, defect_to_error, largest_node_product }
+        let about_the_end = coefficients_about_the_end(&c, &scales);
+        Self {
+            c,
+            a,
+            derivative,
+            derivative_at_start,
+            defect_to_error,
+            largest_node_product,
+            scales,
+            about_the_end,
+        }
     }
 
     /// Quadrature weights over the whole step, `b_j` = `a_sj`.
@@ -76,8 +96,17 @@ impl Collocation {
 
     /// Value at τ of the polynomial that is 0 at τ = 0 and `values` at the nodes.
     pub(crate) fn value(&self, values: &Stages, tau: f64) -> f64 {
-        let basis = |i: usize| tau / self.c[i] * lagrange(&self.c, i, tau);
-        (0..STAGES).map(|i| values[i] * basis(i)).sum()
+        let basis = lagrange(&self.c, &self.scales, tau);
+        tau * (0..STAGES).map(|i| values[i] / self.c[i] * basis[i]).sum::<f64>()
+    }
+
+    /// Its values at τ = 1 + ρ `c_i`, less that at τ = 1: its continuation beyond the unit step.
+    pub(crate) fn continued(&self, values: &Stages, ratio: f64) -> Stages {
+        let power = apply(&self.about_the_end, values);
+        self.c.map(|c| {
+            let y = ratio * c;
+            y * power.iter().rev().fold(0.0, |sum, p| sum * y + p)
+        })
     }
 
     /// The largest error on the unit step of the polynomial as an interpolant, from its miss of a value
@@ -89,8 +118,12 @@ impl Collocation {
 
     /// Its derivative at τ.
     pub(crate) fn slope(&self, values: &Stages, tau: f64) -> f64 {
-        let at_nodes = apply(&self.derivative, values);
-        (0..STAGES).map(|j| at_nodes[j] * lagrange(&self.c, j, tau)).sum()
+        self.between(&apply(&self.derivative, values), tau)
+    }
+
+    /// Value at τ of the polynomial of degree s - 1 through values at the nodes.
+    pub(crate) fn between(&self, values: &Stages, tau: f64) -> f64 {
+        lagrange(&self.c, &self.scales, tau).iter().zip(values).map(|(l, v)| l * v).sum()
     }
 }
 
@@ -105,9 +138,38 @@ pub(crate) fn apply(matrix: &[Stages; STAGES], v: &Stages) -> Stages {
     std::array::from_fn(|i| (0..STAGES).map(|j| matrix[i][j] * v[j]).sum())
 }
 
-/// `ℓ_j(τ)` over the nodes c.
-fn lagrange(c: &Stages, j: usize, tau: f64) -> f64 {
-    (0..STAGES).filter(|&k| k != j).map(|k| (tau - c[k]) / (c[j] - c[k])).product()
+/// All `ℓ_j(τ)` over the nodes c: products of the differences before and after the j-th.
+fn lagrange(c: &Stages, scales: &Stages, tau: f64) -> Stages {
+    let mut basis = *scales;
+    let (mut before, mut after) = (1.0, 1.0);
+    for j in 0..STAGES {
+        basis[j] *= before;
+        before *= tau - c[j];
+        let k = STAGES - 1 - j;
+        basis[k] *= after;
+        after *= tau - c[k];
+    }
+    basis
+}
+
+/// Coefficients of powers of y = τ - 1, m = 1 … s, from the values at the nodes: those of
+/// `τ/c_j ℓ_j` are multiplied out.
+fn coefficients_about_the_end(c: &Stages, scales: &Stages) -> [Stages; STAGES] {
+    let mut rows = [[0.0; STAGES]; STAGES];
+    for j in 0..STAGES {
+        // (y + 1) Π_{k≠j} (y + 1 - c_k), lowest power first
+        let mut power = [0.0; STAGES + 1];
+        power[0] = scales[j] / c[j];
+        let zeros = [0.0].into_iter().chain((0..STAGES).filter(|&k| k != j).map(|k| c[k]));
+        for zero in zeros {
+            for m in (0..=STAGES).rev() {
+                let lower = if m > 0 { power[m - 1] } else { 0.0 };
+                power[m] = power[m] * (1.0 - zero) + lower;
+            }
+        }
+        rows.iter_mut().zip(&power[1..]).for_each(|(row, p)| row[j] = *p);
+    }
+    rows
 }
 
 /// The zeros of `P_s - P_{s-1}`, P the Legendre polynomials of 2τ-1: one at 1, the others between the
@@ -184,6 +246,9 @@ mod tests {
         for t in [0.0, 0.21, 0.5, 0.98, 1.0, 1.7] {
             assert!((RADAU.value(&values, t) - p(t)).abs() < 1e-12, "{t}");
             assert!((RADAU.slope(&values, t) - slope(t)).abs() < 1e-11, "{t}");
+        }
+        for (c, value) in RADAU.c.iter().zip(RADAU.continued(&values, 0.7)) {
+            assert!((value - (p(1.0 + 0.7 * c) - p(1.0))).abs() < 1e-12, "{c}");
         }
         let start: f64 = (0..STAGES).map(|j| RADAU.derivative_at_start[j] * values[j]).sum();
         assert!((start - 1.0).abs() < 1e-13);

@@ -100,9 +100,20 @@ impl InitialSurface {
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         let steady = self.steady.as_ref().map_or(0.0, |s| -s.depth * s.tip.tail(x - s.position));
+        steady + self.texture(x)
+    }
+
+    /// The part of u0(x) that no tip has carved: the given profile and the noise.
+    #[must_use]
+    pub fn texture(&self, x: f64) -> f64 {
         let inside = |s: &&CubicSpline| (s.first()..=s.last()).contains(&x);
-        steady
-            + self.splines().into_iter().flatten().filter(inside).map(|s| s.value(x)).sum::<f64>()
+        self.splines().into_iter().flatten().filter(inside).map(|s| s.value(x)).sum()
+    }
+
+    /// Position of the tip whose steady past, (24), is part of u0.
+    #[must_use]
+    pub fn steady_position(&self) -> Option<f64> {
+        self.steady.as_ref().map(|steady| steady.position)
     }
 
     /// u0'(x) and u0''(x).

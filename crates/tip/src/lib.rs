@@ -13,6 +13,7 @@
 //! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
 //! `docs/mathematics.md` derives them again.
 
+pub mod cycle;
 pub mod memory;
 pub mod stability;
 pub mod state;
@@ -20,6 +21,7 @@ pub mod tip_function;
 pub mod units;
 
 mod collocation;
+mod footprint;
 mod force;
 mod history;
 mod initial_surface;
@@ -32,6 +34,7 @@ mod series;
 mod spline;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
+pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};

@@ -3,13 +3,13 @@
 use super::journey::Travelled;
 use super::limits::FARTHEST;
 use crate::documents::{
-    FORMAT_VERSION, History, Order, OscillationDocument, RegimeName, RunDocument, RunEnd,
-    SampleLine, Samples, Software, SteadyState, WorkDocument,
+    FORMAT_VERSION, History, Order, OscillationDocument, RunDocument, RunEnd, SampleLine, Samples,
+    Software, SteadyState, WorkDocument,
 };
 use crate::failure::Failure;
 use stickslip_surface::{Ripple, Surface, ripple_behind};
 use stickslip_tip::{
-    InitialSurface, Model, Oscillation, Regime, Scenario, Step, Trajectory, nodes_and_weights,
+    InitialSurface, Model, Oscillation, Scenario, Step, Trajectory, nodes_and_weights,
 };
 
 /// What became of the run.
@@ -23,12 +23,7 @@ pub(super) fn end(
     let (outcome, work) = (running.outcome(), running.work());
     Ok(RunEnd {
         end: running.t(),
-        regime: match outcome.regime {
-            Regime::Steady => RegimeName::Steady,
-            Regime::StickSlip => RegimeName::StickSlip,
-            Regime::Trapped => RegimeName::Trapped,
-            Regime::Transient => RegimeName::Transient,
-        },
+        regime: outcome.regime.into(),
         oscillation: outcome.oscillation.map(|o| {
             let surface = Surface::new(&scenario.model, initial, &tail);
             oscillation(&o, ripple_behind(&surface, &tail, &o))
@@ -86,7 +81,7 @@ impl SteadyState {
     }
 }
 
-fn history(trajectory: &Trajectory) -> History {
+pub(crate) fn history(trajectory: &Trajectory) -> History {
     let steps = trajectory.steps();
     let (nodes, weights) = nodes_and_weights();
     History {
@@ -113,6 +108,11 @@ fn oscillation(o: &Oscillation, ripple: Option<Ripple>) -> OscillationDocument {
 pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
     let history = document.history.as_ref();
     let history = history.ok_or("history: it was left out; run it again with --history all")?;
+    trajectory_of(history, document.parameters.model.r)
+}
+
+/// The trajectory that a history under support velocity r tells.
+pub(crate) fn trajectory_of(history: &History, r: f64) -> Result<Trajectory, String> {
     let History { nodes, weights, t, extension, displacement } = history;
     let same = |a: &[f64], b: &[f64]| {
         a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
@@ -137,7 +137,6 @@ pub(crate) fn trajectory(document: &RunDocument) -> Result<Trajectory, String> {
         Ok(Step { t: t[i], h: t[i + 1] - t[i], extension: extension[i], displacement })
     };
     let steps: Vec<Step> = (0..steps).map(step).collect::<Result<_, _>>()?;
-    let r = document.parameters.model.r;
     let far = |step: &Step| {
         let sizes = [r * step.t, r * step.end(), step.extension];
         !sizes.iter().chain(&step.displacement).all(|size| size.abs() <= FARTHEST)

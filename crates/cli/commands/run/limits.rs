@@ -1,6 +1,6 @@
 //! How far f64 goes.
 
-use crate::arguments::RunArguments;
+use crate::arguments::ModelArguments;
 use crate::failure::{Failure, Typed};
 use stickslip_tip::Scenario;
 
@@ -8,10 +8,10 @@ use stickslip_tip::Scenario;
 pub(super) const FARTHEST: f64 = 1e13;
 
 /// Refuses what no run can do justice to, for want of digits.
-pub(super) fn within_range(arguments: &RunArguments, scenario: &Scenario) -> Result<(), Failure> {
+pub(crate) fn within_range(arguments: &ModelArguments, scenario: &Scenario) -> Result<(), Failure> {
     let (x, kick, until) = (scenario.start_position, scenario.kick, scenario.until);
     let (r, lag) = (scenario.model.r(), scenario.model.steady_lag());
-    let alpha = match (arguments.model.alpha, arguments.model.alpha_above) {
+    let alpha = match (arguments.alpha, arguments.alpha_above) {
         (_, Some(above)) => format!("--alpha-above {}", Typed(above)),
         _ => format!("--alpha {}", Typed(scenario.model.alpha())),
     };

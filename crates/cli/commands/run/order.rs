@@ -27,7 +27,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let format = format(arguments)?;
     let inputs = read_inputs(arguments)?;
     let scenario = scenario(arguments, &inputs)?;
-    within_range(arguments, &scenario)?;
+    within_range(&arguments.model, &scenario)?;
     scenario.validate().map_err(|error| explain(&error, arguments))?;
     let span = (scenario.start_time(), scenario.until);
     let are_kept = format != RunFormat::Jsonl;
@@ -148,25 +148,37 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
 /// Names the option that an error of the library is about.
 pub(super) fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
     let option = match error {
-        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
-        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
-        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
-        RunError::Tolerance(tolerance) => format!("--tolerance {}", Typed(*tolerance)),
         RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
             format!("--start-position {}", arguments.start_position)
         }
-        RunError::TooFar { tolerance, .. } => format!("--tolerance {tolerance}"),
-        RunError::Noise { noise, .. } => {
-            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
-        }
-        RunError::Modes(_) => "--memory modes".into(),
         RunError::Profile(_) => {
             let path = arguments.initial_surface.as_deref().unwrap_or(Path::new(""));
             format!("--initial-surface {}", path.display())
         }
-        RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
-            return Failure::Run(error.to_string());
-        }
+        _ => match option_at_fault(error) {
+            Some(option) => option,
+            None => return Failure::Run(error.to_string()),
+        },
     };
     Failure::input(option, error)
+}
+
+/// The option that an error is about, as far as the error itself tells; `None` for a failure at run time.
+pub(crate) fn option_at_fault(error: &RunError) -> Option<String> {
+    Some(match error {
+        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
+        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
+        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
+        RunError::Tolerance(tolerance) | RunError::TooFar { tolerance, .. } => {
+            format!("--tolerance {}", Typed(*tolerance))
+        }
+        RunError::Noise { noise, .. } => {
+            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
+        }
+        RunError::Modes(_) => "--memory modes".into(),
+        RunError::Profile(_) => "--initial-surface".into(),
+        RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
+            return None;
+        }
+    })
 }

@@ -42,14 +42,14 @@ pub(super) fn of(
     }
 }
 
-pub(super) fn start(name: StartName) -> Start {
+pub(crate) fn start(name: StartName) -> Start {
     match name {
         StartName::Steady => Start::Steady,
         StartName::Flat => Start::Flat,
     }
 }
 
-pub(super) fn memory(name: MemoryName) -> MemoryChoice {
+pub(crate) fn memory(name: MemoryName) -> MemoryChoice {
     match name {
         MemoryName::Auto => MemoryChoice::Auto,
         MemoryName::Direct => MemoryChoice::Direct,

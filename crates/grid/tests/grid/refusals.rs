@@ -1,7 +1,10 @@
 //! Unusable input and runs that cannot go on are told apart by type.
 
 use crate::common::{FINE, main_case, spectral, triple_gaussian};
-use stickslip_grid::{Footprint, GridError, Method, Problem, Request, Start, Stepping, solve};
+use std::ops::ControlFlow;
+use stickslip_grid::{
+    Footprint, GridError, Method, Problem, Request, Start, Stepping, solve, solve_observed,
+};
 
 #[test]
 fn a_tip_that_leaves_the_grid_is_reported_with_time_and_place() {
@@ -48,5 +51,26 @@ fn unusable_input_is_refused() -> Result<(), GridError> {
     assert_eq!(attempt(none, tolerance, &[15.0]), Some(GridError::Gaussians));
     let short = Method::Uniform { spacing: 0.1, from: 1.0, to: 0.0 };
     assert_eq!(attempt(short, tolerance, &[15.0]), Some(GridError::Domain { from: 1.0, to: 0.0 }));
+    Ok(())
+}
+
+/// An observer sees every step, ascending, and may break off; both steppers obey.
+#[test]
+fn an_observer_stops_a_run() -> Result<(), GridError> {
+    let footprint = Footprint::new(&triple_gaussian, 10.8)?;
+    let problem = Problem::new(1.0, 1.0, footprint, Start::flat(1.0, 14.0))?;
+    let request = Request { times: &[16.0, 24.0], points: &[] };
+    for method in [Method::Uniform { spacing: 0.1, from: 3.0, to: 40.0 }, spectral(FINE)] {
+        let mut seen = vec![14.0];
+        let stopped =
+            solve_observed(&problem, &method, &Stepping::fixed(0.1), &request, &mut |t, x0| {
+                assert!(t > seen[seen.len() - 1] && (13.0..25.0).contains(&x0));
+                seen.push(t);
+                if t > 20.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+        let Err(GridError::Stopped { time }) = stopped else { panic!("{stopped:?}") };
+        let steps = seen.len() - 1;
+        assert!((20.0..20.2).contains(&time) && (60..=62).contains(&steps), "{time} {steps}");
+    }
     Ok(())
 }

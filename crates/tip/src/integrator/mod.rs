@@ -5,6 +5,7 @@
 //! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
 
 mod control;
+mod linear_system;
 mod saved;
 mod stage_equations;
 
@@ -12,7 +13,8 @@ use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::history::Step;
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
-use crate::roots::bisect;
+use crate::roots::zero_between;
+use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 use control::Control;
 use stage_equations::{Solution, StageEquations};
@@ -59,6 +61,7 @@ pub enum IntegrationError {
 /// The state of a tip under way, and all that acts on it.
 pub struct Integrator<'a> {
     model: &'a Model,
+    apex: Apex,
     surface: &'a InitialSurface,
     force: &'a Force,
     memory: Box<dyn Memory + 'a>,
@@ -75,6 +78,9 @@ pub struct Integrator<'a> {
     work: Work,
 }
 
+/// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
+const ENOUGH: f64 = 0.01;
+
 impl<'a> Integrator<'a> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
     /// remembered but what `memory` brings along.
@@ -88,12 +94,14 @@ impl<'a> Integrator<'a> {
     ) -> Self {
         let (t, extension) = start;
         let (slope, curvature) = surface.slope_and_curvature(model.r() * t - extension);
+        let control = Control::new(tolerance);
         Self {
             model,
+            apex: Apex::new(model.tip(), (ENOUGH * control.target()).max(f64::EPSILON)),
             surface,
             force,
             memory,
-            control: Control::new(tolerance),
+            control,
             t,
             extension,
             velocity: -slope + extension + force.value(t),
@@ -183,10 +191,10 @@ impl<'a> Integrator<'a> {
     fn attempt(&mut self, h: f64, stretch: &Stretch) -> Result<Step, Retry> {
         let longest = self.longest_displacement();
         let guess = self.predict(h, longest);
-        let enough = 0.01 * self.control.target();
+        let enough = ENOUGH * self.control.target();
         let (surface, force) = ((self.surface, stretch), self.force);
-        let equations =
-            StageEquations::new(self.model, surface, force, (self.t, h, self.extension));
+        let model = (self.model, &self.apex);
+        let equations = StageEquations::new(model, surface, force, (self.t, h, self.extension));
         let look = longest_look(self.model.tip());
         let solved = equations.solve(self.memory.as_mut(), guess, enough, look);
         self.work.newton_iterations += solved.iterations;
@@ -223,7 +231,7 @@ impl<'a> Integrator<'a> {
             (false, _, false) => -0.5 * slack,
         };
         let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
-        Some(bisect(beyond, 0.0, RADAU.c[after]))
+        Some(zero_between(beyond, 0.0, RADAU.c[after]))
     }
 
     /// Defect of the stage polynomial at the start of the step, where the true velocity is known from
@@ -265,9 +273,7 @@ impl<'a> Integrator<'a> {
     /// The last stage polynomial continued, where it can be trusted to; else a straight line.
     fn predict(&self, h: f64, longest: f64) -> Stages {
         if let Some(last) = self.last.filter(|last| h <= 1.5 * last.h) {
-            let end = last.displacement[STAGES - 1];
-            let at = |c: f64| RADAU.value(&last.displacement, 1.0 + c * h / last.h) - end;
-            let guess = RADAU.c.map(at);
+            let guess = RADAU.continued(&last.displacement, h / last.h);
             if guess.iter().all(|d| d.abs() < longest) {
                 return guess;
             }

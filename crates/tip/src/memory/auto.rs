@@ -1,109 +1,113 @@
-//! The cheaper of the memories, by the number of nodes within reach.
+//! The cheaper of the memories, by the number of nodes within reach and by what the footprint allows.
 
-use super::{Direct, Fft, Memory};
+use super::{Direct, Fft, FitError, Memory, Modes};
 use crate::TipFunction;
 use crate::collocation::Stages;
 use crate::state::{Damaged, Reader, State};
 
-/// `direct` while few nodes lie within reach of the tip and few steps have been made, `fft` from then on.
-///
-/// `modes` is not among the choices yet: it is cheaper per step at tolerances above 1e-9, dearer below.
+/// `direct` while few nodes lie within reach of the tip and few steps have been made; from then on `modes`
+/// where f' can be fitted by exponentials as well as is needed, else `fft`.
 pub struct Auto {
     tip: TipFunction,
+    accuracy: f64,
     now: Now,
 }
 
 enum Now {
     Direct(Direct),
-    Fft(Box<Fft>),
+    Modes(Box<Modes>),
+    Fft(Box<Fft>, FitError),
 }
 
-/// Nodes within reach from which `fft` is the cheaper one. A step costs it less than a direct sum over
-/// six nodes, but its plan takes some 30 µs, as much as the first eight steps of a direct sum
-/// (benches/memory.rs); anything from 30 to 100 does as well.
+/// Nodes within reach from which a direct sum is the dearer one. A step costs the others less than a direct
+/// sum over six nodes, but the plan of `fft` takes some 30 µs and the fit of `modes`, made once for a
+/// footprint and an accuracy, some 300 µs: as much as the first 8 or 20 steps of a direct sum
+/// (benches/memory.rs).
 pub const CROSSOVER_NODES: usize = 48;
 
-/// Remembered steps from which `fft` is the cheaper one, wherever they lie: `direct` looks through them all.
+/// Remembered steps from which a direct sum is the dearer one, wherever they lie: `direct` looks through them all.
 pub const CROSSOVER_STEPS: usize = 1024;
 
 impl Auto {
-    /// Nothing remembered yet.
+    /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`.
     #[must_use]
-    pub fn new(tip: TipFunction) -> Self {
-        Self { now: Now::Direct(Direct::new(tip.clone())), tip }
+    pub fn new(tip: TipFunction, accuracy: f64) -> Self {
+        Self { now: Now::Direct(Direct::new(tip.clone())), accuracy, tip }
+    }
+
+    fn with_more(&self, direct: &Direct) -> Now {
+        let past: Vec<_> = direct.past().collect();
+        match Modes::with_past(self.tip.clone(), self.accuracy, &past) {
+            Ok(modes) => Now::Modes(Box::new(modes)),
+            Err(why) => Now::Fft(Box::new(Fft::with_past(self.tip.clone(), &past)), why),
+        }
+    }
+}
+
+impl Now {
+    fn memory(&self) -> &dyn Memory {
+        match self {
+            Self::Direct(memory) => memory,
+            Self::Modes(memory) => memory.as_ref(),
+            Self::Fft(memory, _) => memory.as_ref(),
+        }
+    }
+
+    fn memory_mut(&mut self) -> &mut dyn Memory {
+        match self {
+            Self::Direct(memory) => memory,
+            Self::Modes(memory) => memory.as_mut(),
+            Self::Fft(memory, _) => memory.as_mut(),
+        }
     }
 }
 
 impl Memory for Auto {
     fn groove(&mut self, at: &Stages, slope: &mut Stages, curvature: &mut Stages) {
-        match &mut self.now {
-            Now::Direct(memory) => memory.groove(at, slope, curvature),
-            Now::Fft(memory) => memory.groove(at, slope, curvature),
-        }
+        self.now.memory_mut().groove(at, slope, curvature);
     }
 
     fn remember(&mut self, position: &Stages, weight: &Stages) {
-        match &mut self.now {
-            Now::Direct(direct) => {
-                direct.remember(position, weight);
-                let is_long = direct.steps() > CROSSOVER_STEPS;
-                if is_long || direct.nodes_within_reach() > CROSSOVER_NODES {
-                    let past: Vec<_> = direct.past().collect();
-                    self.now = Now::Fft(Box::new(Fft::with_past(self.tip.clone(), &past)));
-                }
-            }
-            Now::Fft(memory) => memory.remember(position, weight),
+        self.now.memory_mut().remember(position, weight);
+        if let Now::Direct(direct) = &self.now
+            && (direct.nodes_within_reach() > CROSSOVER_NODES || direct.steps() > CROSSOVER_STEPS)
+        {
+            self.now = self.with_more(direct);
         }
     }
 
     fn name(&self) -> &'static str {
-        match &self.now {
-            Now::Direct(memory) => memory.name(),
-            Now::Fft(memory) => memory.name(),
-        }
+        self.now.memory().name()
     }
 
     fn save(&self, state: &mut State) {
-        match &self.now {
-            Now::Direct(memory) => {
-                state.flag(false);
-                memory.save(state);
-            }
-            Now::Fft(memory) => {
-                state.flag(true);
-                memory.save(state);
-            }
-        }
+        state.flag(matches!(self.now, Now::Direct(_)));
+        self.now.memory().save(state);
     }
 
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
-        if state.flag()? {
-            let mut fft = Box::new(Fft::new(self.tip.clone()));
-            fft.restore(state)?;
-            self.now = Now::Fft(fft);
-            return Ok(());
-        }
-        let mut direct = Direct::new(self.tip.clone());
-        direct.restore(state)?;
-        self.now = Now::Direct(direct);
-        Ok(())
+        let direct = Direct::new(self.tip.clone());
+        self.now = if state.flag()? { Now::Direct(direct) } else { self.with_more(&direct) };
+        self.now.memory_mut().restore(state)
     }
 
     fn forgotten(&self) -> Option<f64> {
-        match &self.now {
-            Now::Direct(memory) => memory.forgotten(),
-            Now::Fft(memory) => memory.forgotten(),
-        }
+        self.now.memory().forgotten()
     }
 
     fn note(&self) -> Option<String> {
+        let many = format!(
+            "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"
+        );
         Some(match &self.now {
             Now::Direct(_) => {
                 format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
             }
-            Now::Fft(_) => format!(
-                "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"
-            ),
+            Now::Modes(modes) => many + "; " + &modes.note().unwrap_or_default(),
+            Now::Fft(_, FitError::NeverFades) => many + ", and modes need a footprint that fades",
+            Now::Fft(_, FitError::NotMet { .. } | FitError::Terms) => {
+                format!("{many}, and modes do not fit f' to {:.1e}", self.accuracy)
+            }
         })
     }
 }

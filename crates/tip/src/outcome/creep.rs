@@ -19,11 +19,11 @@ pub(super) fn is_trapped(
     risen: &Thinned,
     last: &Step,
 ) -> bool {
-    let Some((shallow, steep)) = creep_rates(model) else { return false };
     let (end, velocity) = (last.end(), last.velocity(last.end()));
     if since > 0.5 * (start + end) || velocity >= model.r() {
         return false;
     }
+    let Some((shallow, steep)) = creep_rates(model) else { return false };
     let earlier = end - MEASURED_SHARE * (end - since);
     let Some(then) = risen.at(earlier) else { return false };
     let earlier = earlier.min(then.end());

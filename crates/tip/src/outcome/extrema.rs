@@ -1,23 +1,23 @@
 //! Maxima and minima of l(t), the latest of them.
 
-use crate::Step;
 use crate::collocation::{RADAU, STAGES, apply};
-use crate::roots::bisect;
+use crate::roots::zero_between;
 use crate::state::{Damaged, Reader, State};
+use crate::{Step, Trajectory};
 use std::collections::VecDeque;
 
 /// A time and the value of l there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extremum {
-    pub(super) t: f64,
-    pub(super) l: f64,
-    pub(super) is_maximum: bool,
+pub(crate) struct Extremum {
+    pub(crate) t: f64,
+    pub(crate) l: f64,
+    pub(crate) is_maximum: bool,
 }
 
 /// Where in a step an extremum lies: it is found more exactly only where it is needed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Turn {
-    pub(super) step: Step,
+pub(crate) struct Turn {
+    pub(crate) step: Step,
     /// Fractions of the step.
     between: (f64, f64),
     is_maximum: bool,
@@ -25,7 +25,7 @@ pub(super) struct Turn {
 
 /// The latest extrema of l, in order.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Extrema {
+pub(crate) struct Extrema {
     latest: VecDeque<Turn>,
 }
 
@@ -34,7 +34,7 @@ const MOST: usize = 64;
 
 impl Extrema {
     /// Adds those of a step; says whether there were any.
-    pub(super) fn observe(&mut self, step: &Step, r: f64) -> bool {
+    pub(crate) fn observe(&mut self, step: &Step, r: f64) -> bool {
         let mut found = false;
         turns(step, r, |turn| {
             self.latest.push_back(turn);
@@ -47,23 +47,23 @@ impl Extrema {
     }
 
     /// Forgets those of steps before t.
-    pub(super) fn forget_before(&mut self, t: f64) {
+    pub(crate) fn forget_before(&mut self, t: f64) {
         while self.latest.front().is_some_and(|turn| turn.step.t < t) {
             self.latest.pop_front();
         }
     }
 
     /// The earliest one kept, if as many are kept as are needed.
-    pub(super) fn earliest_needed(&self) -> Option<&Turn> {
+    pub(crate) fn earliest_needed(&self) -> Option<&Turn> {
         self.latest.front().filter(|_| self.latest.len() == MOST)
     }
 
     /// All that are kept, latest first.
-    pub(super) fn latest_first(&self, r: f64) -> Vec<Extremum> {
+    pub(crate) fn latest_first(&self, r: f64) -> Vec<Extremum> {
         self.latest.iter().rev().map(|turn| turn.extremum(r)).collect()
     }
 
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.count(self.latest.len() as u64);
         for turn in &self.latest {
             state.step(&turn.step);
@@ -73,7 +73,7 @@ impl Extrema {
         }
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let one = |state: &mut Reader| {
             let (step, between) = (state.step()?, (state.finite()?, state.finite()?));
             Ok(Turn { step, between, is_maximum: state.flag()? })
@@ -83,11 +83,21 @@ impl Extrema {
     }
 }
 
+/// The last extrema of a trajectory, latest first.
+pub(crate) fn latest_extrema(trajectory: &Trajectory) -> Vec<Extremum> {
+    let mut extrema = Extrema::default();
+    for step in trajectory.steps() {
+        extrema.observe(step, trajectory.r());
+    }
+    extrema.latest_first(trajectory.r())
+}
+
 impl Turn {
     fn extremum(&self, r: f64) -> Extremum {
         let Self { step, between, is_maximum } = *self;
-        let l_slope = |tau: f64| r - RADAU.slope(&step.displacement, tau) / step.h;
-        let t = step.t + bisect(l_slope, between.0, between.1) * step.h;
+        let at_nodes = apply(&RADAU.derivative, &step.displacement);
+        let l_slope = |tau: f64| r - RADAU.between(&at_nodes, tau) / step.h;
+        let t = step.t + zero_between(l_slope, between.0, between.1) * step.h;
         Extremum { t, l: step.l(r, t), is_maximum }
     }
 }

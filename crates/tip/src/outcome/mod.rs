@@ -10,6 +10,7 @@ pub use classifier::Classifier;
 pub use oscillation::Oscillation;
 
 use crate::{Model, Trajectory};
+pub(crate) use extrema::{Extremum, latest_extrema};
 
 /// The kinds of motion of section 4 of the design: what the end of the run shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

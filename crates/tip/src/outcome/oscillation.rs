@@ -2,7 +2,7 @@
 
 use super::extrema::Extremum;
 use crate::Trajectory;
-use crate::roots::bisect;
+use crate::roots::zero_between;
 
 /// The periodic motion at the end of a run. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,5 +76,5 @@ fn last_rise_through(
 ) -> Option<f64> {
     let earlier: Vec<_> = latest_first.iter().filter(|e| e.t <= t).collect();
     let rise = earlier.windows(2).find(|e| e[0].l > level && e[1].l <= level)?;
-    Some(bisect(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
+    Some(zero_between(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
 }

@@ -227,7 +227,7 @@ impl Scenario {
         let tip = self.model.tip().clone();
         let accuracy = accuracy_needed(&self.model, self.tolerance);
         Ok(match self.memory {
-            MemoryChoice::Auto => Box::new(Auto::new(tip)),
+            MemoryChoice::Auto => Box::new(Auto::new(tip, accuracy)),
             MemoryChoice::Direct => Box::new(Direct::new(tip)),
             MemoryChoice::Fft => Box::new(Fft::new(tip)),
             MemoryChoice::Modes => Box::new(Modes::new(tip, accuracy)?),

@@ -1,7 +1,9 @@
 //! Sums of Gaussians a exp(-(x-c)²/(2w²)).
 
 use super::TipFunctionError;
+use crate::Footprint;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::sync::Arc;
 
 /// A Gaussian is below 1e-17 of its peak beyond this many widths: exp(-8.8²/2) = 1.5e-17. The factor
 /// x that a derivative brings keeps that below round-off too.
@@ -25,6 +27,8 @@ pub struct Gaussian {
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
+    /// The f(x,y) that this is f(x,0) of.
+    footprint: Option<Arc<Footprint>>,
 }
 
 impl GaussianSum {
@@ -46,13 +50,21 @@ impl GaussianSum {
         if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
             return Err(TipFunctionError::NotEven { center: term.center });
         }
-        Ok(Self { terms })
+        Ok(Self { terms, footprint: None })
     }
 
     /// The terms, as given.
     #[must_use]
     pub fn terms(&self) -> &[Gaussian] {
         &self.terms
+    }
+
+    pub(super) fn with_footprint(self, footprint: Footprint) -> Self {
+        Self { footprint: Some(Arc::new(footprint)), ..self }
+    }
+
+    pub(super) fn footprint(&self) -> Option<&Footprint> {
+        self.footprint.as_deref()
     }
 
     pub(super) fn value(&self, x: f64) -> f64 {
@@ -64,6 +76,31 @@ impl GaussianSum {
             let value = g.amplitude * (-0.5 * z * z).exp() / g.width;
             (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
         })
+    }
+
+    /// From g' = -(x-c)/w² g: (n+1) `g_{n+1}` = (c `g_n` - `g_{n-1}`)/w².
+    pub(super) fn taylor(&self, degree: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; degree + 1];
+        for g in &self.terms {
+            let z = g.center / g.width;
+            let (mut before, mut here) = (0.0, g.amplitude * (-0.5 * z * z).exp());
+            for (n, coefficient) in sum.iter_mut().enumerate() {
+                *coefficient += here;
+                let next = (g.center * here - before) / (g.width * g.width * (n + 1) as f64);
+                (before, here) = (here, next);
+            }
+        }
+        // Odd ones cancel between twins, to round-off.
+        sum.iter_mut().skip(1).step_by(2).for_each(|odd| *odd = 0.0);
+        sum
+    }
+
+    /// Cramér's bound of Hermite functions: |d^n/dz^n e^{-z²/2}| < 1.0865 √(n!).
+    pub(super) fn derivative_bound(&self, n: usize) -> f64 {
+        let root_factorial: f64 = (1..=n).map(|k| (k as f64).sqrt()).product();
+        let power = i32::try_from(n).unwrap_or(i32::MAX);
+        let term = |g: &Gaussian| g.amplitude.abs() / g.width.powi(power);
+        1.0865 * root_factorial * self.terms.iter().map(term).sum::<f64>()
     }
 
     pub(super) fn tail(&self, x: f64) -> f64 {

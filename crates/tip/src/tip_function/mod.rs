@@ -1,9 +1,12 @@
 //! The footprint f(x) of the tip: how fast it indents the surface at distance x from its apex.
 
+mod apex;
 mod bessel;
 mod gaussian;
-mod table;
+pub(crate) mod table;
 
+use crate::Footprint;
+pub(crate) use apex::Apex;
 pub use gaussian::{Gaussian, GaussianSum};
 use thiserror::Error;
 
@@ -46,6 +49,30 @@ pub enum TipFunctionError {
     NotEven {
         /// Center of the Gaussian that stands alone.
         center: f64,
+    },
+    /// A two-dimensional Gaussian off the line y = 0 without its mirror image.
+    #[error(
+        "the tip function is not even in y: the Gaussian at center {center}, center_y {center_y} lacks a twin of the same amplitude and widths at center_y {mirror}"
+    )]
+    NotEvenAcross {
+        /// Center in x of the Gaussian that stands alone.
+        center: f64,
+        /// Its center in y.
+        center_y: f64,
+        /// Where its twin should be.
+        mirror: f64,
+    },
+    /// A table of f(x,y) that is no full grid.
+    #[error(
+        "the table has {points} rows, no full grid of its {x} values of x and {y} values of y: give every x for every y, each once"
+    )]
+    TableGrid {
+        /// Rows given.
+        points: usize,
+        /// Distinct x.
+        x: usize,
+        /// Distinct y.
+        y: usize,
     },
     /// Side lobes that are not finite.
     #[error("beta is {0}: it must be a finite number")]
@@ -133,6 +160,24 @@ impl TipFunction {
         Self::gaussian_sum(table::gaussians_through(x, f)?)
     }
 
+    /// f(x,0) of a footprint in three dimensions, which goes along with it.
+    #[must_use]
+    pub fn of_footprint(footprint: Footprint) -> Self {
+        match footprint.path().clone() {
+            Self::Gaussians(sum) => Self::Gaussians(sum.with_footprint(footprint)),
+            Self::Bessel => Self::Bessel,
+        }
+    }
+
+    /// The f(x,y) that this is the section y = 0 of, where it was made from one.
+    #[must_use]
+    pub fn footprint(&self) -> Option<&Footprint> {
+        match self {
+            Self::Gaussians(sum) => sum.footprint(),
+            Self::Bessel => None,
+        }
+    }
+
     /// f(x).
     #[must_use]
     pub fn value(&self, x: f64) -> f64 {
@@ -154,6 +199,23 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.slope_and_curvature(x),
             Self::Bessel => bessel::slope_and_curvature(x),
+        }
+    }
+
+    /// Coefficients of x^n, n up to `degree`, in the Taylor series of f about its apex.
+    fn taylor(&self, degree: usize) -> Vec<f64> {
+        match self {
+            Self::Gaussians(sum) => sum.taylor(degree),
+            Self::Bessel => bessel::taylor(degree),
+        }
+    }
+
+    /// A bound of |f^{(n)}| everywhere.
+    fn derivative_bound(&self, n: usize) -> f64 {
+        match self {
+            Self::Gaussians(sum) => sum.derivative_bound(n),
+            // J0 is the mean of cosines of wave numbers up to 1.
+            Self::Bessel => 1.0,
         }
     }
 

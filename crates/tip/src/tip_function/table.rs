@@ -7,11 +7,11 @@
 use super::{Gaussian, TipFunctionError};
 use crate::spline::CubicSpline;
 
-const MIN_ROWS: usize = 8;
+pub(crate) const MIN_ROWS: usize = 8;
 const MAX_ROWS: usize = 2000;
 /// A last value above this fraction of the largest would leave a visible step at the table's end.
-const MAX_LAST_RATIO: f64 = 1e-3;
-const WIDTH_PER_SPACING: f64 = 1.2;
+pub(crate) const MAX_LAST_RATIO: f64 = 1e-3;
+pub(crate) const WIDTH_PER_SPACING: f64 = 1.2;
 /// Lattice points of value 0 put beyond the table, so that the sum falls to zero and stays there.
 const ZEROS_BEYOND: usize = 12;
 /// exp(-(11/1.2)²/2) is below round-off: further lattice points do not see each other.
@@ -19,19 +19,31 @@ const NEIGHBOURS: usize = 11;
 
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
     validate(x, f)?;
+    let (spacing, coefficients) = bells_through(x, f);
+    Ok(gaussians_of(spacing, &coefficients))
+}
+
+/// Spacing of the lattice, and the coefficients on its points ≥ 0 of the even sum of bells that takes the
+/// values f at x, valid columns of a table.
+pub(crate) fn bells_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     let (spacing, mut samples) = on_a_lattice(x, f);
     samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
-    let width = WIDTH_PER_SPACING * spacing;
     let origin = samples.len() - 1;
-    let coefficients = interpolate(&mirrored(&samples, 1.0));
+    let mut coefficients = interpolate(&mirrored(&samples, 1.0));
+    (spacing, coefficients.split_off(origin))
+}
+
+/// The bells on the whole lattice, the coefficients given for its points ≥ 0.
+pub(crate) fn gaussians_of(spacing: f64, coefficients: &[f64]) -> Vec<Gaussian> {
+    let width = WIDTH_PER_SPACING * spacing;
     let term = |i: usize, sign: f64| {
         #[expect(clippy::cast_precision_loss, reason = "i < 1e4")]
         let center = sign * i as f64 * spacing;
-        Gaussian { amplitude: coefficients[origin + i], center, width }
+        Gaussian { amplitude: coefficients[i], center, width }
     };
     let mut terms = vec![term(0, 1.0)];
-    terms.extend((1..samples.len()).flat_map(|i| [term(i, -1.0), term(i, 1.0)]));
-    Ok(terms)
+    terms.extend((1..coefficients.len()).flat_map(|i| [term(i, -1.0), term(i, 1.0)]));
+    terms
 }
 
 /// v on x ≥ 0 continued to x < 0 as an even (`sign` 1) or odd (-1) function.
@@ -41,18 +53,10 @@ fn mirrored(v: &[f64], sign: f64) -> Vec<f64> {
 
 fn validate(x: &[f64], f: &[f64]) -> Result<(), TipFunctionError> {
     let found = x.len().min(f.len());
-    if !(MIN_ROWS..=MAX_ROWS).contains(&found) {
-        return Err(TipFunctionError::TableLength { found, min: MIN_ROWS, max: MAX_ROWS });
-    }
     if let Some(i) = (0..found).find(|&i| !(x[i].is_finite() && f[i].is_finite())) {
         return Err(TipFunctionError::TableNotFinite { row: i + 1 });
     }
-    if let Some(i) = (1..found).find(|&i| x[i] <= x[i - 1]) {
-        return Err(TipFunctionError::TableUnsorted { row: i + 1, x: x[i] });
-    }
-    if x[0].abs() > 1e-9 * x[found - 1] {
-        return Err(TipFunctionError::TableStart(x[0]));
-    }
+    validate_axis(&x[..found])?;
     let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if largest <= 0.0 {
         return Err(TipFunctionError::Zero);
@@ -60,6 +64,21 @@ fn validate(x: &[f64], f: &[f64]) -> Result<(), TipFunctionError> {
     let ratio = f[found - 1].abs() / largest;
     if ratio > MAX_LAST_RATIO {
         return Err(TipFunctionError::TableDecay { ratio, most: MAX_LAST_RATIO });
+    }
+    Ok(())
+}
+
+/// Finite x must be neither few nor many, increase, and start at 0.
+pub(crate) fn validate_axis(x: &[f64]) -> Result<(), TipFunctionError> {
+    let found = x.len();
+    if !(MIN_ROWS..=MAX_ROWS).contains(&found) {
+        return Err(TipFunctionError::TableLength { found, min: MIN_ROWS, max: MAX_ROWS });
+    }
+    if let Some(i) = (1..found).find(|&i| x[i] <= x[i - 1]) {
+        return Err(TipFunctionError::TableUnsorted { row: i + 1, x: x[i] });
+    }
+    if x[0].abs() > 1e-9 * x[found - 1] {
+        return Err(TipFunctionError::TableStart(x[0]));
     }
     Ok(())
 }

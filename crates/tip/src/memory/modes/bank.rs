@@ -51,7 +51,7 @@ impl Bank {
             }
         };
         let groups = terms.chunks(LANES).map(group).collect();
-        Self { groups, lengths: expansion_lengths(terms, fit.certificate().slope) }
+        Self { groups, lengths: expansion_lengths(terms, fit.wanted()) }
     }
 
     /// Nothing remembered any more.
@@ -176,7 +176,7 @@ impl LocalGroove {
     }
 }
 
-/// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the error of
+/// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the accuracy of
 /// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
 fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
     let share = SHARE_OF_EXPANSION * error / terms.len() as f64;

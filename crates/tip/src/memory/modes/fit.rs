@@ -5,7 +5,7 @@ use super::pencil::Pencil;
 use super::weights::weights;
 use crate::TipFunction;
 use num_complex::Complex;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
@@ -23,6 +23,7 @@ pub struct Term {
 pub struct Fit {
     terms: Vec<Term>,
     retreat: f64,
+    wanted: f64,
     certificate: Certificate,
 }
 
@@ -49,14 +50,22 @@ pub enum FitError {
     },
 }
 
-/// Windows of samples for the pencil, their number and their length over reach and retreat, from the accuracy
-/// wanted on. Few, within reach, are soonest done and resolve three smooth lobes; where the accuracy nears
-/// round-off, the window must extend into what is zero, or the slowest term is left free to end there.
-const WINDOWS: [(usize, f64, f64); 3] = [(96, 1.0, 1e-10), (128, 1.25, 2e-12), (192, 1.4, 2e-12)];
-/// Lattices of exponents for what is left, the period over reach and retreat and the damping over it.
-const LATTICES: [(f64, f64); 3] = [(1.6, 30.0), (2.0, 36.0), (2.4, 36.0)];
+/// Samples of the pencil over reach and retreat: they resolve three smooth lobes.
+const SAMPLES: (usize, f64) = (96, 1.0);
+/// And where no lattice is fine enough: more of them, extended into what is zero, or the slowest term is left
+/// free to end there.
+const MORE_SAMPLES: (usize, f64) = (192, 1.4);
+/// Below this accuracy the pencil's terms cancel so much that a lattice does better, sooner found too.
+const FINEST_OF_PENCIL: f64 = 5e-11;
+/// Lattices of exponents for what is left: the period over reach and retreat.
+const PERIODS: [f64; 4] = [1.3, 1.6, 2.0, 2.4];
+/// What the images of f' and the waves left out may amount to, over the accuracy wanted.
+const SHARE_OF_LATTICE: f64 = 0.1;
 /// A lattice with more exponents would cost more than `fft` does.
 const MOST_PAIRS: usize = 64;
+/// Terms that cancel lose digits: at most this share of the accuracy, or expansions would be short.
+const SHARE_OF_ROUND_OFF: f64 = 0.03;
+const LEAST_ROUND_OFF: f64 = 2e-15;
 /// Least squares uses so many times the samples of the pencil.
 const FINER: usize = 2;
 /// The pencil is given up beyond this many terms (pairs count twice).
@@ -73,29 +82,26 @@ impl Fit {
     pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         let retreat = retreat(tip, reach);
+        let window = Window { reach, retreat };
+        let pencil = |samples, reached: &mut f64| by_pencil(tip, &window, samples, wanted, reached);
         let mut reached = f64::INFINITY;
-        for (samples, length, _) in WINDOWS.into_iter().filter(|(.., finest)| wanted >= *finest) {
-            let end = length * (reach + retreat) - retreat;
-            let window = Window { reach, retreat, end, samples };
-            if let Some(fit) = by_pencil(tip, &window, wanted, &mut reached) {
-                return Ok(fit);
-            }
+        if wanted >= FINEST_OF_PENCIL
+            && let Some(fit) = pencil(SAMPLES, &mut reached)
+        {
+            return Ok(fit);
         }
-        for lattice in LATTICES {
-            let Some(fit) = damped_fourier(tip, (reach, retreat), lattice) else { continue };
-            if fit.meets(wanted) {
+        let mut lattices = false;
+        for period in PERIODS {
+            let Some(fit) = damped_fourier(tip, &window, period, wanted) else { continue };
+            if fit.meets() {
                 return Ok(fit);
             }
             reached = reached.min(fit.certificate.slope);
+            lattices = true;
         }
-        if reached.is_infinite() {
-            // No lattice is fine enough: what can be had is what the pencil gives.
-            let (samples, length, _) = WINDOWS[WINDOWS.len() - 1];
-            let end = length * (reach + retreat) - retreat;
-            let window = Window { reach, retreat, end, samples };
-            if let Some(fit) = by_pencil(tip, &window, wanted, &mut reached) {
-                return Ok(fit);
-            }
+        // Where no lattice is fine enough, what can be had is what the pencil gives.
+        if !lattices && let Some(fit) = pencil(MORE_SAMPLES, &mut reached) {
+            return Ok(fit);
         }
         Err(FitError::NotMet { wanted, reached })
     }
@@ -138,13 +144,19 @@ impl Fit {
         }
         let retreat = retreat(tip, reach);
         let certificate = certify(tip, reach, retreat, &terms);
-        Ok(Self { terms, retreat, certificate })
+        Ok(Self { terms, retreat, wanted: certificate.slope, certificate })
     }
 
     /// The terms.
     #[must_use]
     pub fn terms(&self) -> &[Term] {
         &self.terms
+    }
+
+    /// The accuracy that it was made for, its own error where the terms were given.
+    #[must_use]
+    pub fn wanted(&self) -> f64 {
+        self.wanted
     }
 
     /// δ, how far behind the farthest point remembered the sum still holds.
@@ -170,22 +182,28 @@ impl Fit {
 
     /// Whether f' is as near as wanted, and the error not all of one sign: its area, over two widths or four
     /// δ, is no larger.
-    fn meets(&self, wanted: f64) -> bool {
-        self.certificate.slope <= wanted && self.certificate.area <= 4.0 * self.retreat * wanted
+    fn meets(&self) -> bool {
+        let wanted = self.wanted;
+        let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(t.weight.norm()));
+        self.certificate.slope <= wanted
+            && self.certificate.area <= 4.0 * self.retreat * wanted
+            && f64::EPSILON * largest <= (SHARE_OF_ROUND_OFF * wanted).max(LEAST_ROUND_OFF)
     }
 
     /// These exponents with the weights that least squares gives them.
     fn with_exponents(
         tip: &TipFunction,
-        (reach, retreat): (f64, f64),
+        window: &Window,
         exponents: &[Complex<f64>],
         samples: &[(f64, f64)],
+        wanted: f64,
     ) -> Option<Self> {
+        let Window { reach, retreat } = *window;
         let weights = weights(exponents, samples)?;
         let term = |(s, w): (&Complex<f64>, Complex<f64>)| Term { exponent: *s, weight: w };
         let terms: Vec<Term> = exponents.iter().zip(weights).map(term).collect();
         let certificate = certify(tip, reach, retreat, &terms);
-        Some(Self { terms, retreat, certificate })
+        Some(Self { terms, retreat, wanted, certificate })
     }
 }
 
@@ -197,12 +215,10 @@ fn retreat(tip: &TipFunction, reach: f64) -> f64 {
     RETREAT * apex.max(8.7 / tip.band())
 }
 
-/// Where f' is sampled.
+/// Where f' is to be fitted, from -δ to its reach.
 struct Window {
     reach: f64,
     retreat: f64,
-    end: f64,
-    samples: usize,
 }
 
 /// (ξ, f'(ξ)) at n points from -δ to the end, denser towards -δ, where a fit is free to stray.
@@ -216,21 +232,28 @@ fn samples(tip: &TipFunction, (retreat, end): (f64, f64), n: usize) -> Vec<(f64,
 }
 
 /// The pencil with ever more terms, until one meets the accuracy or no longer gains.
-fn by_pencil(tip: &TipFunction, window: &Window, wanted: f64, reached: &mut f64) -> Option<Fit> {
-    let Window { reach, retreat, end, samples: n } = *window;
-    let spacing = (end + retreat) / (n - 1) as f64;
-    let even: Vec<f64> = (0..n).map(|i| tip.slope(i as f64 * spacing - retreat)).collect();
-    let fine = samples(tip, (retreat, end), FINER * n);
+fn by_pencil(
+    tip: &TipFunction,
+    window: &Window,
+    (count, length): (usize, f64),
+    wanted: f64,
+    reached: &mut f64,
+) -> Option<Fit> {
+    let span = length * (window.reach + window.retreat);
+    let spacing = span / (count - 1) as f64;
+    let sample = |i: usize| tip.slope(i as f64 * spacing - window.retreat);
+    let even: Vec<f64> = (0..count).map(sample).collect();
+    let fine = samples(tip, (window.retreat, span - window.retreat), FINER * count);
     let pencil = Pencil::new(&even, spacing)?;
     let most = pencil.most_terms().min(MOST_TERMS);
     let (mut best, mut misses) = (f64::INFINITY, 0);
     for p in pencil.fewest_terms(wanted)..=most {
         let exponents = pencil.exponents(p);
-        let fit = exponents.and_then(|s| Fit::with_exponents(tip, (reach, retreat), &s, &fine));
+        let fit = exponents.and_then(|s| Fit::with_exponents(tip, window, &s, &fine, wanted));
         let Some(fit) = fit else { continue };
         let error = fit.certificate.slope;
         *reached = reached.min(error);
-        if fit.meets(wanted) {
+        if fit.meets() {
             return Some(fit);
         }
         misses = if error < 0.7 * best { 0 } else { misses + 1 };
@@ -244,19 +267,31 @@ fn by_pencil(tip: &TipFunction, window: &Window, wanted: f64, reached: &mut f64)
 
 /// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
 /// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`.
-fn damped_fourier(
-    tip: &TipFunction,
-    (reach, retreat): (f64, f64),
-    (period, damping): (f64, f64),
-) -> Option<Fit> {
+fn damped_fourier(tip: &TipFunction, window: &Window, period: f64, wanted: f64) -> Option<Fit> {
+    let Window { reach, retreat } = *window;
     let period = period * (reach + retreat);
-    let (rate, lattice) = (-damping / period, TAU / period);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let pairs = (tip.band() / lattice).ceil() as usize;
+    let digits = -(SHARE_OF_LATTICE * wanted).max(f64::EPSILON * f64::EPSILON).ln();
+    let (rate, lattice) = (-digits / period, TAU / period);
+    let pairs = waves(tip, lattice, SHARE_OF_LATTICE * wanted);
     if pairs > MOST_PAIRS {
         return None;
     }
     let exponents: Vec<_> = (0..=pairs).map(|k| Complex::new(rate, k as f64 * lattice)).collect();
     let samples = samples(tip, (retreat, period - retreat), 8 * exponents.len());
-    Fit::with_exponents(tip, (reach, retreat), &exponents, &samples)
+    Fit::with_exponents(tip, window, &exponents, &samples, wanted)
+}
+
+/// How many waves of a lattice matter to f': the others, all of them beyond, amount to less than `error`.
+fn waves(tip: &TipFunction, lattice: f64, error: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let all = (tip.band() / lattice).ceil() as usize;
+    let mut beyond = 0.0;
+    for k in (1..=all).rev() {
+        let q = k as f64 * lattice;
+        beyond += lattice / PI * (q * tip.fourier(q)).abs();
+        if beyond > error {
+            return k;
+        }
+    }
+    0
 }

@@ -78,6 +78,28 @@ impl Modes {
         })
     }
 
+    /// Which the past (displacements from the tip, weights) is put into at once.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_past(
+        tip: TipFunction,
+        accuracy: f64,
+        past: &[(f64, f64)],
+    ) -> Result<Self, FitError> {
+        let mut modes = Self::new(tip, accuracy)?;
+        for &(position, weight) in past {
+            modes.past.add(position, weight);
+            modes.farthest = modes.farthest.max(position);
+        }
+        if modes.farthest > SHARE_OF_RETREAT * modes.fit.retreat() {
+            modes.hand_over();
+        } else {
+            modes.take_back();
+        }
+        Ok(modes)
+    }
+
     /// The sum in use.
     #[must_use]
     pub fn fit(&self) -> &Fit {

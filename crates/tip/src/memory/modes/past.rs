@@ -63,6 +63,14 @@ impl Past {
         self.forgot && self.position + at - self.reach < self.first as f64 * self.length
     }
 
+    /// A time spent at a displacement from the tip.
+    pub(super) fn add(&mut self, position: f64, weight: f64) {
+        if self.nodes.len() == MOST_NODES {
+            self.gather();
+        }
+        self.nodes.push((self.position + position, weight));
+    }
+
     pub(super) fn remember(&mut self, position: &Stages, weight: &Stages) {
         if self.nodes.len() + STAGES > MOST_NODES {
             self.gather();

@@ -1,0 +1,127 @@
+//! `stickslip compare`.
+
+use super::{MemoryName, ModelArguments, SamplingArguments, StartName};
+use clap::{Args, ValueEnum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum GridName {
+    /// The paper's: heights on a uniform grid, all of them advanced at every stage; order 2.
+    Uniform,
+    /// The same heights, but only those within reach of the tip are touched; order 2.
+    Windowed,
+    /// A lattice that writes and reads with narrower Gaussians: exact to round-off in space.
+    Spectral,
+    /// Samples read by a regularised sinc: exact to round-off in space, another way.
+    Sinc,
+}
+
+/// The closed equation against the full PDE on a grid: largest difference and speed.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+pub(crate) struct CompareArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Time at which both end (they start as `stickslip run` does), in Γ/k.
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) until: f64,
+
+    /// What the tip finds at the start.
+    #[arg(long, value_enum, default_value = "steady", help_heading = "Start")]
+    pub(crate) start: StartName,
+
+    /// Position of the tip at the start, in σ.
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 14.0,
+        allow_hyphen_values = true,
+        help_heading = "Start"
+    )]
+    pub(crate) start_position: f64,
+
+    /// The tip starts at X - D, so that l is D above its start value.
+    #[arg(
+        long,
+        value_name = "D",
+        default_value_t = 0.0,
+        allow_hyphen_values = true,
+        help_heading = "Start"
+    )]
+    pub(crate) kick: f64,
+
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
+    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
+    pub(crate) pulse: Vec<String>,
+
+    /// How the closed equation remembers the past.
+    #[arg(long, value_enum, default_value = "auto", help_heading = "Closed equation")]
+    pub(crate) memory: MemoryName,
+
+    /// Error of x0(t) asked of the closed equation, in σ; from 1e-13 to 1e-2.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 1e-9,
+        allow_hyphen_values = true,
+        help_heading = "Closed equation"
+    )]
+    pub(crate) tolerance: f64,
+
+    /// Which discretisation of (10), (11).
+    #[arg(long, value_enum, default_value = "spectral", help_heading = "Grid")]
+    pub(crate) grid: GridName,
+
+    /// Δx, in σ [default: the widest exact to round-off for spectral and sinc, 0.01 tip widths for
+    /// uniform and windowed; the paper has 0.001].
+    #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) spacing: Option<f64>,
+
+    /// Adaptive steps of local error E, in every unknown [default: as --tolerance].
+    #[arg(
+        long,
+        value_name = "E",
+        conflicts_with = "step",
+        allow_hyphen_values = true,
+        help_heading = "Grid"
+    )]
+    pub(crate) grid_tolerance: Option<f64>,
+
+    /// Steps of this length throughout instead; the paper has about 0.04.
+    #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) step: Option<f64>,
+
+    /// The grid goes only to this time; the speedup is that over the same span of time.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) grid_until: Option<f64>,
+
+    /// Give up once the grid is seen to need more than so many seconds.
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 600.0,
+        allow_hyphen_values = true,
+        help_heading = "Grid"
+    )]
+    pub(crate) time_limit: f64,
+
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArguments,
+
+    /// File to write: .json for all, .csv for the motion (`t,closed,grid`), .npz for motion and surface
+    /// as NumPy arrays; `-` is JSON on standard output.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+}
+
+const EXAMPLES: &str = "Examples:
+  Against the strongest grid, exact to round-off in space:
+    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
+  Against the paper's scheme at its Δx and Δt, within a window of the tip:
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
+  Against the paper's own grid, for a time unit of it:
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid uniform --spacing 0.001 --step 0.04 --grid-until 17";

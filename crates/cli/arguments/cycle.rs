@@ -1,0 +1,59 @@
+//! `stickslip cycle`.
+
+use super::ModelArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+/// How a cycle is asked for, of the commands that need one to begin with.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct CycleStart {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Start from the cycle in a document of `stickslip cycle` or from its tip, r and α where they are not
+    /// given; without it, from the oscillation born at αc or from a short run.
+    #[arg(long, value_name = "CYCLE.json", help_heading = "Start")]
+    pub(crate) from: Option<PathBuf>,
+
+    /// Largest residual that the equation of motion (18) may have at any time, in units of kσ/Γ; from
+    /// 1e-11 to 1e-4.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = stickslip_tip::cycle::DEFAULT_TOLERANCE,
+        allow_hyphen_values = true,
+        help_heading = "Accuracy"
+    )]
+    pub(crate) tolerance: f64,
+}
+
+/// The periodic motion at given α and r, and its stability, without waiting for it.
+///
+/// Solves for the motion and its period at once; unstable cycles are as good as stable ones. A Floquet
+/// multiplier says by how much a small deviation grows in a period.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct CycleArguments {
+    #[command(flatten)]
+    pub(crate) start: CycleStart,
+
+    /// Intervals of the profile, even over the period.
+    #[arg(long, value_name = "N", default_value_t = 400, help_heading = "Output")]
+    pub(crate) points: usize,
+
+    /// File to write: .json for all, .csv or .npz for the profile; `-` is JSON on standard output.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    /// Draw l(t), the tip's velocity and the ripple left behind to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  Just above onset, where a run would need thousands of time units to settle:
+    stickslip cycle --alpha-above 1e-4 --r 1
+  Stick-slip with slips at 37 r, drawn:
+    stickslip cycle --tip gaussian --alpha 2.6 --r 1 -o cycle.json --plot cycle.svg
+  The same a little further on:
+    stickslip cycle --from cycle.json --alpha 2.61 -o next.json";

@@ -1,0 +1,52 @@
+//! `stickslip figures`.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// What can be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FigureName {
+    /// Surfaces below and above onset, and the velocity of the tip.
+    Fig1,
+    /// Squared amplitudes against α - αc.
+    Fig2,
+    /// Wavelength against α - αc.
+    Fig3,
+    /// Surface and initial surface of the Gaussian tip.
+    Fig4,
+    /// Squared amplitudes against r - rc.
+    Fig5,
+    /// The stability boundary.
+    Fig6,
+    /// The surface in three dimensions.
+    Fig7,
+    /// The extremes of l against α, with the period doublings.
+    Bifurcation,
+    /// Criticality along the boundary.
+    Criticality,
+    /// u over position and time.
+    Kymograph,
+    /// The paper's numbers beside ours.
+    Reproduction,
+}
+
+/// Redraw the paper's figures, and table its numbers beside ours.
+///
+/// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json hold the
+/// printed numbers, ours, and what explains each difference. The figures for β = 0 use exp(-x²), the tip
+/// that the printed numbers belong to.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct FiguresArguments {
+    /// Folder to write to; it is made if need be, and files of the same names are replaced.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out_dir: PathBuf,
+
+    /// Make only these.
+    #[arg(long, value_enum, value_name = "NAME1,NAME2,…", value_delimiter = ',')]
+    pub(crate) only: Option<Vec<FigureName>>,
+}
+
+const EXAMPLES: &str = "Examples:
+  stickslip figures --out-dir figures
+  stickslip figures --out-dir figures --only fig6,reproduction";

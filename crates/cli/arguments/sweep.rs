@@ -1,0 +1,190 @@
+//! `stickslip sweep`.
+
+use super::TipName;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Values of a parameter: one, or N evenly from LO to HI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Range {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) points: usize,
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+        let parts: Vec<&str> = text.split(':').collect();
+        let parsed = match parts.as_slice() {
+            [value] => number(value).map(|v| Self { low: v, high: v, points: 1 }),
+            [low, high, points] => number(low).zip(number(high)).and_then(|(low, high)| {
+                let points = points.trim().parse().ok().filter(|n| *n >= 2 && low < high)?;
+                Some(Self { low, high, points })
+            }),
+            _ => None,
+        };
+        parsed.ok_or_else(|| "a number, or LO:HI:N with LO below HI and N of 2 or more".into())
+    }
+}
+
+impl Range {
+    /// The values, both ends exactly.
+    pub(crate) fn values(self) -> Vec<f64> {
+        let last = self.points - 1;
+        let step = (self.high - self.low) / last.max(1) as f64;
+        let value = |i: usize| if i == last { self.high } else { self.low + step * i as f64 };
+        (0..self.points).map(value).collect()
+    }
+}
+
+/// Part I of N of the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shard {
+    /// From 1 to `of`.
+    pub(crate) index: usize,
+    pub(crate) of: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts = text.split_once('/').and_then(|(i, n)| i.parse().ok().zip(n.parse().ok()));
+        parts
+            .filter(|(index, of)| (1..=*of).contains(index))
+            .map(|(index, of)| Self { index, of })
+            .ok_or_else(|| "I/N with I from 1 to N, such as 2/8".into())
+    }
+}
+
+/// What the tip settles into, over a grid of α, r and β.
+///
+/// Each point is found by itself, whatever the others are: below αc the steady motion, above it the stable
+/// cycle, and where none is found what a run comes to. Finished points are kept beside the output at once
+/// (FILE.partial): after an interrupt the same command goes on from there.
+#[derive(Debug, Args)]
+#[command(
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
+pub(crate) struct SweepArguments {
+    #[command(subcommand)]
+    pub(crate) then: Option<SweepThen>,
+
+    /// Footprint f(x) of the tip [default: triple-gaussian].
+    #[arg(long, value_enum, value_name = "NAME", help_heading = "Model")]
+    pub(crate) tip: Option<TipName>,
+
+    /// Side lobes of the triple Gaussian, V or LO:HI:N [default: 1].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) beta: Option<Range>,
+
+    /// Width of either Gaussian: f(x/W) [default: 1].
+    #[arg(long, value_name = "W", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) width: Option<f64>,
+
+    /// Footprint from a file, as for `stickslip run`.
+    #[arg(long, value_name = "FILE", help_heading = "Model")]
+    pub(crate) tip_file: Option<PathBuf>,
+
+    /// Support velocities, V or LO:HI:N.
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) r: Option<Range>,
+
+    /// Indentation rates, V or LO:HI:N.
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) alpha: Option<Range>,
+
+    /// Indentation rates as αc(r) + D, D as V or LO:HI:N.
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) alpha_above: Option<Range>,
+
+    /// Largest residual that the equation of motion (18) may have on a cycle, in units of kσ/Γ; from
+    /// 1e-11 to 1e-4.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = stickslip_tip::cycle::DEFAULT_TOLERANCE,
+        allow_hyphen_values = true,
+        help_heading = "Accuracy"
+    )]
+    pub(crate) tolerance: f64,
+
+    /// Points computed side by side [default: the number of cores].
+    #[arg(long, value_name = "N", help_heading = "Work")]
+    pub(crate) threads: Option<usize>,
+
+    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together.
+    #[arg(long, value_name = "I/N", help_heading = "Work")]
+    pub(crate) shard: Option<Shard>,
+
+    /// File to write: .json for all, .csv or .npz for the columns; `-` is JSON on standard output, without
+    /// a FILE.partial to go on from.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+
+    /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
+    /// .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum SweepThen {
+    Merge(MergeArguments),
+}
+
+/// Put the parts of a sweep together: byte for byte what one sweep over all points would have written.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg")]
+pub(crate) struct MergeArguments {
+    /// Documents of `stickslip sweep --shard`, in any order.
+    #[arg(value_name = "PART.json", required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+
+    /// File to write, as for `sweep`.
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    pub(crate) output: PathBuf,
+
+    /// Draw it, as for `sweep`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  The amplitude of stick-slip over α:
+    stickslip sweep --r 1 --alpha 1.07:2:100 -o amplitude.json --plot amplitude.svg
+  A phase diagram, and where steady motion ends in it:
+    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json --plot map.png
+  The same on four machines:
+    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 -o part-1.json
+    stickslip sweep merge part-1.json part-2.json part-3.json part-4.json -o map.json";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_hold_both_ends_and_nonsense_is_refused() {
+        let values = "0.1:0.4:4".parse::<Range>().unwrap().values();
+        assert_eq!(values.len(), 4);
+        assert!((values[0] - 0.1).abs() < 1e-300 && (values[3] - 0.4).abs() < 1e-300);
+        assert_eq!("-2".parse::<Range>().unwrap().values().len(), 1);
+        for bad in ["", "1:2", "1:2:1", "2:1:5", "1:2:3:4", "nan", "1:inf:3", "a:b:c"] {
+            assert!(bad.parse::<Range>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn shards_count_from_one() {
+        assert_eq!("2/8".parse(), Ok(Shard { index: 2, of: 8 }));
+        for bad in ["0/8", "9/8", "1", "1/0", "-1/2", "1/2/3"] {
+            assert!(bad.parse::<Shard>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `stickslip compare`.
+
+mod closed;
+mod grid;
+
+use super::run::parse_pulse;
+use crate::arguments::CompareArguments;
+use crate::documents::{
+    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, ModelParameters,
+    PulseParameters, Software,
+};
+use crate::failure::{Failure, Typed};
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::interrupt::Interrupt;
+use closed::Closed;
+use grid::{Discretisation, Motion};
+use stickslip_tip::{Force, Pulse, Scenario};
+
+/// Heights compared.
+const POINTS: usize = 2001;
+
+pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let asked = Asked::of(arguments)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+
+    let closed = closed::run(&asked.scenario, &interrupt)?;
+    let x = asked.positions(&closed)?;
+    let motion = grid::run(&asked, &x, &interrupt)?;
+    let document = document(arguments, &asked, &closed, motion, x)?;
+    if arguments.output != std::path::Path::new("-") {
+        eprintln!("{}", summary(&document));
+    }
+    write(&document, format, output)
+}
+
+/// The options, judged.
+struct Asked {
+    scenario: Scenario,
+    pulses: Vec<Pulse>,
+    discretisation: Discretisation,
+    /// Time at which the grid ends.
+    grid_until: f64,
+    /// Seconds that the grid may take.
+    time_limit: f64,
+}
+
+impl Asked {
+    fn of(arguments: &CompareArguments) -> Result<Self, Failure> {
+        let pulses: Vec<Pulse> =
+            arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?;
+        let force =
+            Force::new(pulses.clone(), None).map_err(|error| Failure::input("--pulse", error))?;
+        let scenario = closed::scenario(arguments, force)?;
+        let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
+        let start = scenario.start_time();
+        let grid_until = arguments.grid_until.unwrap_or(scenario.until);
+        if !(grid_until > start && grid_until <= scenario.until) {
+            return Err(Failure::input(
+                format!("--grid-until {}", Typed(grid_until)),
+                format!("must lie between the start at t = {start} and --until"),
+            ));
+        }
+        let time_limit = arguments.time_limit;
+        if time_limit.is_nan() || time_limit <= 0.0 {
+            return Err(Failure::input(
+                format!("--time-limit {}", Typed(time_limit)),
+                "must be a number of seconds above 0",
+            ));
+        }
+        Ok(Self { scenario, pulses, discretisation, grid_until, time_limit })
+    }
+
+    /// Where the surfaces are compared: all that the tip came within reach of.
+    fn positions(&self, closed: &Closed) -> Result<Vec<f64>, Failure> {
+        let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
+        let x0 = times.iter().map(|t| closed.trajectory.x0(*t));
+        let (low, high) =
+            x0.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let reach = self.discretisation.reach;
+        self.discretisation.fits(high - low + 2.0 * reach)?;
+        Ok(super::surface::evenly(low - reach, high + reach, POINTS))
+    }
+}
+
+fn document(
+    arguments: &CompareArguments,
+    asked: &Asked,
+    closed: &Closed,
+    motion: Motion,
+    x: Vec<f64>,
+) -> Result<CompareDocument, Failure> {
+    let Motion { t, grid } = motion;
+    let closed_document = closed.document(&asked.scenario, &t, asked.grid_until, &x)?;
+    let spans = [asked.grid_until, asked.scenario.until].map(|t| t - asked.scenario.start_time());
+    let rates = [grid.work.seconds / spans[0], closed_document.work.seconds / spans[1]];
+    let max_difference = DifferenceDocument {
+        x0: largest_difference(&closed_document.x0, &grid.x0),
+        u: largest_difference(&closed_document.u, &grid.u),
+    };
+    if !(max_difference.x0.is_finite() && max_difference.u.is_finite()) {
+        let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
+        return Err(Failure::Run(advice.into()));
+    }
+    Ok(CompareDocument {
+        format: CompareDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: parameters(arguments, asked),
+        t,
+        x,
+        closed: closed_document,
+        grid,
+        max_difference,
+        speedup: rates[0] / rates[1],
+    })
+}
+
+/// NaN where either is.
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
+}
+
+fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
+    let pulse =
+        |p: &Pulse| PulseParameters { amplitude: p.amplitude, time: p.time, width: p.width };
+    CompareParameters {
+        model: ModelParameters::of(&asked.scenario.model, arguments.model.alpha_above),
+        start: arguments.start,
+        start_position: arguments.start_position,
+        kick: arguments.kick,
+        pulses: asked.pulses.iter().map(pulse).collect(),
+        until: arguments.until,
+        tolerance: arguments.tolerance,
+        memory: arguments.memory,
+        grid: arguments.grid,
+        spacing: asked.discretisation.spacing,
+        grid_tolerance: asked.discretisation.tolerance(),
+        step: arguments.step,
+        grid_until: asked.grid_until,
+    }
+}
+
+fn write(document: &CompareDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
+    let CompareDocument { t, x, closed, grid, .. } = document;
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => output.write_csv("t,closed,grid", &[t, &closed.x0, &grid.x0]),
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("t", t)?;
+            npz.vector("x", x)?;
+            npz.vector("closed_x0", &closed.x0)?;
+            npz.vector("closed_u", &closed.u)?;
+            npz.vector("grid_x0", &grid.x0)?;
+            npz.vector("grid_u", &grid.u)?;
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+/// One line for a person who sent the document to a file.
+fn summary(document: &CompareDocument) -> String {
+    let CompareDocument { closed, grid, max_difference, speedup, .. } = document;
+    format!(
+        "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
+         {speedup:.3} times as fast",
+        max_difference.x0,
+        max_difference.u,
+        1e3 * closed.work.seconds,
+        1e3 * grid.work.seconds,
+    )
+}

@@ -1,0 +1,265 @@
+//! The grid's side of a comparison.
+
+use super::Asked;
+use crate::arguments::{CompareArguments, GridName};
+use crate::commands::progress::Progress;
+use crate::documents::{GridDocument, GridWork};
+use crate::failure::{Failure, Typed};
+use crate::interrupt::Interrupt;
+use std::ops::ControlFlow;
+use std::time::Instant;
+use stickslip_grid::{
+    Footprint, Gaussian, GridError, Method, Problem, Request, Run, Start, Stepping, solve_observed,
+};
+use stickslip_tip::{Scenario, TipFunction};
+
+/// π/8.7 widths: the widest lattice that is exact to round-off.
+const EXACT: f64 = std::f64::consts::PI / 8.7;
+/// Of the second-order grids, in widths.
+const SECOND_ORDER: f64 = 0.01;
+/// Cells on either side that a sinc reaches over, for round-off.
+const SINC_HALF_WIDTH: usize = 80;
+/// Eight vectors of these are 1.3 GB.
+const MOST_CELLS: f64 = 2e7;
+/// Seconds after which the rest is extrapolated from what was done, and no repetition is made.
+const PATIENCE: f64 = 0.5;
+/// At most twice as many samples are kept.
+const SAMPLES: usize = 2048;
+
+/// A way to discretise, judged.
+pub(super) struct Discretisation {
+    name: GridName,
+    gaussians: Vec<Gaussian>,
+    pub(super) reach: f64,
+    pub(super) spacing: f64,
+    smallest_width: f64,
+    stepping: Stepping,
+}
+
+impl Discretisation {
+    pub(super) fn of(arguments: &CompareArguments, tip: &TipFunction) -> Result<Self, Failure> {
+        let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
+            let message = "never fades, and a grid counts f as 0 beyond a reach: compare with a tip \
+                           that does, such as triple-gaussian";
+            return Err(Failure::input("--tip bessel", message));
+        };
+        let name = arguments.grid;
+        let gaussians: Vec<Gaussian> = sum
+            .terms()
+            .iter()
+            .map(|g| Gaussian { amplitude: g.amplitude, centre: g.center, width: g.width })
+            .collect();
+        let smallest_width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
+        let spacing = arguments.spacing.unwrap_or(match name {
+            GridName::Uniform | GridName::Windowed => SECOND_ORDER * smallest_width,
+            GridName::Spectral => EXACT * smallest_width,
+            GridName::Sinc => std::f64::consts::PI / tip.band(),
+        });
+        if !(spacing > 0.0 && spacing <= smallest_width) {
+            return Err(Failure::input(
+                format!("--spacing {}", Typed(spacing)),
+                format!("must be above 0, and at most the width of the tip, {smallest_width}"),
+            ));
+        }
+        let stepping = stepping(arguments)?;
+        Ok(Self { name, gaussians, reach, spacing, smallest_width, stepping })
+    }
+
+    /// Judges the number of cells over a length of way.
+    pub(super) fn fits(&self, length: f64) -> Result<(), Failure> {
+        let cells = length / self.spacing;
+        if cells <= MOST_CELLS {
+            return Ok(());
+        }
+        Err(Failure::input(
+            format!("--spacing {}", Typed(self.spacing)),
+            format!(
+                "would make {cells:.1e} cells, more than fit in memory; {:.1e} or above will do, or a \
+                 smaller --grid-until",
+                length / MOST_CELLS
+            ),
+        ))
+    }
+
+    /// Local error allowed, where steps are adaptive.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        Some(self.stepping.atol).filter(|atol| atol.is_finite())
+    }
+
+    fn method(&self, (from, to): (f64, f64)) -> Method {
+        let spacing = self.spacing;
+        match self.name {
+            GridName::Uniform => Method::Uniform { spacing, from, to },
+            GridName::Windowed => Method::Windowed { spacing },
+            GridName::Spectral => Method::Spectral {
+                gaussians: self.gaussians.clone(),
+                spacing: spacing / self.smallest_width,
+            },
+            GridName::Sinc => Method::Sinc { spacing, half_width: SINC_HALF_WIDTH },
+        }
+    }
+}
+
+fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
+    let above_0 = |option: &str, value: f64| {
+        let named = format!("{option} {}", Typed(value));
+        let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);
+        judged.ok_or_else(|| Failure::input(named, "must be a finite number above 0"))
+    };
+    match (arguments.step, arguments.grid_tolerance) {
+        (Some(step), _) => Ok(Stepping::fixed(above_0("--step", step)?)),
+        (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
+        (None, None) => Ok(Stepping::absolute(arguments.tolerance)),
+    }
+}
+
+/// The motion at the ends of its own steps, and the surface at its end.
+pub(super) struct Motion {
+    pub(super) t: Vec<f64>,
+    pub(super) grid: GridDocument,
+}
+
+/// Runs the grid from the scenario's start, over the domain that `x` spans.
+pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Motion, Failure> {
+    let Asked { scenario, discretisation, grid_until, .. } = asked;
+    let model = &scenario.model;
+    let f = |x: f64| model.tip().value(x);
+    let force = |t: f64| scenario.force.value(t);
+    let method = discretisation.method((x[0], x[x.len() - 1]));
+    let request = Request { times: &[*grid_until], points: x };
+    let explain = |error| explain(asked, error);
+    let footprint = Footprint::new(&f, discretisation.reach).map_err(explain)?;
+    let problem = Problem::new(model.alpha(), model.r(), footprint, start(scenario, footprint))
+        .map_err(explain)?
+        .with_force(&force);
+
+    let once = || -> Result<(Run, Samples, f64), Failure> {
+        let mut watch = Watch::new(asked, interrupt);
+        let run =
+            solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
+                watch.step(t, x0)
+            });
+        let seconds = watch.clock.elapsed().as_secs_f64();
+        match watch.failure {
+            Some(failure) => Err(failure),
+            None => Ok((run.map_err(explain)?, watch.samples, seconds)),
+        }
+    };
+    let (run, samples, mut seconds) = once()?;
+    let mut spent = seconds;
+    while spent < PATIENCE {
+        let again = once()?.2;
+        spent += again;
+        seconds = seconds.min(again);
+    }
+    let work = GridWork {
+        steps: run.work.steps,
+        rejected: run.work.rejected,
+        right_hand_sides: run.work.right_hand_sides,
+        cells_updated: run.work.cells_updated,
+        seconds,
+    };
+    Ok(Motion { t: samples.t, grid: GridDocument { x0: samples.x0, u: run.u, work } })
+}
+
+fn start<'a>(scenario: &Scenario, footprint: Footprint<'a>) -> Start<'a> {
+    let (position, kick) = (scenario.start_position, scenario.kick);
+    let (alpha, r) = (scenario.model.alpha(), scenario.model.r());
+    match scenario.start {
+        stickslip_tip::Start::Steady => Start::steady(alpha, r, footprint, position, kick),
+        stickslip_tip::Start::Flat => {
+            Start::new(scenario.start_time(), position - kick, |_| 0.0, |_| 0.0)
+        }
+    }
+}
+
+/// Looks at every step: keeps samples, shows progress, and stops what would take too long.
+struct Watch<'a> {
+    asked: &'a Asked,
+    interrupt: &'a Interrupt,
+    progress: Progress,
+    clock: Instant,
+    samples: Samples,
+    failure: Option<Failure>,
+}
+
+impl<'a> Watch<'a> {
+    fn new(asked: &'a Asked, interrupt: &'a Interrupt) -> Self {
+        let progress = Progress::new(asked.scenario.start_time(), asked.grid_until).at_every_call();
+        let (clock, samples) = (Instant::now(), Samples::default());
+        Self { asked, interrupt, progress, clock, samples, failure: None }
+    }
+
+    fn step(&mut self, t: f64, x0: f64) -> ControlFlow<()> {
+        self.samples.take(t, x0);
+        self.progress.reached(t);
+        self.failure = match self.interrupt.signal() {
+            Some(signal) => Some(Failure::Stopped(signal)),
+            None => self.too_slow(t),
+        };
+        if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// A refusal, where the rest at the pace so far goes beyond the limit.
+    fn too_slow(&self, t: f64) -> Option<Failure> {
+        let (start, end) = (self.asked.scenario.start_time(), self.asked.grid_until);
+        let (seconds, limit) = (self.clock.elapsed().as_secs_f64(), self.asked.time_limit);
+        let needed = seconds * (end - start) / (t - start);
+        if seconds < PATIENCE.min(limit) || needed <= limit {
+            return None;
+        }
+        let affordable = start + 0.5 * limit * (t - start) / seconds;
+        Some(Failure::input(
+            format!("--time-limit {}", Typed(limit)),
+            format!(
+                "the grid would take about {needed:.0} s: --grid-until {affordable:.2} will do within \
+                 the limit, or a wider --spacing, or a higher limit"
+            ),
+        ))
+    }
+}
+
+/// The motion at every 2^n-th step, thinned as it grows.
+struct Samples {
+    t: Vec<f64>,
+    x0: Vec<f64>,
+    every: usize,
+    seen: usize,
+}
+
+impl Default for Samples {
+    fn default() -> Self {
+        Self { t: vec![], x0: vec![], every: 1, seen: 0 }
+    }
+}
+
+impl Samples {
+    fn take(&mut self, t: f64, x0: f64) {
+        self.seen += 1;
+        if !self.seen.is_multiple_of(self.every) {
+            return;
+        }
+        self.t.push(t);
+        self.x0.push(x0);
+        if self.t.len() == 2 * SAMPLES {
+            let second = |column: &[f64]| column.iter().skip(1).step_by(2).copied().collect();
+            (self.t, self.x0) = (second(&self.t), second(&self.x0));
+            self.every *= 2;
+        }
+    }
+}
+
+/// Names the option that an error of the grid is about.
+fn explain(asked: &Asked, error: GridError) -> Failure {
+    match error {
+        GridError::Defect { .. } => {
+            Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)
+        }
+        GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
+            let advice = "a smaller --step, a larger --grid-tolerance or an earlier --grid-until may do: \
+                          a deep groove is stiff, and the grids are explicit";
+            Failure::Run(format!("grid: {error}; {advice}"))
+        }
+        error => Failure::Run(format!("grid: {error}")),
+    }
+}

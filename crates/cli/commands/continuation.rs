@@ -1,0 +1,283 @@
+//! `stickslip continue`.
+
+mod document;
+
+use super::cycle::start::{Start, explain};
+use super::figure::Figure;
+use super::model::tip;
+use super::progress::Progress;
+use crate::arguments::{ContinueArguments, OverName};
+use crate::documents::{ContinueDocument, CycleBranch, SpecialDocument, SpecialName};
+use crate::failure::{Failure, Typed};
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::interrupt::Interrupt;
+use crate::plot;
+use std::ops::ControlFlow;
+use stickslip_tip::TipFunction;
+use stickslip_tip::cycle::{
+    Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind,
+};
+use stickslip_tip::stability::trapping_alpha;
+
+/// Branches of twice the period, of four times and so on: a cascade has no end.
+const MOST_BRANCHES: usize = 12;
+/// Period doublings nearer to each other than this, relatively, are one.
+const SAME: f64 = 1e-6;
+
+pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let settings = settings(arguments)?;
+    let origin = Origin::asked(arguments)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let branches = branches(arguments, &settings, &origin, &interrupt)?;
+    let signal = interrupt.signal();
+    let document = document::of(arguments, &origin, &branches, signal.is_some());
+    if let Some(figure) = figure {
+        figure.write(&draw(&document))?;
+    }
+    write(&document, format, output)?;
+    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+}
+
+/// What the first branch begins with.
+enum Origin {
+    Cycle(Start),
+    /// Onset at this value of what does not vary.
+    Onset {
+        tip: TipFunction,
+        other: f64,
+    },
+}
+
+impl Origin {
+    fn asked(arguments: &ContinueArguments) -> Result<Self, Failure> {
+        let asked = &arguments.start.model;
+        let alpha = asked.alpha.is_some() || asked.alpha_above.is_some();
+        let (varies, other) = match arguments.over {
+            OverName::Alpha => (alpha, asked.r),
+            OverName::R => (asked.r.is_some(), asked.alpha),
+        };
+        if varies || arguments.start.from.is_some() {
+            return Start::asked(&arguments.start).map(Self::Cycle);
+        }
+        Start::judge_tolerance(&arguments.start)?;
+        let missing = match arguments.over {
+            OverName::Alpha => Failure::input("--r", "missing: give --r R, at which α is to vary"),
+            OverName::R => {
+                Failure::input("--alpha", "missing: give --alpha A, at which r is to vary")
+            }
+        };
+        Ok(Self::Onset { tip: tip(&asked.tip)?, other: other.ok_or(missing)? })
+    }
+
+    fn tip(&self) -> &TipFunction {
+        match self {
+            Self::Cycle(start) => start.model().tip(),
+            Self::Onset { tip, .. } => tip,
+        }
+    }
+}
+
+fn settings(arguments: &ContinueArguments) -> Result<Continuation, Failure> {
+    let positive = |option: &str, value: f64| {
+        if value.is_finite() && value > 0.0 {
+            return Ok(value);
+        }
+        Err(Failure::input(format!("{option} {}", Typed(value)), "must be a finite number above 0"))
+    };
+    let over = match arguments.over {
+        OverName::Alpha => Parameter::Alpha,
+        OverName::R => Parameter::R,
+    };
+    let nowhere = match over {
+        Parameter::Alpha => f64::INFINITY,
+        Parameter::R => 0.0,
+    };
+    if arguments.most_points == 0 {
+        return Err(Failure::input("--most-points 0", "1 or more will do"));
+    }
+    Ok(Continuation {
+        over,
+        to: arguments.to.map_or(Ok(nowhere), |to| positive("--to", to))?,
+        tolerance: arguments.start.tolerance,
+        longest_period: positive("--longest-period", arguments.longest_period)?,
+        longest_step: positive("--longest-step", arguments.longest_step)?,
+        most_points: arguments.most_points,
+    })
+}
+
+/// A branch, and the special point of another (branch, place in its list) that it began at.
+struct Found {
+    branch: Branch,
+    from: Option<(usize, usize)>,
+}
+
+fn branches(
+    arguments: &ContinueArguments,
+    settings: &Continuation,
+    origin: &Origin,
+    interrupt: &Interrupt,
+) -> Result<Vec<Found>, Failure> {
+    let mut progress = None;
+    let end = progress_end(settings, origin);
+    let mut observe = |cycle: &Cycle| {
+        let at = parameter(cycle, settings.over);
+        progress.get_or_insert_with(|| Progress::new(at, end).at_every_call()).reached(at);
+        if interrupt.signal().is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let first = match origin {
+        Origin::Cycle(start) => settings.from_cycle(&start.solve()?, &mut observe),
+        Origin::Onset { tip, other } => settings.from_onset(tip, *other, &mut observe),
+    };
+    let first = first.map_err(|error| explain_onset(&error, arguments))?;
+    let mut found = vec![Found { branch: first, from: None }];
+    let mut next = 0;
+    while arguments.switch && next < found.len() && interrupt.signal().is_none() {
+        for i in 0..found[next].branch.special.len() {
+            let special = &found[next].branch.special[i];
+            let known = special.kind != SpecialKind::PeriodDoubling || is_end_of(special, &found);
+            if known || found.len() >= MOST_BRANCHES {
+                continue;
+            }
+            let branch = settings.switched(special, &mut observe).map_err(|e| explain(&e))?;
+            found.push(Found { branch, from: Some((next, i)) });
+        }
+        next += 1;
+    }
+    Ok(found)
+}
+
+/// Whether a branch that was followed already has come back there.
+fn is_end_of(doubling: &Special, found: &[Found]) -> bool {
+    let special = found.iter().flat_map(|f| &f.branch.special);
+    special.filter(|s| s.kind == SpecialKind::PeriodHalving).any(|s| {
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME * b;
+        near(s.alpha, doubling.alpha) && near(s.r, doubling.r) && near(s.period, doubling.period)
+    })
+}
+
+fn parameter(cycle: &Cycle, over: Parameter) -> f64 {
+    match over {
+        Parameter::Alpha => cycle.model().alpha(),
+        Parameter::R => cycle.model().r(),
+    }
+}
+
+/// Where the branch is expected to end.
+fn progress_end(settings: &Continuation, origin: &Origin) -> f64 {
+    let r = match origin {
+        Origin::Cycle(start) => start.model().r(),
+        Origin::Onset { other, .. } => *other,
+    };
+    if settings.to.is_finite() {
+        settings.to
+    } else {
+        trapping_alpha(origin.tip(), r).unwrap_or(1.0)
+    }
+}
+
+fn explain_onset(error: &CycleError, arguments: &ContinueArguments) -> Failure {
+    match (error, arguments.over) {
+        (CycleError::Stability(error), OverName::Alpha) => {
+            let r = arguments.start.model.r.unwrap_or_default();
+            Failure::input(format!("--r {}", Typed(r)), error)
+        }
+        (CycleError::Stability(error), OverName::R) => {
+            let alpha = arguments.start.model.alpha.unwrap_or_default();
+            Failure::input(format!("--alpha {}", Typed(alpha)), error)
+        }
+        _ => explain(error),
+    }
+}
+
+fn write(document: &ContinueDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
+    let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Vec<f64> {
+        document.branches.iter().flat_map(of).copied().collect()
+    };
+    let flags = document.branches.iter().flat_map(|b| &b.stable).map(|s| f64::from(u8::from(*s)));
+    let numbers = document.branches.iter().enumerate();
+    let columns = [
+        ("branch", numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect()),
+        ("alpha", joined(|b| &b.alpha)),
+        ("r", joined(|b| &b.r)),
+        ("period", joined(|b| &b.period)),
+        ("amplitude_x0", joined(|b| &b.amplitude_x0)),
+        ("amplitude_u", joined(|b| &b.amplitude_u)),
+        ("stable", flags.collect()),
+        ("multiplier_re", joined(|b| &b.multiplier_re)),
+        ("multiplier_im", joined(|b| &b.multiplier_im)),
+    ];
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => {
+            let headings = columns.each_ref().map(|(name, _)| *name).join(",");
+            output.write_csv(
+                &headings,
+                &columns.each_ref().map(|(_, c): &(_, Vec<f64>)| c.as_slice()),
+            )
+        }
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            for (name, column) in &columns {
+                npz.vector(name, column)?;
+            }
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+fn draw(document: &ContinueDocument) -> String {
+    let model = &document.parameters.model;
+    let over_alpha = document.parameters.over == OverName::Alpha;
+    let (title, label) = if over_alpha {
+        (format!("Cycles at r = {}", model.r), "α = ΓNa/(k²σ²)")
+    } else {
+        (format!("Cycles at α = {:.6}", model.alpha), "r = Γv₀/(kσ)")
+    };
+    let parameter = |b: &CycleBranch| if over_alpha { b.alpha.clone() } else { b.r.clone() };
+    let columns: Vec<Vec<f64>> = document.branches.iter().map(parameter).collect();
+    let branch = |(b, x): (&'_ CycleBranch, &'_ Vec<f64>)| plot::BranchCurve {
+        parameter: x.clone(),
+        amplitude: b.amplitude_x0.clone(),
+        period: b.period.clone(),
+        stable: b.stable.clone(),
+    };
+    let special = |s: &SpecialDocument| plot::SpecialMark {
+        parameter: if over_alpha { s.alpha } else { s.r },
+        amplitude: s.amplitude_x0,
+        period: s.period,
+        name: name(s.kind),
+    };
+    plot::bifurcations(&plot::BifurcationFigure {
+        title: &title,
+        label,
+        branches: document.branches.iter().zip(&columns).map(branch).collect(),
+        // A doubled branch ends where the mark of the doubling is already.
+        special: document
+            .special
+            .iter()
+            .filter(|s| s.kind != SpecialName::PeriodHalving)
+            .map(special)
+            .collect(),
+    })
+}
+
+fn name(kind: SpecialName) -> &'static str {
+    match kind {
+        SpecialName::Hopf => "Hopf",
+        SpecialName::Fold => "fold",
+        SpecialName::PeriodDoubling => "period doubling",
+        SpecialName::PeriodHalving => "period halving",
+        SpecialName::BranchPoint => "branch point",
+        SpecialName::Torus => "torus",
+    }
+}

@@ -1,0 +1,128 @@
+//! `stickslip cycle`.
+
+pub(super) mod start;
+
+use super::figure::Figure;
+use super::run::document::history;
+use crate::arguments::CycleArguments;
+use crate::documents::{
+    ComplexDocument, CycleDocument, CycleParameters, CycleProfile, CycleWork, FORMAT_VERSION,
+    ModelParameters, Software,
+};
+use crate::failure::Failure;
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat};
+use crate::plot;
+use start::Start;
+use std::time::Instant;
+use stickslip_tip::Step;
+use stickslip_tip::cycle::Cycle;
+
+/// More do not fit in a picture, nor are they needed in a table.
+const MOST_POINTS: usize = 1_000_000;
+/// Points of the drawn surface.
+const DRAWN_POINTS: usize = 1000;
+/// Wavelengths of it.
+const DRAWN_WAVELENGTHS: f64 = 2.0;
+
+pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
+    let format = OutputFormat::of(&arguments.output)?;
+    let start = Start::asked(&arguments.start)?;
+    if !(1..=MOST_POINTS).contains(&arguments.points) {
+        let option = format!("--points {}", arguments.points);
+        return Err(Failure::input(option, format!("1 to {MOST_POINTS} will do")));
+    }
+    let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+
+    let started = Instant::now();
+    let cycle = start.solve()?;
+    let document = document(arguments, &cycle, started.elapsed().as_secs_f64());
+    if let Some(figure) = figure {
+        figure.write(&draw(&document, &cycle))?;
+    }
+    write(&document, format, output)
+}
+
+fn document(arguments: &CycleArguments, cycle: &Cycle, seconds: f64) -> CycleDocument {
+    let distances = cycle.multipliers().iter().map(|m| (m - 1.0).norm());
+    CycleDocument {
+        format: CycleDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: CycleParameters {
+            model: ModelParameters::of(cycle.model(), arguments.start.model.alpha_above),
+            tolerance: arguments.start.tolerance,
+        },
+        period: cycle.period(),
+        wavelength: cycle.wavelength(),
+        amplitude_x0: cycle.amplitude_x0(),
+        amplitude_u: cycle.amplitude_u(),
+        slips: cycle.slips(),
+        profile: profile(cycle, arguments.points),
+        floquet: cycle
+            .multipliers()
+            .iter()
+            .map(|m| ComplexDocument { re: m.re, im: m.im })
+            .collect(),
+        floquet_error: distances.fold(1.0, f64::min),
+        stable: cycle.is_stable(),
+        residual: cycle.residual(),
+        history: history(cycle.motion()),
+        work: CycleWork { steps: cycle.steps(), newton_iterations: cycle.iterations(), seconds },
+    }
+}
+
+fn profile(cycle: &Cycle, points: usize) -> CycleProfile {
+    let at = |i: usize| cycle.period() * i as f64 / points as f64;
+    let t: Vec<f64> = (0..=points).map(at).collect();
+    let motion = cycle.motion();
+    CycleProfile {
+        l: t.iter().map(|t| motion.l(*t)).collect(),
+        velocity: t.iter().map(|t| motion.velocity(*t)).collect(),
+        t,
+    }
+}
+
+fn write(document: &CycleDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
+    let CycleProfile { t, l, velocity } = &document.profile;
+    match format {
+        OutputFormat::Json => output.write_json(document),
+        OutputFormat::Csv => output.write_csv("t,l,velocity", &[t, l, velocity]),
+        OutputFormat::Npz => {
+            let mut npz = Npz::new();
+            npz.vector("t", t)?;
+            npz.vector("l", l)?;
+            npz.vector("velocity", velocity)?;
+            output.write_bytes(&npz.bytes()?)
+        }
+    }
+}
+
+fn draw(document: &CycleDocument, cycle: &Cycle) -> String {
+    let model = cycle.model();
+    let stable = if document.stable { "stable" } else { "unstable" };
+    let title = format!(
+        "α = {:.6}, r = {}: {stable} cycle, T = {:.6}",
+        model.alpha(),
+        model.r(),
+        document.period
+    );
+    let length = DRAWN_WAVELENGTHS * document.wavelength;
+    let x: Vec<f64> = (0..=DRAWN_POINTS).map(|i| length * i as f64 / DRAWN_POINTS as f64).collect();
+    // The steps are short where the motion is fast.
+    let nodes = &document.history.nodes;
+    let motion = cycle.motion();
+    let at = |step: &Step| [0.0].iter().chain(nodes).map(|c| step.t + step.h * c).collect();
+    let t: Vec<f64> = motion.steps().iter().flat_map::<Vec<f64>, _>(at).collect();
+    plot::cycle(&plot::CycleFigure {
+        title: &title,
+        l: &t.iter().map(|t| motion.l(*t)).collect::<Vec<_>>(),
+        velocity: &t.iter().map(|t| motion.velocity(*t)).collect::<Vec<_>>(),
+        t: &t,
+        steady_l: model.steady_l(),
+        r: model.r(),
+        u: &cycle.surface_behind(&x),
+        x: &x,
+    })
+}

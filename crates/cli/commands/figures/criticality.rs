@@ -1,0 +1,39 @@
+//! What is born along the boundary: a small stable oscillation above it, or none.
+
+use super::parts::{curve, figure as empty, panel, spaced};
+use super::tips::{BETA_0, beta_0, beta_1};
+use crate::documents::{FigureDocument, StyleName};
+use crate::failure::Failure;
+use stickslip_tip::stability::{Boundary, onset_at};
+
+/// log₁₀ of the r shown.
+const RANGE: (f64, f64) = (-1.5, 1.0);
+
+pub(super) fn figure() -> Result<FigureDocument, Failure> {
+    let tips = [beta_1()?, beta_0()?];
+    let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];
+    let title = "Criticality along the boundary: supercritical above 0, subcritical below";
+    let mut document = empty("criticality", title, &models);
+    document.remarks.push(BETA_0.into());
+    document.remarks.push(
+        "d ln α/d(a²), a half the peak-to-peak of x0: the excess over αc, in parts of it, for an amplitude \
+         of 1, to leading order"
+            .into(),
+    );
+    for tip in &tips {
+        let boundary = Boundary::new(&tip.function);
+        let excess = |log: f64| {
+            let at = boundary.at(10f64.powf(log)).ok()?;
+            let slope = onset_at(&tip.function, at).ok()?.amplitude_squared_slope;
+            Some((log, 1.0 / (slope * at.alpha)))
+        };
+        let found: Vec<(f64, f64)> =
+            spaced(RANGE.0, RANGE.1, 0.01).into_iter().filter_map(excess).collect();
+        let (log, excess): (Vec<f64>, Vec<f64>) = found.into_iter().unzip();
+        let mut panel = panel(tip.name, ("log₁₀ r", "d ln α/d(a²) (σ⁻²)"));
+        panel.curves.push(curve(StyleName::Dashed, "", &[RANGE.0, RANGE.1], &[0.0; 2]));
+        panel.curves.push(curve(StyleName::Line, "", &log, &excess));
+        document.panels.push(panel);
+    }
+    Ok(document)
+}

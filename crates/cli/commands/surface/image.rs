@@ -1,0 +1,139 @@
+//! Surfaces in three dimensions: which f(x,y), and its images.
+
+use super::places::Places;
+use super::{time_label, title};
+use crate::arguments::SurfaceArguments;
+use crate::documents::{AcrossParameters, SurfaceDocument, SurfaceImage};
+use crate::failure::{Failure, Typed};
+use crate::plot;
+use stickslip_surface::Surface;
+use stickslip_tip::{Footprint, Model, TipFunction};
+
+/// Images asked for, and the footprint that carves them.
+#[derive(Debug)]
+pub(super) struct Images {
+    footprint: Footprint,
+    /// Where f(x,y) = f(x)h(y).
+    width_y: Option<f64>,
+    far_behind: bool,
+    /// k'/k above which y0 = 0 is certainly stable.
+    stiffness_needed: f64,
+}
+
+impl Images {
+    /// `None` without `--y-range`.
+    pub(super) fn asked(
+        arguments: &SurfaceArguments,
+        model: &Model,
+        places: &Places,
+    ) -> Result<Option<Self>, Failure> {
+        if places.y.is_empty() {
+            return Ok(None);
+        }
+        let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
+        let stiffness_needed = footprint.transverse_stiffness_needed(model.alpha() / model.r());
+        let far_behind = arguments.far_behind;
+        if arguments.plot.is_some() && (places.spacing.is_none() || places.x.len() < 2) {
+            let named = format!("--x with {} values", places.x.len());
+            let advice = "a height map needs evenly spaced columns: give --range and --spacing";
+            return Err(Failure::input(named, advice));
+        }
+        Ok(Some(Self { footprint, width_y, far_behind, stiffness_needed }))
+    }
+
+    /// Says so where the tip might not stay on its line. No refusal: y0 = 0 solves (54), (55) in any
+    /// case, a stiff enough k' makes it stable, and the paper's own tip (48) is of this kind.
+    pub(super) fn warn(&self) {
+        let needed = self.stiffness_needed;
+        if needed > 0.0 {
+            let bound = if needed.is_finite() {
+                format!("certain where the transverse spring k' is above {needed:.4} k")
+            } else {
+                "certain for no transverse spring k'".into()
+            };
+            eprintln!(
+                "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
+                 may push it off: in steady motion y0 = 0 is stable for {bound}"
+            );
+        }
+    }
+
+    pub(super) fn parameters(&self) -> AcrossParameters {
+        let needed = self.stiffness_needed;
+        AcrossParameters {
+            width_y: self.width_y,
+            transverse_stiffness_needed: needed.is_finite().then_some(needed),
+        }
+    }
+
+    pub(super) fn reconstruct(
+        &self,
+        surface: &Surface,
+        places: &Places,
+    ) -> Result<Vec<SurfaceImage>, Failure> {
+        let Places { t, x, y, .. } = places;
+        let at = |t: &f64| {
+            let image = if self.far_behind {
+                surface.image_far_behind(&self.footprint, *t, x, y)
+            } else {
+                surface.image(&self.footprint, *t, x, y)
+            };
+            let image = image.map_err(|error| Failure::Run(error.to_string()))?;
+            let u = image.rows().into_iter().map(|row| row.to_vec()).collect();
+            Ok(SurfaceImage { t: *t, x: x.clone(), y: y.clone(), u })
+        };
+        t.iter().map(at).collect()
+    }
+}
+
+/// The f(x,y) of the tip; for one that has none, f(x)h(y) with h a Gaussian of the width asked for, or of
+/// the width that all Gaussians of f have.
+fn footprint(asked: Option<f64>, tip: &TipFunction) -> Result<(Footprint, Option<f64>), Failure> {
+    let named = || asked.map_or("--width-y".into(), |v| format!("--width-y {}", Typed(v)));
+    match (tip.footprint(), asked.or_else(|| common_width(tip))) {
+        (Some(_), _) if asked.is_some() => Err(Failure::input(
+            named(),
+            "the run was made with a tip file that has its own f(x,y): leave the option out",
+        )),
+        (Some(own), _) => Ok((own.clone(), None)),
+        (None, Some(width)) => match Footprint::separable(tip.clone(), width) {
+            Ok(footprint) => Ok((footprint, Some(width))),
+            Err(_) => Err(Failure::input(named(), "must be a finite number above 0")),
+        },
+        (None, None) => Err(Failure::input(
+            "--width-y",
+            "the tip of this run has no single width of its own: give the width V in f(x,y) = \
+             f(x) exp(-y²/(2 V²))",
+        )),
+    }
+}
+
+/// The width of all Gaussians of the tip, if it is the same.
+fn common_width(tip: &TipFunction) -> Option<f64> {
+    let TipFunction::Gaussians(sum) = tip else { return None };
+    let width = sum.terms().first()?.width;
+    // A table is made of narrow Gaussians whose width says nothing of the tip.
+    let alike = sum.terms().len() <= 3;
+    let same = |w: f64| (w - width).abs() <= 1e-12 * width;
+    (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
+}
+
+/// A height map for every time.
+pub(super) fn draw(document: &SurfaceDocument) -> Result<String, Failure> {
+    let labels: Vec<String> = document.images.iter().map(|image| time_label(image.t)).collect();
+    let maps: Vec<plot::Map> = document
+        .images
+        .iter()
+        .zip(&labels)
+        .map(|(image, label)| plot::Map {
+            x: &image.x,
+            y: &image.y,
+            z: &image.u,
+            labels: ("x (σ)", "y (σ)", "u (kσ²/a)"),
+            name: label,
+            colours: plot::Colours::Cividis,
+        })
+        .collect();
+    plot::maps(&title(document), &maps)
+        .map_err(|error| Failure::Run(format!("cannot draw: {error}")))
+}

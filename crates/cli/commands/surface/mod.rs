@@ -1,0 +1,116 @@
+//! `stickslip surface`.
+
+mod image;
+mod places;
+mod units;
+mod write;
+
+pub(crate) use places::{default_range, evenly};
+
+use super::figure::Figure;
+use super::run::{document, parameters};
+use crate::arguments::SurfaceArguments;
+use crate::documents::{
+    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
+};
+use crate::failure::Failure;
+use crate::files::input::read_run;
+use crate::files::output::Output;
+use crate::plot;
+use image::Images;
+use places::Places;
+use stickslip_surface::Surface;
+use units::Scale;
+use write::SurfaceFormat;
+
+pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let format = SurfaceFormat::of(arguments)?;
+    let document = read_run(&arguments.run)?;
+    let damaged = |message: String| {
+        Failure::input(
+            format!("RUN.json {}", arguments.run.display()),
+            format!("damaged: {message}"),
+        )
+    };
+    let model = document.parameters.model.model().map_err(damaged)?;
+    let trajectory = document::trajectory(&document).map_err(damaged)?;
+    let scenario = parameters::scenario(&document.parameters).map_err(damaged)?;
+    let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
+    let places = Places::asked(arguments, &trajectory)?;
+    let scale = Scale::asked(arguments, &model)?;
+    let images = Images::asked(arguments, &model, &places)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+
+    let surface = Surface::new(&model, &initial, &trajectory);
+    let result = match &images {
+        Some(images) => {
+            images.warn();
+            let pictures = images.reconstruct(&surface, &places)?;
+            SurfaceDocument { images: pictures, ..empty(arguments, &document, Some(images)) }
+        }
+        None => {
+            let surfaces = curves(arguments, &surface, &places)?;
+            SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
+        }
+    };
+    if let Some(figure) = figure {
+        figure.write(&if images.is_some() { image::draw(&result)? } else { draw(&result) })?;
+    }
+    write::write(&result, format, &places, &scale, output)
+}
+
+fn curves(
+    arguments: &SurfaceArguments,
+    surface: &Surface,
+    places: &Places,
+) -> Result<Vec<SurfaceCurve>, Failure> {
+    let x = places.x.as_slice();
+    let at = |t: &f64| {
+        let u =
+            if arguments.far_behind { surface.far_behind(*t, x) } else { surface.heights(*t, x) };
+        let u = u.map_err(|error| Failure::Run(error.to_string()))?.to_vec();
+        Ok(SurfaceCurve { t: *t, x: x.to_vec(), u })
+    };
+    places.t.iter().map(at).collect()
+}
+
+/// The document but for the surfaces.
+fn empty(
+    arguments: &SurfaceArguments,
+    run: &RunDocument,
+    images: Option<&Images>,
+) -> SurfaceDocument {
+    SurfaceDocument {
+        format: SurfaceDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: SurfaceParameters {
+            model: run.parameters.model.clone(),
+            far_behind: arguments.far_behind,
+            across: images.map(Images::parameters),
+        },
+        surfaces: vec![],
+        images: vec![],
+    }
+}
+
+/// α and r, above a picture.
+fn title(document: &SurfaceDocument) -> String {
+    let model = &document.parameters.model;
+    format!("α = {:.6}, r = {}", model.alpha, model.r)
+}
+
+/// Such as "t = 457".
+fn time_label(t: f64) -> String {
+    format!("t = {}", (t * 1e6).round() / 1e6)
+}
+
+fn draw(document: &SurfaceDocument) -> String {
+    let curves: Vec<(String, &[f64], &[f64])> = document
+        .surfaces
+        .iter()
+        .map(|s| (time_label(s.t), s.x.as_slice(), s.u.as_slice()))
+        .collect();
+    plot::surface(&plot::SurfaceFigure { title: &title(document), curves: &curves })
+}

@@ -1,0 +1,136 @@
+//! Where and when a surface is asked for.
+
+use crate::arguments::SurfaceArguments;
+use crate::failure::{Failure, Typed};
+use stickslip_tip::Trajectory;
+
+const DEFAULT_SPACING: f64 = 0.05;
+/// Shown on either side of the tip's way.
+const MARGIN: f64 = 12.0;
+const MOST_POINTS: f64 = 2e7;
+
+/// Times and positions.
+#[derive(Debug)]
+pub(super) struct Places {
+    pub(super) t: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    /// Distance of the x, where they are evenly spaced.
+    pub(super) spacing: Option<f64>,
+    /// Positions across the path; none for a plane surface.
+    pub(super) y: Vec<f64>,
+    /// Distance of the y.
+    pub(super) spacing_y: f64,
+}
+
+/// An evenly spaced range.
+struct Range {
+    low: f64,
+    high: f64,
+    spacing: f64,
+}
+
+impl Places {
+    pub(super) fn asked(
+        arguments: &SurfaceArguments,
+        trajectory: &Trajectory,
+    ) -> Result<Self, Failure> {
+        let t = times(arguments, trajectory)?;
+        let spacing = spacing("--spacing", arguments.spacing, DEFAULT_SPACING)?;
+        let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
+        let across = match arguments.y_range.as_deref() {
+            None => None,
+            Some(typed) => Some(range("--y-range", typed, spacing_y)?),
+        };
+        let each = t.len() as f64 * across.as_ref().map_or(1.0, Range::points);
+        if let Some(x) = &arguments.x {
+            if let Some(x) = x.iter().find(|x| !x.is_finite()) {
+                let named = format!("--x {}", Typed(*x));
+                return Err(Failure::input(named, "must be finite numbers"));
+            }
+            let y = across.map_or(Ok(vec![]), |across| {
+                across.positions("--spacing-y", each / across.points() * x.len() as f64)
+            })?;
+            return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
+        }
+        let along = match arguments.range.as_deref() {
+            None => {
+                let (low, high) = default_range(trajectory);
+                Range { low, high, spacing }
+            }
+            Some(typed) => range("--range", typed, spacing)?,
+        };
+        let x = along.positions("--spacing", each)?;
+        let y = across.map_or(Ok(vec![]), |across| across.positions("--spacing-y", 1.0))?;
+        Ok(Self { t, x, spacing: Some(spacing), y, spacing_y })
+    }
+}
+
+/// From the margin behind the tip's start to the margin ahead of its end.
+pub(crate) fn default_range(trajectory: &Trajectory) -> (f64, f64) {
+    let ends = [trajectory.x0(trajectory.start()), trajectory.x0(trajectory.end())];
+    (ends[0].min(ends[1]) - MARGIN, ends[0].max(ends[1]) + MARGIN)
+}
+
+/// n points from low to high.
+pub(crate) fn evenly(low: f64, high: f64, n: usize) -> Vec<f64> {
+    let spacing = (high - low) / (n.max(2) - 1) as f64;
+    (0..n).map(|i| low + spacing * i as f64).collect()
+}
+
+fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f64>, Failure> {
+    let (start, end) = (trajectory.start(), trajectory.end());
+    let times = arguments.at.clone().unwrap_or_else(|| vec![end]);
+    match times.iter().find(|t| !(start..=end).contains(*t)) {
+        None => Ok(times),
+        Some(t) => Err(Failure::input(
+            format!("--at {}", Typed(*t)),
+            format!("outside of the run, which lasts from {start} to {end}"),
+        )),
+    }
+}
+
+fn range(option: &str, typed: &[f64], spacing: f64) -> Result<Range, Failure> {
+    match *typed {
+        [low, high] if low.is_finite() && high.is_finite() && low < high => {
+            Ok(Range { low, high, spacing })
+        }
+        _ => {
+            let typed: Vec<String> = typed.iter().map(|x| Typed(*x).to_string()).collect();
+            let advice = "needs two finite numbers LO,HI with LO below HI";
+            Err(Failure::input(format!("{option} {}", typed.join(",")), advice))
+        }
+    }
+}
+
+fn spacing(option: &str, typed: Option<f64>, default: f64) -> Result<f64, Failure> {
+    let spacing = typed.unwrap_or(default);
+    if spacing.is_finite() && spacing > 0.0 {
+        Ok(spacing)
+    } else {
+        let named = format!("{option} {}", Typed(spacing));
+        Err(Failure::input(named, "must be a finite number above 0"))
+    }
+}
+
+impl Range {
+    fn points(&self) -> f64 {
+        ((self.high - self.low) / self.spacing).max(1.0)
+    }
+
+    /// The points, unless with `each` of them as many others they are too many.
+    fn positions(&self, option: &str, each: f64) -> Result<Vec<f64>, Failure> {
+        let Self { low, high, spacing } = *self;
+        let points = self.points() * each;
+        if points > MOST_POINTS {
+            let least = spacing * points / MOST_POINTS;
+            return Err(Failure::input(
+                format!("{option} {}", Typed(spacing)),
+                format!(
+                    "would make {points:.1e} points, more than fit in memory; {least:.3e} or above will do"
+                ),
+            ));
+        }
+        let intervals = ((high - low) / spacing + 1e-9).floor() as usize;
+        Ok((0..=intervals).map(|i| low + spacing * i as f64).collect())
+    }
+}

@@ -1,0 +1,133 @@
+//! `stickslip sweep`.
+
+mod finished;
+mod grid;
+mod merge;
+mod point;
+mod write;
+
+use super::progress::Progress;
+use crate::arguments::{SweepArguments, SweepThen};
+use crate::documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use finished::Finished;
+use grid::Grid;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use std::collections::HashSet;
+use std::io;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use write::Writer;
+
+const MOST_THREADS: usize = 4096;
+
+pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+    if let Some(SweepThen::Merge(merged)) = &arguments.then {
+        return merge::merge(merged);
+    }
+    let grid = Grid::asked(arguments)?;
+    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
+    Writer::check(output, plot)?;
+    let finished = if output == Path::new("-") {
+        Finished::in_memory()
+    } else {
+        Finished::beside(output, &grid.parameters)?
+    };
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let finished = compute(&grid, finished, threads(arguments)?, &interrupt)?;
+    if let Some(signal) = interrupt.signal() {
+        return Err(left_unfinished(&grid, &finished, signal));
+    }
+    Writer::asked(output, plot)?.write(&SweepDocument {
+        format: SweepDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: grid.parameters,
+        points: finished.in_order(),
+    })?;
+    finished.remove();
+    Ok(())
+}
+
+/// 0: as many as there are cores.
+fn threads(arguments: &SweepArguments) -> Result<usize, Failure> {
+    match arguments.threads {
+        None => Ok(0),
+        Some(threads) if (1..=MOST_THREADS).contains(&threads) => Ok(threads),
+        Some(threads) => {
+            let message = format!("1 to {MOST_THREADS} will do");
+            Err(Failure::input(format!("--threads {threads}"), message))
+        }
+    }
+}
+
+/// What the threads share.
+struct State {
+    finished: Finished,
+    progress: Progress,
+    /// Whether all could be written down.
+    kept: io::Result<()>,
+}
+
+impl State {
+    /// `None` once a point could not be kept: the others need not be found.
+    fn keep(&mut self, point: SweepPoint) -> Option<()> {
+        self.kept = self.finished.add(point);
+        self.progress.reached(self.finished.points().len() as f64);
+        self.kept.is_ok().then_some(())
+    }
+}
+
+/// All points that are not finished yet, or as many as there is time for before a signal.
+fn compute(
+    grid: &Grid,
+    finished: Finished,
+    threads: usize,
+    interrupt: &Interrupt,
+) -> Result<Finished, Failure> {
+    let done: HashSet<usize> = finished.points().iter().map(|point| point.index).collect();
+    let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
+    let count = done.len() + missing.len();
+    if let (Some(path), false) = (finished.path(), done.is_empty()) {
+        eprintln!("stickslip: {} of {count} points are in {}", done.len(), path.display());
+    }
+    let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
+    let state = Mutex::new(State { finished, progress, kept: Ok(()) });
+    let work = |index: &usize| {
+        if interrupt.signal().is_some() {
+            return None;
+        }
+        let point = point::point(*index, grid.place(*index), grid.parameters.tolerance);
+        state.lock().unwrap_or_else(PoisonError::into_inner).keep(point)
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| Failure::Run(format!("cannot start threads: {error}")))?;
+    pool.install(|| missing.par_iter().with_max_len(1).try_for_each(work));
+    let State { finished, kept, .. } = state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    kept.map_err(|error: io::Error| {
+        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
+        Failure::Write { target, error }
+    })?;
+    Ok(finished)
+}
+
+fn left_unfinished(grid: &Grid, finished: &Finished, signal: u8) -> Failure {
+    let (done, count) = (finished.points().len(), grid.indices().count());
+    match finished.path() {
+        Some(path) => Failure::Unfinished {
+            signal,
+            message: format!(
+                "{done} of {count} points are in {}: the same command goes on from there",
+                path.display()
+            ),
+        },
+        None => Failure::Unfinished {
+            signal,
+            message: format!(
+                "{done} of {count} points were done, none are kept: with -o FILE.json they would be"
+            ),
+        },
+    }
+}

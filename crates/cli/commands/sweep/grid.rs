@@ -1,0 +1,125 @@
+//! The points of a sweep: footprints times r times α, the last varying fastest.
+
+use crate::arguments::{Range, SweepArguments, TipArguments};
+use crate::commands::model::tip;
+use crate::documents::{ShardDocument, SweepParameters};
+use crate::failure::{Failure, Typed};
+use stickslip_tip::TipFunction;
+use stickslip_tip::cycle::TOLERANCES;
+
+/// More than a cluster does in a year; their document would take gigabytes.
+const MOST_POINTS: usize = 10_000_000;
+
+#[derive(Debug)]
+pub(super) struct Grid {
+    tips: Vec<TipFunction>,
+    pub(super) parameters: SweepParameters,
+}
+
+/// Where a point is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub(super) tip: &'a TipFunction,
+    pub(super) beta: Option<f64>,
+    pub(super) r: f64,
+    pub(super) alpha: Alpha,
+}
+
+/// α, or αc(r) + D.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Alpha {
+    Given(f64),
+    Above(f64),
+}
+
+impl Grid {
+    pub(super) fn asked(arguments: &SweepArguments) -> Result<Self, Failure> {
+        let missing = |option: &str, what: &str| {
+            Failure::input(option, format!("{what} missing: give {option} V, or {option} LO:HI:N"))
+        };
+        let r = arguments.r.ok_or_else(|| missing("--r", "the support velocities are"))?.values();
+        if let Some(bad) = r.iter().find(|r| **r <= 0.0) {
+            return Err(Failure::input(format!("--r {}", Typed(*bad)), "must be above 0"));
+        }
+        let (alpha, above) = (arguments.alpha, arguments.alpha_above);
+        match (alpha, above) {
+            (None, None) => return Err(missing("--alpha", "the indentation rates are")),
+            (Some(_), Some(_)) => {
+                return Err(Failure::input(
+                    "--alpha and --alpha-above",
+                    "give one of them, not both",
+                ));
+            }
+            _ => {}
+        }
+        if let Some(low) = alpha.map(|range| range.low).filter(|low| *low < 0.0) {
+            return Err(Failure::input(format!("--alpha {}", Typed(low)), "must be 0 or above"));
+        }
+        if !(TOLERANCES.0..=TOLERANCES.1).contains(&arguments.tolerance) {
+            let option = format!("--tolerance {}", Typed(arguments.tolerance));
+            let (least, most) = TOLERANCES;
+            return Err(Failure::input(option, format!("{least:e} to {most:e} will do")));
+        }
+        let beta = arguments.beta.map(Range::values);
+        let tips = tips(arguments, beta.as_deref())?;
+        let grid = Self {
+            parameters: SweepParameters {
+                tips: tips.iter().map(Into::into).collect(),
+                beta,
+                r,
+                alpha: alpha.map(Range::values),
+                alpha_above: above.map(Range::values),
+                tolerance: arguments.tolerance,
+                shard: arguments.shard.map(|s| ShardDocument { index: s.index, of: s.of }),
+            },
+            tips,
+        };
+        match grid.parameters.points() {
+            count if count > MOST_POINTS => Err(Failure::input(
+                "--alpha, --r and --beta",
+                format!("make {count} points; at most {MOST_POINTS} will do"),
+            )),
+            _ => Ok(grid),
+        }
+    }
+
+    /// The indices of this part of the points.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
+        let shard = self.parameters.shard.unwrap_or(ShardDocument { index: 1, of: 1 });
+        (shard.index - 1..self.parameters.points()).step_by(shard.of)
+    }
+
+    pub(super) fn place(&self, index: usize) -> Place<'_> {
+        let SweepParameters { r, alpha, alpha_above, beta, .. } = &self.parameters;
+        let columns = alpha.as_ref().or(alpha_above.as_ref()).map_or(1, Vec::len);
+        let (row, column) = (index / columns, index % columns);
+        let (which, at) = (row / r.len(), row % r.len());
+        let given = alpha.as_ref().map(|alpha| Alpha::Given(alpha[column]));
+        let above = alpha_above.as_ref().map(|above| Alpha::Above(above[column]));
+        Place {
+            tip: &self.tips[which],
+            beta: beta.as_ref().map(|beta| beta[which]),
+            r: r[at],
+            alpha: given.or(above).unwrap_or(Alpha::Given(0.0)),
+        }
+    }
+}
+
+impl SweepParameters {
+    /// Points of the whole grid.
+    pub(super) fn points(&self) -> usize {
+        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
+        self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas)
+    }
+}
+
+fn tips(arguments: &SweepArguments, beta: Option<&[f64]>) -> Result<Vec<TipFunction>, Failure> {
+    let one = |beta: Option<f64>| {
+        let (name, width) = (arguments.tip, arguments.width);
+        tip(&TipArguments { tip: name, beta, width, tip_file: arguments.tip_file.clone() })
+    };
+    match beta {
+        None => Ok(vec![one(None)?]),
+        Some(values) => values.iter().map(|beta| one(Some(*beta))).collect(),
+    }
+}

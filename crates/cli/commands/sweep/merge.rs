@@ -1,0 +1,55 @@
+//! `stickslip sweep merge`.
+
+use super::write;
+use crate::arguments::MergeArguments;
+use crate::documents::{SweepDocument, SweepParameters, SweepPoint};
+use crate::failure::Failure;
+use crate::files::input::read_document;
+use std::path::Path;
+
+/// The whole from its parts, which must be all of it, once.
+pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+    let writer = write::Writer::asked(&arguments.output, arguments.plot.as_deref())?;
+    let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
+    let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
+        Failure::input("PART.json", "no part was given: name the documents of all of them")
+    })?;
+    whole.parameters.shard = None;
+    for part in parts {
+        let (path, mut part) = part?;
+        part.parameters.shard = None;
+        if part.parameters != whole.parameters || part.software != whole.software {
+            return Err(Failure::input(
+                format!("PART.json {}", path.display()),
+                "is of another sweep, or another version, than the first one",
+            ));
+        }
+        whole.points.append(&mut part.points);
+    }
+    whole.points.sort_by_key(|point| point.index);
+    complete(&whole.parameters, &whole.points)?;
+    writer.write(&whole)
+}
+
+fn read(path: &Path) -> Result<SweepDocument, Failure> {
+    read_document("PART.json", path, SweepDocument::FORMAT)
+}
+
+/// Every point of the grid, once.
+fn complete(parameters: &SweepParameters, points: &[SweepPoint]) -> Result<(), Failure> {
+    let refused = |message: String| Err(Failure::input("PART.json", message));
+    if let Some(pair) = points.windows(2).find(|pair| pair[0].index == pair[1].index) {
+        return refused(format!("point {} is in more than one part", pair[0].index));
+    }
+    let count = parameters.points();
+    if let Some(missing) = (0..count).find(|i| points.get(*i).map(|p| p.index) != Some(*i)) {
+        let (found, advice) = (points.len(), "name the documents of all parts");
+        return refused(format!(
+            "point {missing} is missing ({found} of {count} are there): {advice}"
+        ));
+    }
+    if points.len() > count {
+        return refused(format!("there are {} points, the grid has {count}", points.len()));
+    }
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! A sweep on its way out: JSON, columns, picture.
+
+use crate::commands::figure::Figure;
+use crate::documents::{RegimeName, SweepDocument, SweepPoint};
+use crate::failure::Failure;
+use crate::files::npz::Npz;
+use crate::files::output::{Output, OutputFormat, place};
+use crate::plot::{self, SweepMark};
+use std::path::Path;
+
+/// Where it goes, known to be writable.
+pub(super) struct Writer {
+    format: OutputFormat,
+    output: Output,
+    figure: Option<Figure>,
+}
+
+/// A column of a table, and the name that heads it.
+type Column = (&'static str, fn(&SweepPoint) -> Option<f64>);
+
+const COLUMNS: [Column; 10] = [
+    ("beta", |p| p.beta),
+    ("r", |p| Some(p.r)),
+    ("alpha", |p| p.alpha),
+    ("critical_alpha", |p| p.critical_alpha),
+    ("period", |p| p.period),
+    ("wavelength", |p| p.wavelength),
+    ("amplitude_x0", |p| p.amplitude_x0),
+    ("amplitude_u", |p| p.amplitude_u),
+    ("slips", |p| p.slips.map(|slips| slips as f64)),
+    ("multiplier", |p| p.multiplier),
+];
+
+impl Writer {
+    /// Finds out, before hours of work, whether it can go there. Nothing is left there meanwhile.
+    pub(super) fn check(output: &Path, plot: Option<&Path>) -> Result<(), Failure> {
+        OutputFormat::of(output)?;
+        place("--output", output)?;
+        Figure::asked("--plot", plot).map(drop)
+    }
+
+    pub(super) fn asked(output: &Path, plot: Option<&Path>) -> Result<Self, Failure> {
+        Ok(Self {
+            format: OutputFormat::of(output)?,
+            output: Output::open("--output", output)?,
+            figure: Figure::asked("--plot", plot)?,
+        })
+    }
+
+    pub(super) fn write(self, document: &SweepDocument) -> Result<(), Failure> {
+        if let Some(figure) = self.figure {
+            figure.write(&draw(document))?;
+        }
+        match self.format {
+            OutputFormat::Json => self.output.write_json(document),
+            OutputFormat::Csv => self.output.write_bytes(csv(&document.points).as_bytes()),
+            OutputFormat::Npz => self.output.write_bytes(&npz(&document.points)?),
+        }
+    }
+}
+
+/// An empty cell where there is no value.
+fn csv(points: &[SweepPoint]) -> String {
+    let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+    let row = |point: &SweepPoint| {
+        let cell = |(_, value): &Column| value(point).map(|v| v.to_string()).unwrap_or_default();
+        let cells: Vec<String> = COLUMNS.iter().map(cell).collect();
+        let regime = point.regime.map(|regime| regime.to_string()).unwrap_or_default();
+        let source = point.source.map(|source| source.to_string()).unwrap_or_default();
+        format!("{},{regime},{source}\n", cells.join(","))
+    };
+    let heading = format!("{},regime,source\n", names.join(","));
+    std::iter::once(heading).chain(points.iter().map(row)).collect()
+}
+
+/// NaN where there is no value; regimes by number, 0 steady, 1 stick-slip, 2 trapped, 3 transient.
+fn npz(points: &[SweepPoint]) -> Result<Vec<u8>, Failure> {
+    let mut npz = Npz::new();
+    for (name, value) in COLUMNS {
+        let column: Vec<f64> = points.iter().map(|p| value(p).unwrap_or(f64::NAN)).collect();
+        npz.vector(name, &column)?;
+    }
+    let number = |p: &SweepPoint| p.regime.map_or(f64::NAN, |regime| f64::from(regime as u8));
+    npz.vector("regime", &points.iter().map(number).collect::<Vec<_>>())?;
+    npz.bytes()
+}
+
+fn draw(document: &SweepDocument) -> String {
+    let mark = |point: &SweepPoint| {
+        Some(SweepMark {
+            beta: point.beta,
+            r: point.r,
+            alpha: point.alpha?,
+            kind: kind(point)?,
+            amplitude: point.amplitude_x0.unwrap_or(f64::NAN),
+            period: point.period.unwrap_or(f64::NAN),
+            critical_alpha: point.critical_alpha.unwrap_or(f64::NAN),
+        })
+    };
+    let marks: Vec<SweepMark> = document.points.iter().filter_map(mark).collect();
+    plot::sweep(&marks)
+}
+
+fn kind(point: &SweepPoint) -> Option<plot::SweepKind> {
+    Some(match (point.regime?, point.slips) {
+        (RegimeName::Steady, _) => plot::SweepKind::Steady,
+        (RegimeName::StickSlip, Some(0 | 1) | None) => plot::SweepKind::StickSlip,
+        (RegimeName::StickSlip, Some(_)) => plot::SweepKind::SeveralSlips,
+        (RegimeName::Trapped, _) => plot::SweepKind::Trapped,
+        (RegimeName::Transient, _) => plot::SweepKind::Unsettled,
+    })
+}

@@ -1,0 +1,162 @@
+//! The bifurcation diagram: branches of cycles over a parameter.
+
+use super::axis::Axis;
+use super::curve::{Curve, Pen};
+use super::panel::Panel;
+use super::sheet::sheet;
+use super::style::{BLACK, LOW, PALETTE};
+
+/// Branches and special points.
+#[derive(Debug, Clone)]
+pub(crate) struct BifurcationFigure<'a> {
+    /// Above all panels.
+    pub(crate) title: &'a str,
+    /// Of the parameter.
+    pub(crate) label: &'a str,
+    pub(crate) branches: Vec<BranchCurve>,
+    pub(crate) special: Vec<SpecialMark>,
+}
+
+/// Columns of equal length.
+#[derive(Debug, Clone)]
+pub(crate) struct BranchCurve {
+    pub(crate) parameter: Vec<f64>,
+    pub(crate) amplitude: Vec<f64>,
+    pub(crate) period: Vec<f64>,
+    pub(crate) stable: Vec<bool>,
+}
+
+/// A point with a name.
+#[derive(Debug, Clone)]
+pub(crate) struct SpecialMark {
+    pub(crate) parameter: f64,
+    pub(crate) amplitude: f64,
+    pub(crate) period: f64,
+    pub(crate) name: &'static str,
+}
+
+/// Colours of the marks, those of the palette that branches do not begin with.
+const MARKS: [&str; 5] = [BLACK, PALETTE[3], PALETTE[4], PALETTE[5], PALETTE[2]];
+
+/// Amplitude and period over the parameter, stable parts solid and unstable ones dashed. An SVG document.
+pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
+    let pieces: Vec<(usize, BranchCurve)> = figure
+        .branches
+        .iter()
+        .enumerate()
+        .flat_map(|(i, branch)| pieces(branch).into_iter().map(move |piece| (i, piece)))
+        .collect();
+    let marks = Marks::of(&figure.special);
+    let panel = |ordinate: fn(&BranchCurve) -> &[f64],
+                 of_mark: fn(&MarksOfAName) -> &[f64],
+                 name,
+                 height| {
+        let curves = pieces.iter().enumerate().map(|(n, (i, piece))| Curve {
+            x: &piece.parameter,
+            y: ordinate(piece),
+            pen: if piece.stable[0] { Pen::numbered(*i) } else { Pen::numbered(*i).dashed() },
+            label: label(&pieces, n),
+        });
+        let marks = marks.0.iter().enumerate().map(|(n, mark)| Curve {
+            x: &mark.parameter,
+            y: of_mark(mark),
+            pen: Pen::dots(MARKS[n % MARKS.len()]),
+            label: Some(mark.name.to_owned()),
+        });
+        let fitted =
+            Panel::fitted((figure.label, name), curves.chain(marks).collect(), height, 0.0);
+        // Room for the marks at the ends of branches.
+        let pad = 0.03 * (fitted.x.high - fitted.x.low);
+        Panel { x: Axis::new(fitted.x.low - pad, fitted.x.high + pad, 9.0), ..fitted }
+    };
+    let panels = [
+        panel(|p| &p.amplitude, |m| &m.amplitude, "amplitude of x₀ (σ)", 1.3 * LOW),
+        panel(|p| &p.period, |m| &m.period, "period (Γ/k)", 1.3 * LOW),
+    ];
+    sheet(figure.title, &panels)
+}
+
+/// The name of piece n: that of its branch and stability, once.
+fn label(pieces: &[(usize, BranchCurve)], n: usize) -> Option<String> {
+    let (branch, piece) = &pieces[n];
+    let same = |(i, p): &(usize, BranchCurve)| i == branch && p.stable[0] == piece.stable[0];
+    if pieces[..n].iter().any(same) {
+        return None;
+    }
+    let what = if piece.stable[0] { "stable" } else { "unstable" };
+    Some(match branch {
+        0 => format!("{what} cycles"),
+        _ => format!("{what}, branch {branch}"),
+    })
+}
+
+/// The branch cut where its stability changes; the pieces meet half-way.
+fn pieces(branch: &BranchCurve) -> Vec<BranchCurve> {
+    let mut pieces: Vec<BranchCurve> = vec![];
+    for i in 0..branch.stable.len() {
+        let here = (branch.parameter[i], branch.amplitude[i], branch.period[i]);
+        let stable = branch.stable[i];
+        match pieces.last_mut() {
+            Some(piece) if piece.stable[0] == stable => piece.push(here, stable),
+            last => {
+                let mut piece = BranchCurve {
+                    parameter: vec![],
+                    amplitude: vec![],
+                    period: vec![],
+                    stable: vec![],
+                };
+                if let Some(before) = last {
+                    let j = i - 1;
+                    let middle = (
+                        0.5 * (branch.parameter[j] + here.0),
+                        0.5 * (branch.amplitude[j] + here.1),
+                        0.5 * (branch.period[j] + here.2),
+                    );
+                    before.push(middle, !stable);
+                    piece.push(middle, stable);
+                }
+                piece.push(here, stable);
+                pieces.push(piece);
+            }
+        }
+    }
+    pieces
+}
+
+impl BranchCurve {
+    fn push(&mut self, (parameter, amplitude, period): (f64, f64, f64), stable: bool) {
+        self.parameter.push(parameter);
+        self.amplitude.push(amplitude);
+        self.period.push(period);
+        self.stable.push(stable);
+    }
+}
+
+struct MarksOfAName {
+    name: &'static str,
+    parameter: Vec<f64>,
+    amplitude: Vec<f64>,
+    period: Vec<f64>,
+}
+
+/// Special points by name.
+struct Marks(Vec<MarksOfAName>);
+
+impl Marks {
+    fn of(special: &[SpecialMark]) -> Self {
+        let mut marks: Vec<MarksOfAName> = vec![];
+        for mark in special {
+            let name = mark.name;
+            let known = marks.iter().position(|m| m.name == name);
+            let i = known.unwrap_or_else(|| {
+                let (parameter, amplitude, period) = (vec![], vec![], vec![]);
+                marks.push(MarksOfAName { name, parameter, amplitude, period });
+                marks.len() - 1
+            });
+            marks[i].parameter.push(mark.parameter);
+            marks[i].amplitude.push(mark.amplitude);
+            marks[i].period.push(mark.period);
+        }
+        Self(marks)
+    }
+}

@@ -1,0 +1,115 @@
+//! u(x,y,t): the surface in three dimensions, (56) integrated along the path of the tip.
+
+use crate::{Surface, SurfaceError, carved};
+use ndarray::{Array1, Array2, Axis};
+use rayon::prelude::*;
+use stickslip_tip::{Footprint, Layer};
+
+impl Surface<'_> {
+    /// u(x,y,t) at every y (rows) and every x (columns), for a tip with footprint f(x,y), of which the
+    /// model's tip function is f(x,0).
+    ///
+    /// ```text
+    ///     u(x,y,t) = u0(x,y) - α ∫_{t1}^t f(x - x0(t'), y)dt'
+    /// ```
+    ///
+    /// A steady past was carved by the same footprint; a given profile and noise are known along the
+    /// path alone, and are taken to be the same for all y. Costs one plane surface for each layer of the
+    /// footprint and one multiplication for each layer and pixel.
+    ///
+    /// # Errors
+    /// `t` outside of the run, x or y not finite.
+    pub fn image(
+        &self,
+        footprint: &Footprint,
+        t: f64,
+        x: &[f64],
+        y: &[f64],
+    ) -> Result<Array2<f64>, SurfaceError> {
+        self.check(t, x, y)?;
+        let before: Array1<f64> = x.iter().map(|x| self.initial.texture(*x)).collect();
+        let mut image = self.layered(footprint, t, x, y, |layer| self.steady_past(layer, x));
+        image.axis_iter_mut(Axis(0)).for_each(|mut row| row += &before);
+        Ok(image)
+    }
+
+    /// -α ∫_{t1}^t f(x - x0(t'), y)dt': what the tip has carved by time t, without what was there before.
+    ///
+    /// # Errors
+    /// As [`Self::image`].
+    pub fn image_far_behind(
+        &self,
+        footprint: &Footprint,
+        t: f64,
+        x: &[f64],
+        y: &[f64],
+    ) -> Result<Array2<f64>, SurfaceError> {
+        self.check(t, x, y)?;
+        Ok(self.layered(footprint, t, x, y, |_| Array1::zeros(x.len())))
+    }
+
+    /// What [`Self::image_far_behind`] gives, by its definition: one evaluation of f(x,y) for each
+    /// position of the tip and each pixel. The oracle of the other; slow.
+    ///
+    /// # Errors
+    /// As [`Self::image`].
+    pub fn image_by_definition(
+        &self,
+        footprint: &Footprint,
+        t: f64,
+        x: &[f64],
+        y: &[f64],
+    ) -> Result<Array2<f64>, SurfaceError> {
+        self.check(t, x, y)?;
+        let (positions, weights) = self.trajectory.residence(t);
+        let along = || positions.iter().zip(&weights);
+        let pixel = |(j, i): (usize, usize)| -> f64 {
+            along().map(|(p, w)| w * footprint.value(x[i] - p, y[j])).sum()
+        };
+        Ok(Array2::from_shape_fn((y.len(), x.len()), pixel) * -self.model.alpha())
+    }
+
+    /// Σ_k h_k(y) (-α Σ_j w_j g_k(x - x_j) + `before`(k)).
+    fn layered(
+        &self,
+        footprint: &Footprint,
+        t: f64,
+        x: &[f64],
+        y: &[f64],
+        before: impl Fn(&Layer) -> Array1<f64> + Sync,
+    ) -> Array2<f64> {
+        let layers = footprint.layers();
+        let (positions, weights) = self.trajectory.residence(t);
+        let profile = |layer: &Layer| {
+            let sums = carved(&layer.along, &positions, &weights, x);
+            before(layer) - sums * self.model.alpha()
+        };
+        let profiles: Vec<Array1<f64>> = layers.par_iter().map(profile).collect();
+        let mut along = Array2::zeros((layers.len(), x.len()));
+        for (mut row, profile) in along.axis_iter_mut(Axis(0)).zip(&profiles) {
+            row.assign(profile);
+        }
+        let height = |(j, k): (usize, usize)| layers[k].across.value(y[j]);
+        Array2::from_shape_fn((y.len(), layers.len()), height).dot(&along)
+    }
+
+    /// (24) with the layer's g for f.
+    fn steady_past(&self, layer: &Layer, x: &[f64]) -> Array1<f64> {
+        let Some(position) = self.initial.steady_position() else {
+            return Array1::zeros(x.len());
+        };
+        let depth = self.model.alpha() / self.model.r();
+        x.iter().map(|x| -depth * layer.along.tail(x - position)).collect()
+    }
+
+    fn check(&self, t: f64, x: &[f64], y: &[f64]) -> Result<(), SurfaceError> {
+        let (start, end) = (self.trajectory.start(), self.trajectory.end());
+        if !(start..=end).contains(&t) {
+            return Err(SurfaceError::OutsideRun { t, start, end });
+        }
+        match x.iter().chain(y).find(|v| !v.is_finite()) {
+            Some(v) => Err(SurfaceError::Position(*v)),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! A table (x, y, f) turned into layers: bells on a lattice, first along x, then along y.
+
+use super::{Across, Layer};
+use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
+use crate::{Gaussian, TipFunction, TipFunctionError};
+
+/// A row of the lattice is a layer, and an image costs one plane surface for each.
+const MOST_ROWS_ACROSS: usize = 200;
+/// Rows below this part of the largest value are round-off of the interpolation.
+const NOTHING: f64 = 1e-17;
+
+pub(super) fn layers_through(
+    x: &[f64],
+    y: &[f64],
+    f: &[f64],
+) -> Result<Vec<Layer>, TipFunctionError> {
+    let grid = Grid::of(x, y, f)?;
+    let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    // Coefficients along x for every y, then along y for every x of the lattice.
+    let rows: Vec<(f64, Vec<f64>)> =
+        grid.rows.iter().map(|row| table::bells_through(&grid.x, row)).collect();
+    let (spacing, columns) = (rows[0].0, rows[0].1.len());
+    let column = |i: usize| -> Vec<f64> { rows.iter().map(|(_, row)| row[i]).collect() };
+    let across: Vec<(f64, Vec<f64>)> =
+        (0..columns).map(|i| table::bells_through(&grid.y, &column(i))).collect();
+    let spacing_y = across[0].0;
+    let layer = |k: usize| -> Option<Layer> {
+        let along: Vec<f64> = across.iter().map(|(_, column)| column[k]).collect();
+        let size = along.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        if size <= NOTHING * largest {
+            return None;
+        }
+        let terms: Vec<Gaussian> = table::gaussians_of(spacing, &along);
+        let across = Across { center: k as f64 * spacing_y, width: WIDTH_PER_SPACING * spacing_y };
+        TipFunction::gaussian_sum(terms).ok().map(|along| Layer { along, across })
+    };
+    Ok((0..across[0].1.len()).filter_map(layer).collect())
+}
+
+/// f on a full rectangular grid, a row for every y.
+struct Grid {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Grid {
+    fn of(x: &[f64], y: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
+        let points = x.len().min(y.len()).min(f.len());
+        let bad = |i: &usize| !(x[*i].is_finite() && y[*i].is_finite() && f[*i].is_finite());
+        if let Some(i) = (0..points).find(bad) {
+            return Err(TipFunctionError::TableNotFinite { row: i + 1 });
+        }
+        let (xs, ys) = (distinct(x), distinct(y));
+        if xs.len() * ys.len() != points {
+            return Err(TipFunctionError::TableGrid { points, x: xs.len(), y: ys.len() });
+        }
+        let mut order: Vec<usize> = (0..points).collect();
+        order.sort_by(|&a, &b| y[a].total_cmp(&y[b]).then(x[a].total_cmp(&x[b])));
+        let rows: Vec<Vec<f64>> =
+            order.chunks(xs.len()).map(|row| row.iter().map(|&i| f[i]).collect()).collect();
+        // A point given twice shifts another out of its row.
+        let full = order.chunks(xs.len()).zip(&ys).all(|(row, at)| {
+            row.iter().zip(&xs).all(|(&i, x_at)| same(x[i], *x_at) && same(y[i], *at))
+        });
+        if !full {
+            return Err(TipFunctionError::TableGrid { points, x: xs.len(), y: ys.len() });
+        }
+        let grid = Self { x: xs, y: ys, rows };
+        grid.validate()?;
+        Ok(grid)
+    }
+
+    /// Both axes as for a table of f(x), and little left at either end.
+    fn validate(&self) -> Result<(), TipFunctionError> {
+        table::validate_axis(&self.x)?;
+        table::validate_axis(&self.y)?;
+        if self.y.len() > MOST_ROWS_ACROSS {
+            let (found, min) = (self.y.len(), table::MIN_ROWS);
+            return Err(TipFunctionError::TableLength { found, min, max: MOST_ROWS_ACROSS });
+        }
+        let size = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m, v| v.abs().max(m));
+        let largest = size(&mut self.rows.iter().flatten().copied());
+        if largest <= 0.0 {
+            return Err(TipFunctionError::Zero);
+        }
+        let last_x = size(&mut self.rows.iter().map(|row| row[row.len() - 1]));
+        let last_y = size(&mut self.rows[self.rows.len() - 1].iter().copied());
+        let ratio = last_x.max(last_y) / largest;
+        if ratio > MAX_LAST_RATIO {
+            return Err(TipFunctionError::TableDecay { ratio, most: MAX_LAST_RATIO });
+        }
+        Ok(())
+    }
+}
+
+/// The values that occur, in order.
+fn distinct(values: &[f64]) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup_by(|a, b| same(*a, *b));
+    sorted
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 0.0
+}

@@ -1,0 +1,82 @@
+//! Elimination for the s×s systems of a step. They are solved once or twice a step, and so small that a
+//! general routine spends its time on bookkeeping.
+
+use crate::collocation::{STAGES, Stages};
+
+/// P J = L U with partial pivoting: L below the diagonal, U on and above it.
+pub(super) struct Factors {
+    rows: [Stages; STAGES],
+    order: [usize; STAGES],
+}
+
+impl Factors {
+    /// `None` for a matrix that is singular or not finite.
+    pub(super) fn of(mut rows: [Stages; STAGES]) -> Option<Self> {
+        let mut order = std::array::from_fn(|i| i);
+        for k in 0..STAGES {
+            let pivot =
+                (k..STAGES).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+            if !(rows[pivot][k].is_finite() && rows[pivot][k].abs() > 0.0) {
+                return None;
+            }
+            rows.swap(k, pivot);
+            order.swap(k, pivot);
+            let (above, below) = rows.split_at_mut(k + 1);
+            let top = &above[k];
+            for row in below {
+                let factor = row[k] / top[k];
+                for j in k + 1..STAGES {
+                    row[j] -= factor * top[j];
+                }
+                row[k] = factor;
+            }
+        }
+        Some(Self { rows, order })
+    }
+
+    /// J⁻¹ `right`
+    pub(super) fn solve(&self, right: &Stages) -> Stages {
+        let mut x = self.order.map(|i| right[i]);
+        for i in 1..STAGES {
+            for j in 0..i {
+                x[i] -= self.rows[i][j] * x[j];
+            }
+        }
+        for i in (0..STAGES).rev() {
+            for j in i + 1..STAGES {
+                x[i] -= self.rows[i][j] * x[j];
+            }
+            x[i] /= self.rows[i][i];
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collocation::apply;
+
+    #[test]
+    fn solutions_satisfy_their_equations_where_rows_must_be_exchanged_too() {
+        // No pivot on the diagonal: a cyclic permutation, disturbed.
+        let matrix: [Stages; STAGES] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let small = 0.01 * ((3 * i + 5 * j) as f64).sin();
+                small + if j == (i + 1) % STAGES { 2.0 } else { 0.0 }
+            })
+        });
+        let wanted: Stages = std::array::from_fn(|i| i as f64 - 2.5);
+        let found = Factors::of(matrix).unwrap().solve(&apply(&matrix, &wanted));
+        for (a, b) in found.iter().zip(wanted) {
+            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_has_no_factors() {
+        let rows = [[1.0; STAGES]; STAGES];
+        assert!(Factors::of(rows).is_none());
+        assert!(Factors::of([[f64::NAN; STAGES]; STAGES]).is_none());
+    }
+}

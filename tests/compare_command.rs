@@ -1,0 +1,105 @@
+//! `stickslip compare`: its differences are those of the motions that it prints, it tells a right grid
+//! from a wrong one, and refuses what would take too long. The numbers themselves are judged in
+//! `grids_converge.rs`.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod program;
+
+use program::{Folder, said};
+use serde_json::Value;
+
+const CASE: &str = "compare --alpha 1.2 --r 1 --kick 0.05 --until 36";
+
+fn column(document: &Value, path: &str) -> Vec<f64> {
+    let column = document.pointer(path).unwrap().as_array().unwrap();
+    column.iter().map(|value| value.as_f64().unwrap()).collect()
+}
+
+fn number(document: &Value, path: &str) -> f64 {
+    document.pointer(path).unwrap().as_f64().unwrap()
+}
+
+#[test]
+fn every_grid_comes_near_and_the_difference_is_that_of_the_columns() {
+    let folder = Folder::new("compare");
+    for (options, most) in [
+        ("", 1e-8),
+        ("--grid sinc", 1e-7),
+        ("--grid windowed --spacing 0.02", 1e-2),
+        ("--grid uniform --spacing 0.02 --step 0.04", 1e-2),
+        ("--grid spectral --grid-until 20 --tolerance 1e-11 --memory direct", 1e-9),
+        ("--start flat --tip gaussian --width 0.7 --pulse 1,20,1", 1e-7),
+    ] {
+        let document = folder.prints_json(&format!("{CASE} {options}"));
+        for (difference, column_name) in [("x0", "x0"), ("u", "u")] {
+            let closed = column(&document, &format!("/closed/{column_name}"));
+            let grid = column(&document, &format!("/grid/{column_name}"));
+            assert!(closed.len() == grid.len() && closed.len() > 10);
+            let largest = closed.iter().zip(&grid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let said = number(&document, &format!("/max_difference/{difference}"));
+            assert!((largest - said).abs() <= 1e-15, "{options}: {largest:e} {said:e}");
+            assert!(said < most, "{options}: {said:e}");
+            // Two motions that agree to the last digit would be one motion.
+            assert!(said > 0.0, "{options}");
+        }
+    }
+}
+
+/// A lattice too wide for the tip is seen to give another motion.
+#[test]
+fn a_coarse_grid_shows_in_the_difference() {
+    let folder = Folder::new("compare-coarse");
+    let document = folder.prints_json(&format!("{CASE} --spacing 0.9"));
+    assert!(number(&document, "/max_difference/x0") > 1e-4);
+}
+
+/// All but the times of the clock.
+fn without_clock(mut document: Value) -> Value {
+    document["speedup"].take();
+    for side in ["closed", "grid"] {
+        document[side]["work"]["seconds"].take();
+    }
+    document
+}
+
+#[test]
+fn the_same_input_gives_the_same_document() {
+    let folder = Folder::new("compare-twice");
+    let [a, b] = [(); 2].map(|()| without_clock(folder.prints_json(CASE)));
+    assert_eq!(a, b);
+    folder.prints(&format!("{CASE} -o c.csv"));
+    let csv = String::from_utf8(folder.read("c.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + column(&a, "/t").len());
+    assert_eq!(csv.lines().next(), Some("t,closed,grid"));
+}
+
+#[test]
+fn what_would_take_too_long_is_refused_with_what_would_do() {
+    let folder = Folder::new("compare-long");
+    let paper = "compare --alpha 1.2 --r 1 --until 457 --grid uniform --spacing 0.001 --step 0.04";
+    let output = folder.stickslip(&format!("{paper} --time-limit 0.2"));
+    let said = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(output.stdout.is_empty() && said.contains("--grid-until"), "{said}");
+}
+
+#[test]
+fn unusable_options_are_refused_by_name() {
+    let folder = Folder::new("compare-refusals");
+    for (options, words) in [
+        ("--spacing 0", ["--spacing 0", "above 0"]),
+        ("--spacing NaN", ["--spacing NaN", "above 0"]),
+        ("--spacing 1e-9", ["--spacing 1e-9", "memory"]),
+        ("--step -1", ["--step -1", "above 0"]),
+        ("--grid-tolerance 0", ["--grid-tolerance 0", "above 0"]),
+        ("--grid-until 3", ["--grid-until 3", "--until"]),
+        ("--grid-until 37", ["--grid-until 37", "--until"]),
+        ("--time-limit 0", ["--time-limit 0", "seconds"]),
+        ("--tolerance 1", ["--tolerance 1", "1e-13"]),
+        ("--tip bessel", ["--tip bessel", "fades"]),
+        ("--pulse 1,2", ["--pulse 1,2", "A,T,W"]),
+    ] {
+        folder.refuses(&format!("{CASE} {options}"), &words);
+    }
+}

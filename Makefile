@@ -11,7 +11,7 @@ comma := ,
 stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check bench work-precision figures peers fuzz doc install clean
+.PHONY: help run test survive check bench work-precision figures peers fuzz doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -22,6 +22,9 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
+
+survive: ## the long tests: 200 kills, ten million time units in four pieces, a history that outgrows memory
+	$(CARGO) test --release --locked --test long_runs -- --ignored --nocapture --test-threads 1
 
 check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) fmt --all --check

@@ -317,6 +317,21 @@ fn where_no_more_can_be_written_the_last_whole_file_stays() {
 }
 
 #[test]
+fn a_run_that_cannot_go_on_leaves_the_lines_until_then_and_says_where() {
+    let folder = Folder::new("broken_off");
+    folder.write("run.jsonl", "before");
+    let run = "run --alpha 1.2 --r 1 --until 60 --sample-every 1 --pulse 1e15,20,1e-9";
+    let output = folder.stickslip(&format!("{run} -o run.jsonl"));
+    assert_eq!(output.status.code(), Some(1));
+    for words in ["cannot be met", "run.jsonl.part"] {
+        assert!(said(&output).contains(words), "{}", said(&output));
+    }
+    assert_eq!(folder.read("run.jsonl"), b"before");
+    let written = lines(&folder.read("run.jsonl.part"));
+    assert!(written.len() == 5 && written[4]["t"].as_f64() > Some(19.0), "{written:?}");
+}
+
+#[test]
 fn a_pipe_closed_in_the_middle_of_the_lines_is_told() {
     use std::io::Read;
     let folder = Folder::new("closed_lines");
@@ -365,6 +380,8 @@ fn checkpoints_that_cannot_be_gone_on_with_are_refused() {
         ("\"until\":300", "\"until\":30", "out of range"),
         ("\"format\":\"stickslip/checkpoint\"", "\"format\":\"stickslip/run\"", "stickslip/run"),
         ("\"kick\":", "\"kicks\":", "is damaged"),
+        ("\"every\":", "\"every\":-", "not above 0"),
+        ("\"checkpoint_every\":", "\"checkpoint_every\":-", "not above 0"),
     ] {
         resealed(from, to);
         folder.refuses("run --resume other.ck", &["--resume other.ck", words]);

@@ -89,6 +89,35 @@ fn every_memory_goes_on_to_the_last_bit() {
     }
 }
 
+/// What a run keeps, in words of its state, is no more after 20,000 time units than after 2,000: slips, a
+/// tip that creeps for ever, and one that does nothing at all.
+#[test]
+fn what_a_run_keeps_does_not_grow() {
+    for (alpha, kick) in [(1.2, 0.05), (4.0, 0.01), (0.8, 0.0)] {
+        for memory in [MemoryChoice::Fft, MemoryChoice::Modes] {
+            let model = triple(alpha);
+            let scenario = Scenario { kick, memory, ..Scenario::new(model, 20_000.0) };
+            let surface = scenario.initial_surface().unwrap();
+            let mut running = Running::new(&scenario, &surface).unwrap();
+            // The density of fft grows over 24,000 widths before anything is dropped, the record of the
+            // modes over 4000.
+            let of_memory = 2 * 131_072;
+            let (mut early, mut late) = (0, 0);
+            while running.step().unwrap().is_some() {
+                if running.work().steps.is_multiple_of(500) || running.t() >= 20_000.0 {
+                    let words = running.save().words().len();
+                    let largest = if running.t() < 2000.0 { &mut early } else { &mut late };
+                    *largest = words.max(*largest);
+                }
+            }
+            println!("α = {alpha}, {memory:?}: {early} words, then {late}");
+            assert!(late < early + of_memory, "α = {alpha}, {memory:?}");
+            let tail = running.tail().unwrap().steps().len();
+            assert!(tail <= 1 << 15, "{tail} steps");
+        }
+    }
+}
+
 /// Negative control: whatever word of a state is changed, either it is refused or the run differs; but for
 /// what no longer matters, such as cells far behind the tip.
 #[test]

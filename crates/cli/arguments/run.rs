@@ -47,7 +47,7 @@ pub(crate) enum RunFormat {
 pub(crate) enum HistoryName {
     /// All of it.
     All,
-    /// None: the memory that a run takes does not grow with its length.
+    /// Nothing of it: the memory that a run takes does not grow with its length.
     None,
 }
 

@@ -19,9 +19,9 @@ use crate::failure::Failure;
 use crate::files::output::{Output, Place, place};
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
-use journey::{Journey, Travelled};
+use journey::Journey;
 use record::{Record, Sink};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stickslip_tip::{Running, Scenario};
 use write::Target;
 
@@ -36,13 +36,14 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
     let said = |message: String| Failure::input("the run", message);
     let scenario = parameters::scenario(&order.parameters).map_err(said)?;
+    let surface = scenario.initial_surface().map_err(|error| order::explain(&error, arguments))?;
+    let running = Running::new(&scenario, &surface);
+    let running = running.map_err(|error| order::explain(&error, arguments))?;
+    // All files are opened before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
     let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
-    let surface = scenario.initial_surface().map_err(|error| order::explain(&error, arguments))?;
-    let running = Running::new(&scenario, &surface);
-    let running = running.map_err(|error| order::explain(&error, arguments))?;
     let mut record = record(&order, &scenario, sink);
     write::head(&mut record, &order, &scenario)?;
     let start = scenario.start_time();
@@ -83,12 +84,12 @@ fn resume(path: &Path) -> Result<(), Failure> {
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
     let checkpoints = Some(Checkpoints::new(path, &order, start, every, head.t));
     let journey = Journey { running, record, checkpoints, seconds: head.seconds };
-    let travelled: Travelled = journey.travel(&scenario)?;
+    let travelled = journey.travel(&scenario)?;
     write::all(&order, &scenario, &surface, travelled, target, figure)
 }
 
 /// The file that a checkpoint goes to.
-fn checkpoint_place(path: &Path) -> Result<std::path::PathBuf, Failure> {
+fn checkpoint_place(path: &Path) -> Result<PathBuf, Failure> {
     // Its folder must take new files.
     drop(Output::open("--checkpoint", path)?);
     match place("--checkpoint", path)? {
@@ -100,7 +101,7 @@ fn checkpoint_place(path: &Path) -> Result<std::path::PathBuf, Failure> {
     }
 }
 
-/// Opens what the run is written to: before the work, so that it is not in vain.
+/// Opens what the run is written to.
 fn open(
     output: &Path,
     order: &Order,
@@ -114,16 +115,15 @@ fn open(
         ));
     }
     if order.format == RunFormat::Jsonl {
-        let sink = Sink::Lines(Stream::open("--output", output, checkpoint.is_some())?);
-        return if checkpoint.is_none() || sink.can_be_cut_back() {
-            Ok((Target::Lines, sink))
-        } else {
-            Err(Failure::input(
+        let stream = Stream::open("--output", output, checkpoint.is_some())?;
+        if checkpoint.is_some() && !stream.is_file() {
+            return Err(Failure::input(
                 format!("--output {}", output.display()),
                 "cannot be gone on with from a checkpoint: lines that have left cannot be taken back; write \
                  them to a file",
-            ))
-        };
+            ));
+        }
+        return Ok((Target::Lines, Sink::Lines(stream)));
     }
     let target = Target::Document(Output::open("--output", output)?);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), record::journal)?))

@@ -2,7 +2,6 @@
 
 use super::{FORMAT_VERSION, RunParameters, Software};
 use crate::arguments::RunFormat;
-use crate::commands::run::samples::Times;
 use crate::files::journal::Mark;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,6 +54,16 @@ pub(crate) struct Order {
     pub(crate) verify: bool,
     /// Time between two checkpoints, if any are made.
     pub(crate) checkpoint_every: Option<f64>,
+}
+
+/// The times at which a motion is sampled.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub(crate) enum Times {
+    /// start, start + every, … `intervals` times, and not beyond end.
+    Every { start: f64, every: f64, end: f64, intervals: u64 },
+    /// As given.
+    At(Vec<f64>),
 }
 
 impl CheckpointHead {

@@ -20,7 +20,7 @@ mod verification;
 pub(crate) use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
 };
-pub(crate) use checkpoint::{CheckpointHead, Order};
+pub(crate) use checkpoint::{CheckpointHead, Order, Times};
 pub(crate) use compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
     GridDocument, GridWork,

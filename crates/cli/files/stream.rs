@@ -88,6 +88,13 @@ impl Stream {
         matches!(self.sink, Sink::Part(_))
     }
 
+    /// Leaves a file that will not be complete under the name of its part.
+    pub(crate) fn keep_part(&mut self) -> Option<&Path> {
+        let Sink::Part(part) = &mut self.sink else { return None };
+        part.is_kept = true;
+        Some(&part.part)
+    }
+
     /// Writes a line of JSON.
     pub(crate) fn line(&mut self, line: &impl Serialize) -> Result<(), Failure> {
         self.line.clear();

@@ -1,6 +1,6 @@
 //! Checkpoints: written so that a kill at any moment leaves the last good one.
 
-use super::record::{Record, Sink};
+use super::record::Record;
 use crate::documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use crate::failure::{Failure, Typed};
 use crate::files::output::replace;
@@ -130,6 +130,10 @@ fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     if words.len() as u64 != head.words || !rest.is_empty() {
         return Err("is damaged: it does not hold as many words as it says".into());
     }
+    let every = head.order.checkpoint_every;
+    if !head.order.samples.are_usable() || !every.is_some_and(|every| every > 0.0) {
+        return Err("is damaged: an interval is not above 0".into());
+    }
     let words = words.iter().map(|word| u64::from_le_bytes(*word)).collect();
     Ok((head, State::from_words(words)))
 }
@@ -143,15 +147,5 @@ pub(super) fn interval(asked: Option<f64>, (start, end): (f64, f64)) -> Result<f
             format!("--checkpoint-every {}", Typed(every)),
             "must be a finite time above 0",
         )),
-    }
-}
-
-impl Sink {
-    /// Whether a checkpoint can say how to go on with what was written.
-    pub(super) fn can_be_cut_back(&self) -> bool {
-        match self {
-            Self::Lines(stream) => stream.is_file(),
-            Self::Memory | Self::Journal(..) => true,
-        }
     }
 }

@@ -19,8 +19,8 @@ pub(super) fn end(
     travelled: &Travelled,
 ) -> Result<RunEnd, Failure> {
     let Travelled { running, seconds, signal, .. } = travelled;
-    let (outcome, work) = (running.outcome(), running.work());
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
+    let (outcome, work) = (running.outcome(), running.work());
     Ok(RunEnd {
         end: running.t(),
         regime: outcome.regime.into(),

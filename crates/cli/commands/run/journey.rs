@@ -6,7 +6,7 @@ use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
-use stickslip_tip::{Running, Scenario};
+use stickslip_tip::{Running, Scenario, Step};
 
 /// A run under way, with all that accompanies it.
 pub(super) struct Journey<'a> {
@@ -35,16 +35,25 @@ impl<'a> Journey<'a> {
         }
     }
 
+    fn step(&mut self) -> Result<Option<Step>, Failure> {
+        self.running.step().map_err(|error| match self.record.keep_part() {
+            None => Failure::Run(error.to_string()),
+            Some(part) => Failure::Run(format!(
+                "{error}; what was written until then is in {}",
+                part.display()
+            )),
+        })
+    }
+
     /// Goes to the end of the scenario.
     pub(super) fn travel(mut self, scenario: &Scenario) -> Result<Travelled<'a>, Failure> {
         let interrupt = Interrupt::listen()
             .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
-        let failed = |error: stickslip_tip::RunError| Failure::Run(error.to_string());
         let mut signal = None;
         while signal.is_none()
-            && let Some(step) = self.running.step().map_err(failed)?
+            && let Some(step) = self.step()?
         {
             self.record.take(&step)?;
             progress.reached(step.end());

@@ -1,8 +1,7 @@
 //! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
 
 use super::checkpoint::journal_of;
-use super::samples::Times;
-use crate::documents::SampleLine;
+use crate::documents::{SampleLine, Times};
 use crate::failure::Failure;
 use crate::files::journal::{Journal, Mark, rows, write_row};
 use crate::files::stream::Stream;
@@ -87,6 +86,14 @@ impl Record {
             self.taken += 1;
         }
         Ok(())
+    }
+
+    /// Keeps the lines written so far, though no end will follow; where they are.
+    pub(super) fn keep_part(&mut self) -> Option<&Path> {
+        match &mut self.sink {
+            Sink::Lines(stream) => stream.keep_part(),
+            Sink::Memory | Sink::Journal(..) => None,
+        }
     }
 
     /// Puts what was written on the disk, and says what that is.

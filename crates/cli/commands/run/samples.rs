@@ -1,25 +1,14 @@
 //! The times at which a motion is sampled.
 
 use crate::arguments::SamplingArguments;
+use crate::documents::Times;
 use crate::failure::{Failure, Typed};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 const DEFAULT_INTERVALS: u64 = 2000;
 /// Four columns of these are 1.3 GB, and four times as much as JSON.
 const MOST_SAMPLES: f64 = 4e7;
 /// A petabyte of lines.
 const MOST_LINES: f64 = 1e13;
-
-/// The times at which a motion is sampled.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, deny_unknown_fields)]
-pub(crate) enum Times {
-    /// start, start + every, … `intervals` times, and not beyond end.
-    Every { start: f64, every: f64, end: f64, intervals: u64 },
-    /// As given.
-    At(Vec<f64>),
-}
 
 impl Times {
     /// Those asked for, all between the start and the end of `what`; where they are kept in memory, no more
@@ -60,6 +49,14 @@ impl Times {
         }
         // The end itself is a sample where the interval divides the run, round-off aside.
         Ok(Self::Every { start, every, end, intervals: (count + 1e-9).floor() as u64 })
+    }
+
+    /// Whether they go on in time, and end.
+    pub(crate) fn are_usable(&self) -> bool {
+        match self {
+            Self::Every { every, .. } => *every > 0.0,
+            Self::At(_) => true,
+        }
     }
 
     /// How many there are.

@@ -9,9 +9,10 @@ use stickslip_convolution::{Convolver, Density, Field, Kernel};
 
 /// ∫ f'(x - x0(t'))dt' = f' ∗ ρ with ρ the residence density of the tip, how long it spent where.
 ///
-/// New history is spread onto a lattice that keeps all of ρ; a window of it about the tip is convolved
-/// with f' by FFT and read off at the tip. The cost of a step does not depend on how much history lies
-/// within reach. For a footprint without reach (J0) the window holds all that was visited and grows
+/// New history is spread onto a lattice that keeps ρ as far as some 12,000 widths about the tip; a window of
+/// it is convolved with f' by FFT and read off at the tip. The cost of a step does not depend on how much
+/// history lies within reach; a tip that comes back to what was dropped is told so by
+/// [`Memory::forgotten`]. For a footprint without reach (J0) the window holds all that was visited and grows
 /// with it; the newest steps are then summed directly for a while, so that the longer transforms are
 /// shared by several steps.
 pub struct Fft {

@@ -143,6 +143,7 @@ impl Classifier {
         self.extrema.restore(state)?;
         self.risen.restore(state)?;
         self.tail = state.steps()?.into();
-        Ok(())
+        // The last step is the end of the tail.
+        if self.tail.back() == self.last().as_ref() { Ok(()) } else { Err(Damaged::OutOfRange) }
     }
 }

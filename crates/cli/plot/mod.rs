@@ -22,6 +22,7 @@ mod map;
 mod onset;
 mod panel;
 mod picture;
+mod plots;
 #[cfg(feature = "png")]
 mod raster;
 mod roots;

@@ -24,6 +24,7 @@ mod panel;
 mod phases;
 mod phases_over;
 mod picture;
+mod plots;
 #[cfg(feature = "png")]
 mod raster;
 mod roots;

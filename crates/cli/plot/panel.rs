@@ -1,22 +1,16 @@
 //! One set of axes with its curves, drawn by kuva.
 
 use super::axis::{Axis, Fit};
-use super::curve::{Curve, Mark};
+use super::curve::Curve;
 use super::legend::Legend;
 use super::map::Drawn;
 use super::style::{
     GRID, LABEL_SIZE, MARGIN_BOTTOM, MARGIN_RIGHT, MARGIN_TOP, TICK_SIZE, WIDTH, text_width,
 };
-use super::thin::thin;
 use kuva::Theme;
-use kuva::plot::scatter::MarkerShape;
-use kuva::prelude::{BandPlot, Layout, LinePlot, LineStyle, Plot, ScatterPlot, TickFormat};
+use kuva::prelude::{Layout, TickFormat};
 use kuva::render::annotations::{ShadedRegion, TextAnnotation};
 use kuva::render::render::{Primitive, Scene, TextAnchor, render_multiple};
-
-/// About how many points all curves of a panel may have together, so that a file of three panels
-/// stays below 300 kB (a point takes some 20 bytes; a panel of a run has two curves).
-const POINTS: usize = 12_000;
 
 /// Axes, labels and curves.
 pub(super) struct Panel<'a> {
@@ -167,45 +161,6 @@ impl<'a> Panel<'a> {
         layout
     }
 
-    fn plot(&self, curve: &Curve) -> Plot {
-        // Marks that share a column are all meant to be seen.
-        let line = matches!(curve.pen.mark, Mark::Line { .. });
-        let columns = if line { self.columns() } else { curve.x.len() };
-        let points = thin(curve.x, curve.y, (self.x.low, self.x.high), columns);
-        match curve.pen.mark {
-            Mark::Line { width, dashes } if points.len() > 1 => Plot::Line(
-                LinePlot::new()
-                    .with_data(points)
-                    .with_color(curve.pen.colour)
-                    .with_stroke_width(width)
-                    .with_line_style(line_style(dashes)),
-            ),
-            // A line of a single point would not show.
-            Mark::Line { width: radius, .. }
-            | Mark::Dots { radius }
-            | Mark::Triangles { radius } => Plot::Scatter(
-                ScatterPlot::new()
-                    .with_data(points)
-                    .with_color(curve.pen.colour)
-                    .with_marker(shape(curve.pen.mark))
-                    .with_size(if let Mark::Line { .. } = curve.pen.mark { 3.0 } else { radius }),
-            ),
-        }
-    }
-
-    /// A column for every pixel unless there are many curves.
-    fn columns(&self) -> usize {
-        (WIDTH as usize).min(POINTS / (2 * self.curves.len().max(1)))
-    }
-
-    fn band(&self, shade: &Shade) -> Option<Plot> {
-        let Shade::Above(x, y, colour) = *shade else { return None };
-        let points = thin(x, y, (self.x.low, self.x.high), WIDTH as usize);
-        let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-        let top = vec![self.y.high; x.len()];
-        Some(Plot::Band(BandPlot::new(x, y, top).with_color(colour).with_opacity(SHADE_OPACITY)))
-    }
-
     fn heading_line(&self, left: f64) -> Primitive {
         Primitive::Text {
             x: left,
@@ -235,15 +190,7 @@ impl<'a> Panel<'a> {
     }
 }
 
-const SHADE_OPACITY: f64 = 0.16;
-
-fn shape(mark: Mark) -> MarkerShape {
-    if let Mark::Triangles { .. } = mark { MarkerShape::Triangle } else { MarkerShape::Circle }
-}
-
-fn line_style(dashes: &str) -> LineStyle {
-    if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_owned()) }
-}
+pub(super) const SHADE_OPACITY: f64 = 0.16;
 
 fn tick_format(axis: Axis) -> TickFormat {
     TickFormat::Custom(std::sync::Arc::new(move |value| axis.label(value)))

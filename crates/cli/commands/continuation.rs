@@ -34,9 +34,10 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
 
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-    let branches = branches(arguments, &settings, &origin, &interrupt)?;
+    let (branches, remarks) = branches(arguments, &settings, &origin, &interrupt)?;
     let signal = interrupt.signal();
-    let document = document::of(arguments, &origin, &branches, signal.is_some());
+    let mut document = document::of(arguments, &origin, &branches, remarks);
+    document.interrupted = signal.is_some();
     if let Some(figure) = figure {
         figure.write(&draw(&document))?;
     }
@@ -122,7 +123,8 @@ fn branches(
     settings: &Continuation,
     origin: &Origin,
     interrupt: &Interrupt,
-) -> Result<Vec<Found>, Failure> {
+) -> Result<(Vec<Found>, Vec<String>), Failure> {
+    let mut remarks = vec![];
     let mut progress = None;
     let end = progress_end(settings, origin);
     let mut observe = |cycle: &Cycle| {
@@ -148,12 +150,14 @@ fn branches(
             if known || found.len() >= MOST_BRANCHES {
                 continue;
             }
-            let branch = settings.switched(special, &mut observe).map_err(|e| explain(&e))?;
-            found.push(Found { branch, from: Some((next, i)) });
+            match settings.switched(special, &mut observe) {
+                Ok(branch) => found.push(Found { branch, from: Some((next, i)) }),
+                Err(error) => remarks.push(format!("a branch of twice the period: {error}")),
+            }
         }
         next += 1;
     }
-    Ok(found)
+    Ok((found, remarks))
 }
 
 /// Whether a branch that was followed already has come back there.

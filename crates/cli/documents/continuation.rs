@@ -26,6 +26,8 @@ pub(crate) struct ContinueDocument {
     pub(crate) trapping: Option<f64>,
     /// Whether a signal stopped it.
     pub(crate) interrupted: bool,
+    /// What could not be followed; empty if all was.
+    pub(crate) remarks: Vec<String>,
 }
 
 impl ContinueDocument {

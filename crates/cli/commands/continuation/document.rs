@@ -13,7 +13,7 @@ pub(super) fn of(
     arguments: &ContinueArguments,
     origin: &Origin,
     found: &[Found],
-    interrupted: bool,
+    remarks: Vec<String>,
 ) -> ContinueDocument {
     let first = &found[0].branch.points[0];
     let counts = found.iter().map(|f| f.branch.special.len());
@@ -56,7 +56,8 @@ pub(super) fn of(
             OverName::Alpha => ratio * first.r,
             OverName::R => first.alpha / ratio,
         }),
-        interrupted,
+        interrupted: false,
+        remarks,
     }
 }
 

@@ -132,7 +132,9 @@ impl Continuation {
             special.extend(self.hopf_near(&place.cycle));
             return Located::Steady;
         }
-        special.extend(self.doubling_near(&place.cycle));
+        // Else the start is no longer the highest maximum, which ends nothing.
+        let Some(doubling) = self.doubling_near(&place.cycle) else { return Located::OnTheWay };
+        special.push(doubling);
         Located::Halved
     }
 

@@ -7,8 +7,10 @@ use crate::cycle::linearisation::{Change, Direction, Linearisation};
 use crate::cycle::solve::{Closed, Condition, close};
 use nalgebra::{DMatrix, DVector};
 
-/// By how much the higher of the two maxima rises at first, in widths.
-const FIRST_RISE: f64 = 0.02;
+/// By how much the first cycle deviates from the one that doubles, in widths; what is tried in turn.
+const DEVIATIONS: [f64; 4] = [0.02, 0.06, 0.006, 0.2];
+/// Halves that differ by less, over the deviation, are the same.
+const LEAST_SHARE: f64 = 0.1;
 /// Steps of inverse iteration: the eigenvalue is known to nearly all digits.
 const ITERATIONS: usize = 4;
 
@@ -19,13 +21,18 @@ pub(super) fn to_doubled(settings: &Continuation, special: &Special) -> Result<P
     let Closed { equation, orbit, linearisation, .. } =
         solved_again(cycle.ok_or(lost.clone())?, settings)?;
     let deviation = alternating(&linearisation).ok_or(lost.clone())?;
-    let rise = FIRST_RISE * 8.7 / equation.tip.band();
-    let mut doubled = orbit.doubled();
-    doubled.move_by(&deviation, rise / deviation.state[0]);
-    let condition = Condition { free: settings.over, fixed: Direction::L };
-    let closed =
-        close(equation, doubled, condition, settings.tolerance).map_err(|_| lost.clone())?;
-    Place::new(closed, settings.over, &Direction::L).ok_or(lost)
+    let width = 8.7 / equation.tip.band();
+    // The higher maximum is to be the first.
+    let unit = deviation.state[0].signum() / deviation.size();
+    let first = DEVIATIONS.iter().find_map(|size| {
+        let mut doubled = orbit.doubled();
+        doubled.move_by(&deviation, size * width * unit);
+        let condition = Condition { free: settings.over, fixed: Direction::L };
+        let closed = close(equation.clone(), doubled, condition, settings.tolerance).ok()?;
+        let apart = closed.orbit.difference_of_halves(equation.r);
+        (apart > LEAST_SHARE * size * width).then_some(closed)
+    });
+    Place::new(first.ok_or(lost.clone())?, settings.over, &Direction::L).ok_or(lost)
 }
 
 /// The deviation that a period turns into its opposite, over two periods.

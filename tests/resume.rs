@@ -89,32 +89,28 @@ fn every_memory_goes_on_to_the_last_bit() {
     }
 }
 
-/// What a run keeps, in words of its state, is no more after 20,000 time units than after 2,000: slips, a
-/// tip that creeps for ever, and one that does nothing at all.
+/// What a run keeps, in words of its state, is bounded: on slips, on a tip that creeps for ever, and on one
+/// that does nothing at all. (crates/tip/tests/fft_bounded.rs has the same of the density of `fft`.)
 #[test]
 fn what_a_run_keeps_does_not_grow() {
     for (alpha, kick) in [(1.2, 0.05), (4.0, 0.01), (0.8, 0.0)] {
-        for memory in [MemoryChoice::Fft, MemoryChoice::Modes] {
-            let model = triple(alpha);
-            let scenario = Scenario { kick, memory, ..Scenario::new(model, 20_000.0) };
-            let surface = scenario.initial_surface().unwrap();
-            let mut running = Running::new(&scenario, &surface).unwrap();
-            // The density of fft grows over 24,000 widths before anything is dropped, the record of the
-            // modes over 4000.
-            let of_memory = 2 * 131_072;
-            let (mut early, mut late) = (0, 0);
-            while running.step().unwrap().is_some() {
-                if running.work().steps.is_multiple_of(500) || running.t() >= 20_000.0 {
-                    let words = running.save().words().len();
-                    let largest = if running.t() < 2000.0 { &mut early } else { &mut late };
-                    *largest = words.max(*largest);
-                }
+        let memory = MemoryChoice::Modes;
+        let scenario = Scenario { kick, memory, ..Scenario::new(triple(alpha), 12_000.0) };
+        let surface = scenario.initial_surface().unwrap();
+        let mut running = Running::new(&scenario, &surface).unwrap();
+        // By then the record of the modes has its full length.
+        let (mut early, mut late) = (0, 0);
+        let mut steps: u32 = 0;
+        while running.step().unwrap().is_some() {
+            steps += 1;
+            if steps.is_multiple_of(1000) || steps < 100 {
+                let largest = if running.t() < 6000.0 { &mut early } else { &mut late };
+                *largest = running.save().words().len().max(*largest);
             }
-            println!("α = {alpha}, {memory:?}: {early} words, then {late}");
-            assert!(late < early + of_memory, "α = {alpha}, {memory:?}");
-            let tail = running.tail().unwrap().steps().len();
-            assert!(tail <= 1 << 15, "{tail} steps");
         }
+        println!("α = {alpha}: {early} words, then {late}, after {steps} steps");
+        // A trapped tip makes a few steps more in each decade of time.
+        assert!(late as f64 <= 1.02 * early as f64 + 1000.0, "α = {alpha}");
     }
 }
 

@@ -61,7 +61,7 @@ fn cases() -> Vec<(&'static str, Scenario)> {
 fn every_case_of_the_suite_keeps_its_promise() {
     for (name, scenario) in cases() {
         for tolerance in [1e-4, 1e-6, 1e-9] {
-            for memory in [MemoryChoice::Auto, MemoryChoice::Modes] {
+            for memory in [MemoryChoice::Fft, MemoryChoice::Modes] {
                 let scenario = Scenario { tolerance, memory, ..scenario.clone() };
                 let run = match run(&scenario) {
                     Err(RunError::Modes(_)) => continue,
@@ -166,16 +166,26 @@ fn a_memory_with_the_weight_of_one_mode_flipped_is_caught() {
     assert_eq!((again.terms(), again.certificate()), (whole.terms(), whole.certificate()));
     let found = verified(&scenario, "modes", &with_fit(&scenario, again));
     assert!(found.is_kept(), "{found:?}");
+    let best = Scenario { tolerance: 1e-13, memory: MemoryChoice::Direct, ..scenario.clone() };
+    let best = run(&best).unwrap().trajectory;
+    let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
+    let mut caught = 0;
     for i in 0..whole.terms().len() {
         let mut damaged = terms(&whole);
         damaged[i].weight = -damaged[i].weight;
         let damaged = Fit::from_terms(tip, damaged).unwrap();
-        let error = damaged.certificate().slope;
-        let found = verified(&scenario, "modes", &with_fit(&scenario, damaged));
-        println!("mode {i}, f' off by {error:.1e}: l off by {:.1e}", found.l.largest);
-        assert!(!found.is_kept(), "mode {i}");
-        assert!(found.trusted_until.is_some());
+        let off = damaged.certificate().slope;
+        let trajectory = with_fit(&scenario, damaged);
+        let range = (trajectory.start(), trajectory.end());
+        let error = largest_difference(|t| trajectory.l(t), |t| best.l(t), range, 5000);
+        let found = verified(&scenario, "modes", &trajectory);
+        println!("mode {i}, f' off by {off:.1e}: l by {error:.1e}, found {:.1e}", found.l.largest);
+        // The weakest mode may matter less than the tolerance: then the promise is kept.
+        assert_eq!(found.is_kept(), error <= allowed, "mode {i}: off by {error:e}");
+        assert!((found.l.largest / error - 1.0).abs() < 0.1, "mode {i}");
+        caught += usize::from(!found.is_kept());
     }
+    assert!(caught + 1 >= whole.terms().len(), "{caught} of {}", whole.terms().len());
 }
 
 #[test]

@@ -19,8 +19,8 @@ use thiserror::Error;
 /// what the test-suite holds every memory to (tests/tolerance_ladder.rs).
 pub const TOLERANCES_ALLOWED: f64 = 10.0;
 
-/// The second run's tolerance is smaller by this factor, where f64 allows that.
-const TIGHTER: f64 = 0.01;
+/// The second run's tolerance is so many times smaller, where f64 allows that.
+const TIGHTER: f64 = 100.0;
 /// The twin's start is off by so many of its tolerances, far above its errors,
 const SHIFT: f64 = 1e4;
 /// but by no more than this, far below the motion.
@@ -101,7 +101,7 @@ pub fn verify(
     let tolerance = tighter(scenario);
     let other = Scenario { tolerance, until, ..scenario.clone() };
     let reference = repeat(&other, another(memory, steps), 0.0, &mut observe)?;
-    let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(tolerance / TIGHTER);
+    let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance);
     let twin = Scenario { kick: scenario.kick + shift, ..other };
     let twin = repeat(&twin, vec![MemoryChoice::Fft, MemoryChoice::Direct], 0.5, &mut observe)?;
 
@@ -121,8 +121,8 @@ pub fn verify(
 /// The tightest tolerance, down to a hundredth, that can be asked for.
 fn tighter(scenario: &Scenario) -> f64 {
     let asked = scenario.tolerance;
-    let factors = [TIGHTER, 0.03, 0.1, 0.3];
-    let tried = factors.map(|factor| (factor * asked).max(TOLERANCES.0)).into_iter();
+    let factors = [TIGHTER, 30.0, 10.0, 3.0];
+    let tried = factors.map(|factor| (asked / factor).max(TOLERANCES.0)).into_iter();
     let can_be_met =
         |tolerance: &f64| Scenario { tolerance: *tolerance, ..scenario.clone() }.validate().is_ok();
     tried.filter(|tolerance| *tolerance < asked).find(can_be_met).unwrap_or(asked)

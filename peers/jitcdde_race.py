@@ -46,16 +46,16 @@ def race(case, reference, nodes, rtol, dde):
     warnings.simplefilter("ignore")  # samples may lie closer than steps
     times = np.array(reference["t"][1:]) - case["start"]
     best = np.inf
-    for _ in range(3):
+    for _ in range(5):
         dde.purge_past()
         dde.constant_past([case["l0"]], time=0.0)
         dde.set_integration_parameters(
             rtol=rtol, atol=rtol, first_step=0.05, max_step=1.0, pws_rtol=rtol, pws_atol=rtol
         )
         dde.initial_discontinuities_handled = True  # there is none: the past is the steady solution
-        clock = time.perf_counter()
+        clock = time.process_time()
         l = [dde.integrate(target)[0] for target in times]
-        best = min(best, time.perf_counter() - clock)
+        best = min(best, time.process_time() - clock)
     error = float(np.max(np.abs(np.array(l) - reference["l"][1:])))
     return {
         "contestant": "JiTCDDE",

@@ -132,7 +132,8 @@ def table(document):
         f"{case['start_position']:g}, an impulse of 0.01 about t = {case['pulse']['time']:g}, from t = "
         f"{case['start']:.3f} to {case['until']:g}. Error: the largest of l against the closed equation "
         f"with the direct memory at 1e-12, which the fft memory confirms to {document['checked_to']:.0e}. "
-        "Every contestant runs on one core.",
+        "Every contestant runs on one core. A time is the shortest of several or, if that is less, the "
+        "processor's, so that other work on the machine does not count.",
         "",
         f"## At an error of {MATCHED:g} or less",
         "",

@@ -40,7 +40,7 @@ pub(crate) fn rows(reference: &Reference) -> Vec<Value> {
     let span = UNTIL - reference.t[0];
     let mut rows = vec![];
     let paper = Stepping { max_step: PAPER_STEP, ..Stepping::ode45() };
-    for spacing in [0.001, 0.002, 0.01] {
+    for spacing in [0.001, 0.0018, 0.01] {
         let windowed = Method::Windowed { spacing };
         let (error, seconds) = timed(|| run(reference, &windowed, &paper, UNTIL));
         let setting = format!("dx {spacing}, dopri5, dt {PAPER_STEP}");

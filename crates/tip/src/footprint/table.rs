@@ -47,6 +47,10 @@ struct Grid {
 impl Grid {
     fn of(x: &[f64], y: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
         let points = x.len().min(y.len()).min(f.len());
+        if points == 0 {
+            let (min, max) = (table::MIN_ROWS, MOST_ROWS_ACROSS);
+            return Err(TipFunctionError::TableLength { found: 0, min, max });
+        }
         let bad = |i: &usize| !(x[*i].is_finite() && y[*i].is_finite() && f[*i].is_finite());
         if let Some(i) = (0..points).find(bad) {
             return Err(TipFunctionError::TableNotFinite { row: i + 1 });
@@ -104,4 +108,17 @@ fn distinct(values: &[f64]) -> Vec<f64> {
 
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_without_rows_is_refused() {
+        assert!(matches!(
+            Grid::of(&[], &[], &[]).err(),
+            Some(TipFunctionError::TableLength { found: 0, .. })
+        ));
+    }
 }

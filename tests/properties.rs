@@ -214,3 +214,21 @@ fn a_change_of_alpha_breaks_the_agreement() {
     let [a, b] = [&case, &other].map(|case| case.run(POSITION, MemoryChoice::Direct).unwrap());
     assert!(distance(&a, &b) > SLACK * case.tolerance() * case.amplification());
 }
+
+/// Found by the shift of the start: from t = -8.8 no sum of t and a step is 1.1696065870139607 + one
+/// rounding, the end asked for, and the step that was left to it was refused as too small.
+#[test]
+fn a_run_that_starts_before_0_ends_after_it() {
+    let case = Case {
+        lobes: vec![(1.0, 0.0, 1.270_412_545_753_780_7)],
+        alpha: 1.437_573_312_275_496_1,
+        r: 0.207_470_641_767_828_67,
+        flat: true,
+        kick: -0.395_807_793_376_967_75,
+        pulses: vec![],
+        digits: 6,
+    };
+    let run = case.run(POSITION - 15.832_047_388_454_62, MemoryChoice::Auto).unwrap();
+    let (start, end) = (run.trajectory.start(), run.trajectory.end());
+    assert!((end - start - SPAN).abs() < 1e-14, "{start} {end}");
+}

@@ -143,18 +143,25 @@ impl<'a> Integrator<'a> {
         self.memory.as_ref()
     }
 
-    /// Makes one step, which ends at `until` at the latest.
+    /// Makes one step, which ends at `until` at the latest, but for a rounding of t.
     ///
     /// # Errors
     /// The tolerance cannot be met.
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
         let stretch = self.enter_stretch();
         let limit = self.length_limit(&stretch);
-        let mut h = self.control.proposal(limit, self.force.next_break(self.t).min(until) - self.t);
+        let end = self.force.next_break(self.t).min(until);
+        let mut h = self.control.proposal(limit, end - self.t);
         loop {
             // The difference of two representable times: t loses nothing as it grows.
             h = (self.t + h) - self.t;
-            if h <= 4.0 * f64::EPSILON * self.t.abs().max(1e-3) {
+            let least = 4.0 * f64::EPSILON * self.t.abs().max(1e-3);
+            // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
+            // make up for a rounding short.
+            while self.t + h < end && end - (self.t + h) <= least {
+                h = h.next_up();
+            }
+            if h <= least {
                 let tolerance = self.control.tolerance();
                 return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
             }

@@ -3,7 +3,7 @@
 CARGO ?= cargo
 PLOT ?= run.svg
 # Of each of four parsers, and of each of four laws.
-CASES ?= 2500000
+CASES ?= 1670000
 MOTIONS ?= 25000
 
 comma := ,

@@ -7,8 +7,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::arguments::{Cli, Command, ModelArguments};
+use crate::commands::sweep::{diagram, merge};
 use crate::commands::{model, run};
-use crate::documents::RunDocument;
+use crate::documents::{RunDocument, SweepDocument};
 use crate::files::input::{parse_columns, parse_document, parse_tip};
 use clap::Parser;
 use proptest::prelude::*;
@@ -16,8 +17,8 @@ use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip_surface::Surface;
-use stickslip_tip::Force;
 use stickslip_tip::units::Unit;
+use stickslip_tip::{Force, Running};
 
 /// Cases of each target where the environment sets no other number: some seconds in all.
 const CASES: u32 = 2000;
@@ -182,6 +183,55 @@ fn any_run_document_is_taken_or_refused() {
         let Some(Ok(initial)) = scenario.ok().map(|s| s.initial_surface()) else { return false };
         let surface = Surface::new(&model, &initial, &trajectory);
         surface.heights(trajectory.end(), &[trajectory.x0(trajectory.end())]).unwrap();
+        true
+    });
+}
+
+/// The bytes of a checkpoint whose checksum is right: the first line, then its words as hexadecimal numbers.
+fn checkpoint(text: &str) -> Option<Vec<u8>> {
+    let (head, words) = text.split_once('\n')?;
+    let words: Vec<u64> =
+        words.lines().filter_map(|word| u64::from_str_radix(word.trim(), 16).ok()).collect();
+    let mut head: serde_json::Value = serde_json::from_str(head).ok()?;
+    *head.get_mut("words")? = words.len().into();
+    let mut bytes = serde_json::to_vec(&head).ok()?;
+    bytes.push(b'\n');
+    bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+    let sum = crc32fast::hash(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    Some(bytes)
+}
+
+#[test]
+fn any_checkpoint_is_taken_or_refused() {
+    fuzz("checkpoint", |text| {
+        // As it is, its checksum is wrong.
+        assert!(run::checkpoint::parse(text.as_bytes()).is_err());
+        let Some(bytes) = checkpoint(text) else { return false };
+        let Ok((head, state)) = run::checkpoint::parse(&bytes) else { return false };
+        let Ok(scenario) = run::parameters::scenario(&head.order.parameters) else { return false };
+        let Ok(surface) = scenario.initial_surface() else { return false };
+        let Ok(mut running) = Running::resumed(&scenario, &surface, &state) else { return false };
+        // Numbers without sense may not be told from others, but they do no harm.
+        for _ in 0..3 {
+            if !running.step().is_ok_and(|step| step.is_some()) {
+                break;
+            }
+        }
+        let _ = running.outcome();
+        true
+    });
+}
+
+#[test]
+fn any_sweep_is_taken_or_refused() {
+    fuzz("sweep", |text| {
+        let sweep: Result<SweepDocument, String> = parse_document(text, SweepDocument::FORMAT);
+        let Ok(sweep) = sweep else { return false };
+        let is_whole = merge::complete(&sweep.parameters, &sweep.points).is_ok();
+        if is_whole && diagram::judge(&sweep.parameters).is_ok() {
+            diagram::draw(&sweep.parameters, &sweep.points);
+        }
         true
     });
 }

@@ -1,6 +1,6 @@
 //! `stickslip run`.
 
-mod checkpoint;
+pub(crate) mod checkpoint;
 pub(crate) mod document;
 mod journey;
 pub(crate) mod limits;

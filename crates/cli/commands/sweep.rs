@@ -1,9 +1,9 @@
 //! `stickslip sweep`.
 
-mod diagram;
+pub(crate) mod diagram;
 mod finished;
 mod grid;
-mod merge;
+pub(crate) mod merge;
 mod point;
 mod write;
 

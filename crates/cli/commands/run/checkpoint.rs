@@ -110,7 +110,8 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     parse(&bytes).map_err(refused)
 }
 
-fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
+/// What [`write`](Checkpoints::write) wrote.
+pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     let no_checkpoint = || "is no checkpoint, or not all of one".to_string();
     let (body, sum) = bytes.split_last_chunk::<4>().ok_or_else(no_checkpoint)?;
     if crc32fast::hash(body) != u32::from_le_bytes(*sum) {

@@ -32,7 +32,7 @@ fn axes(parameters: &SweepParameters) -> Vec<Axis<'_>> {
 }
 
 /// Refuses a grid that no picture shows.
-pub(super) fn judge(parameters: &SweepParameters) -> Result<(), Failure> {
+pub(crate) fn judge(parameters: &SweepParameters) -> Result<(), Failure> {
     match axes(parameters).len() {
         1 | 2 => Ok(()),
         0 => Err(Failure::input("--plot", "a single point is no picture: give a range LO:HI:N")),
@@ -41,7 +41,7 @@ pub(super) fn judge(parameters: &SweepParameters) -> Result<(), Failure> {
 }
 
 /// An SVG document.
-pub(super) fn draw(parameters: &SweepParameters, points: &[SweepPoint]) -> String {
+pub(crate) fn draw(parameters: &SweepParameters, points: &[SweepPoint]) -> String {
     match axes(parameters).as_slice() {
         [axis] => over(*axis, points),
         [slow, fast] => phases(*slow, *fast, points),

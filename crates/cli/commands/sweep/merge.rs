@@ -37,7 +37,7 @@ fn read(path: &Path) -> Result<SweepDocument, Failure> {
 }
 
 /// Every point of the grid, once.
-fn complete(parameters: &SweepParameters, points: &[SweepPoint]) -> Result<(), Failure> {
+pub(crate) fn complete(parameters: &SweepParameters, points: &[SweepPoint]) -> Result<(), Failure> {
     let refused = |message: String| Err(Failure::input("PART.json", message));
     if let Some(pair) = points.windows(2).find(|pair| pair[0].index == pair[1].index) {
         return refused(format!("point {} is in more than one part", pair[0].index));

@@ -216,8 +216,11 @@ impl Memory for Modes {
     }
 
     fn note(&self) -> Option<String> {
-        let error = self.fit.certificate().slope;
-        let fit = format!("{} exponentials fit f' to {error:.1e}", self.fit.terms().len());
+        let Certificate { slope, area, .. } = self.fit.certificate();
+        let fit = format!(
+            "{} exponentials fit f' to {slope:.1e}, and the force on a tip of velocity v to {area:.1e} alpha/v",
+            self.fit.terms().len()
+        );
         Some(match self.retreats {
             0 => fit,
             n => format!(

@@ -1,6 +1,6 @@
 //! `stickslip compare`.
 
-use super::{MemoryName, ModelArguments, SamplingArguments, StartName};
+use super::{MemoryName, ModelArguments, SamplingArguments, StartArguments};
 use clap::{Args, ValueEnum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,29 +30,8 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: f64,
 
-    /// What the tip finds at the start.
-    #[arg(long, value_enum, default_value = "steady", help_heading = "Start")]
-    pub(crate) start: StartName,
-
-    /// Position of the tip at the start, in σ.
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 14.0,
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
-    pub(crate) start_position: f64,
-
-    /// The tip starts at X - D, so that l is D above its start value.
-    #[arg(
-        long,
-        value_name = "D",
-        default_value_t = 0.0,
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
-    pub(crate) kick: f64,
+    #[command(flatten)]
+    pub(crate) start: StartArguments,
 
     /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]

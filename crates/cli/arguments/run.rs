@@ -1,6 +1,6 @@
 //! `stickslip run`.
 
-use super::{ModelArguments, SamplingArguments};
+use super::{ModelArguments, SamplingArguments, StartArguments};
 use clap::{Args, ValueEnum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,23 +8,16 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum StartName {
-    /// The steady state, as after an infinite past.
-    Steady,
-    /// A flat surface, the spring relaxed, the support above the tip.
-    Flat,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
 pub(crate) enum MemoryName {
-    /// The cheaper of direct and fft: direct while few points lie within reach of the tip, then fft.
+    /// The cheapest: direct while few points lie within reach of the tip, then modes, or fft where no
+    /// exponentials fit.
     Auto,
     /// A sum over the history within reach: the definition, slow for long histories.
     Direct,
     /// FFT convolution with the residence density: the same cost for any history.
     Fft,
-    /// A sum of few exponentials, for tip functions that fade: cheaper than fft down to 1e-8.
+    /// A sum of few exponentials, for tip functions that fade: a step costs the same for ever, and less
+    /// than with fft.
     Modes,
 }
 
@@ -63,29 +56,8 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "resume")]
     pub(crate) until: Option<f64>,
 
-    /// What the tip finds at the start.
-    #[arg(long, value_enum, default_value = "steady", help_heading = "Start")]
-    pub(crate) start: StartName,
-
-    /// Position of the tip at the start, in σ.
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 14.0,
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
-    pub(crate) start_position: f64,
-
-    /// The tip starts at X - D, so that l is D above its start value.
-    #[arg(
-        long,
-        value_name = "D",
-        default_value_t = 0.0,
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
-    pub(crate) kick: f64,
+    #[command(flatten)]
+    pub(crate) start: StartArguments,
 
     /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them.
     #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]

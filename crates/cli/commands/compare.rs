@@ -131,9 +131,9 @@ fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters 
         |p: &Pulse| PulseParameters { amplitude: p.amplitude, time: p.time, width: p.width };
     CompareParameters {
         model: ModelParameters::of(&asked.scenario.model, arguments.model.alpha_above),
-        start: arguments.start,
-        start_position: arguments.start_position,
-        kick: arguments.kick,
+        start: arguments.start.start,
+        start_position: arguments.start.start_position,
+        kick: arguments.start.kick,
         pulses: asked.pulses.iter().map(pulse).collect(),
         until: arguments.until,
         tolerance: arguments.tolerance,

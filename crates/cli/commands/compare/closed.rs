@@ -30,9 +30,9 @@ pub(super) struct Closed {
 /// The run that both sides make.
 pub(super) fn scenario(arguments: &CompareArguments, force: Force) -> Result<Scenario, Failure> {
     let scenario = Scenario {
-        start: start(arguments.start),
-        start_position: arguments.start_position,
-        kick: arguments.kick,
+        start: start(arguments.start.start),
+        start_position: arguments.start.start_position,
+        kick: arguments.start.kick,
         force,
         tolerance: arguments.tolerance,
         memory: memory(arguments.memory),

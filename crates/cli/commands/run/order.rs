@@ -133,9 +133,9 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
         seed: arguments.seed.unwrap_or(DEFAULT_SEED),
     });
     Ok(Scenario {
-        start: parameters::start(arguments.start),
-        start_position: arguments.start_position,
-        kick: arguments.kick,
+        start: parameters::start(arguments.start.start),
+        start_position: arguments.start.start_position,
+        kick: arguments.start.kick,
         noise,
         profile: inputs.profile.clone(),
         force,
@@ -148,8 +148,8 @@ fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failu
 /// Names the option that an error of the library is about.
 pub(super) fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
     let option = match error {
-        RunError::TooFar { .. } if arguments.start_position.abs() > 1e3 => {
-            format!("--start-position {}", arguments.start_position)
+        RunError::TooFar { .. } if arguments.start.start_position.abs() > 1e3 => {
+            format!("--start-position {}", arguments.start.start_position)
         }
         RunError::Profile(_) => {
             let path = arguments.initial_surface.as_deref().unwrap_or(Path::new(""));

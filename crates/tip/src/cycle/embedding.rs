@@ -34,7 +34,7 @@ pub enum Parameter {
 const SHARE_OF_FINE: f64 = 0.1;
 /// Displacement that the short one may bring about: multipliers are as accurate, where they are not
 /// amplified.
-const ACCURACY_OF_SHORT: f64 = 1e-9;
+const ACCURACY_OF_SHORT: f64 = 1e-8;
 /// What a fit reached, it reaches again.
 const AT_BEST: f64 = 1.01;
 

@@ -4,7 +4,7 @@ mod closed;
 mod grid;
 mod pace;
 
-use super::run::parse_pulse;
+use super::run::parse_pulses;
 use crate::arguments::CompareArguments;
 use crate::documents::{
     CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, ModelParameters,
@@ -51,8 +51,7 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &CompareArguments) -> Result<Self, Failure> {
-        let pulses: Vec<Pulse> =
-            arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?;
+        let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
         let force =
             Force::new(pulses.clone(), None).map_err(|error| Failure::input("--pulse", error))?;
         let scenario = closed::scenario(arguments, force)?;

@@ -4,7 +4,7 @@ use super::figure::Figure;
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::limits::within_range;
-use super::run::parse_pulse;
+use super::run::parse_pulses;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
 use crate::documents::{
@@ -49,8 +49,7 @@ struct Asked {
 impl Asked {
     fn of(arguments: &ResponseArguments) -> Result<Self, Failure> {
         let model = model(&arguments.model)?;
-        let pulses: Vec<Pulse> =
-            arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?;
+        let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
         judge_count("--modes", arguments.modes)?;
         let position = arguments.start_position;
         if !position.is_finite() {

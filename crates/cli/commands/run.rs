@@ -10,7 +10,7 @@ mod record;
 pub(crate) mod samples;
 mod write;
 
-pub(crate) use order::{option_at_fault, parse_pulse};
+pub(crate) use order::{option_at_fault, parse_pulses};
 
 use super::figure::Figure;
 use crate::arguments::{RunArguments, RunFormat};

@@ -47,7 +47,7 @@ impl Pen {
     }
 
     pub(super) const fn dots(colour: &'static str) -> Self {
-        Self { colour, mark: Mark::Dots { radius: 5.0 } }
+        Self::small_dots(colour, 5.0)
     }
 
     pub(super) const fn triangles(colour: &'static str) -> Self {

@@ -92,12 +92,17 @@ fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
     Ok(Inputs {
         profile: read("--initial-surface", &arguments.initial_surface, "x,u")?,
         force: read("--force-file", &arguments.force_file, "t,force")?,
-        pulses: arguments.pulse.iter().map(|text| parse_pulse(text)).collect::<Result<_, _>>()?,
+        pulses: parse_pulses(&arguments.pulse)?,
     })
 }
 
+/// All that `--pulse` was given for.
+pub(crate) fn parse_pulses(texts: &[String]) -> Result<Vec<Pulse>, Failure> {
+    texts.iter().map(|text| parse_pulse(text)).collect()
+}
+
 /// A, T and W of `--pulse`.
-pub(crate) fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
+fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {
         Ok(&[amplitude, time, width])

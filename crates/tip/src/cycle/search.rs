@@ -5,7 +5,7 @@ use super::orbit::Orbit;
 use super::solve::{Condition, close};
 use super::start::{from_onset, from_runs, small_cycle_exists};
 use super::{Cycle, CycleError, TOLERANCES};
-use crate::stability::{StabilityError, critical, onset_at};
+use crate::stability::{Critical, StabilityError, critical, onset_at};
 use crate::{Model, Outcome, Trajectory};
 
 /// Halves of a cycle that differ by less, in σ, are the same.
@@ -28,12 +28,12 @@ pub enum Motion {
 /// A tolerance out of range, or a run that fails.
 pub fn motion(model: &Model, tolerance: f64) -> Result<Motion, CycleError> {
     judge(tolerance)?;
-    match critical(model.tip(), model.r()) {
-        Ok(critical) if model.alpha() > critical.alpha => {}
+    let critical = match critical(model.tip(), model.r()) {
+        Ok(critical) if model.alpha() > critical.alpha => critical,
         Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Motion::Steady),
         Err(error) => return Err(error.into()),
-    }
-    let Search { stable, ended, .. } = Search::above_onset(model, tolerance)?;
+    };
+    let Search { stable, ended, .. } = Search::above_onset(model, critical, tolerance)?;
     Ok(match (stable, ended) {
         (Some(cycle), _) => Motion::Cycle(Box::new(cycle)),
         (None, Some(outcome)) => Motion::Run(outcome),
@@ -55,10 +55,11 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let (alpha, r) = (model.alpha(), model.r());
     let critical = critical(model.tip(), r)?;
     if alpha > critical.alpha {
-        let Search { stable, unstable, ended } = Search::above_onset(model, tolerance)?;
+        let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
         return stable.or(unstable).ok_or(CycleError::NoCycleReached { alpha, r, ended });
     }
-    let small = born(&equation, model).and_then(|guess| solve(&equation, guess, tolerance));
+    let small =
+        born(&equation, model, critical).and_then(|guess| solve(&equation, guess, tolerance));
     small.ok_or(CycleError::NoSmallCycle { alpha, r, critical: critical.alpha })
 }
 
@@ -96,7 +97,7 @@ struct Search {
 }
 
 impl Search {
-    fn above_onset(model: &Model, tolerance: f64) -> Result<Self, CycleError> {
+    fn above_onset(model: &Model, critical: Critical, tolerance: f64) -> Result<Self, CycleError> {
         // Runs are made of tips that never fade, too.
         let equation = match embedding(model, tolerance) {
             Err(CycleError::NeverFades) => None,
@@ -112,7 +113,7 @@ impl Search {
             place.get_or_insert(cycle);
             is_stable
         };
-        let small = equation.as_ref().and_then(|e| born(e, model));
+        let small = equation.as_ref().and_then(|e| born(e, model, critical));
         if !small.is_some_and(&mut take) {
             found.ended = Some(from_runs(model, take)?);
         }
@@ -121,8 +122,7 @@ impl Search {
 }
 
 /// A guess at the small cycle on this side of onset.
-fn born(equation: &Embedding, model: &Model) -> Option<Orbit> {
-    let critical = critical(model.tip(), model.r()).ok()?;
+fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit> {
     let onset = onset_at(model.tip(), critical).ok()?;
     from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
 }

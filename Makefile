@@ -7,8 +7,10 @@ CASES ?= 1670000
 MOTIONS ?= 25000
 
 comma := ,
-# Shows the command as a user would type it, and runs it.
-stickslip = echo 'stickslip $(1)' && $(CARGO) run --release --locked --quiet -- $(1)
+# Builds by the profile of the second argument, shows the command as a user would type it, and runs it.
+profile = --profile $(or $(1),release) --locked
+stickslip = $(CARGO) build $(call profile,$(2)) && echo 'stickslip $(1)' \
+	&& $(CARGO) run $(call profile,$(2)) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
 .PHONY: help run test survive check bench work-precision figures peers fuzz doc install clean
@@ -43,11 +45,11 @@ bench: ## measure: cost per step, whole runs, surfaces
 	@echo "cycles: a cycle with its multipliers, from onset to relaxation, and a branch of them"
 	$(CARGO) bench --locked --bench cycles
 
-work-precision: ## measure time against error, and draw it: data/work_precision.json, docs/figures/work_precision.svg
-	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json docs/figures/work_precision.svg
+work-precision: ## measure time against error, into data/work_precision.json, which `figures` draws
+	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
-	@$(call stickslip,figures --out-dir target/figures)
+	@$(call stickslip,figures --out-dir target/figures,quick)
 
 peers: ## race other programs on one problem at matched error: data/peers.json, data/peers.md
 	python3 peers/race.py data

@@ -13,8 +13,9 @@ use common::Acceptance;
 use program::Folder;
 use serde_json::Value;
 use std::process::Command;
+use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, run};
 
-const FIGURES: [&str; 10] = [
+const FIGURES: [&str; 11] = [
     "fig1",
     "fig2",
     "fig3",
@@ -25,9 +26,10 @@ const FIGURES: [&str; 10] = [
     "bifurcation",
     "criticality",
     "kymograph",
+    "work-precision",
 ];
 /// Those that take no time.
-const QUICK: &str = "fig1,fig2,fig3,fig5,fig6,criticality,kymograph,reproduction";
+const QUICK: &str = "fig1,fig2,fig3,fig5,fig6,criticality,kymograph,work-precision,reproduction";
 
 fn numbers(folder: &Folder) -> Vec<Value> {
     folder.prints("figures --out-dir . --only reproduction");
@@ -246,4 +248,27 @@ fn the_table_in_the_documents_is_up_to_date() {
     folder.prints("figures --out-dir . --only reproduction");
     let ours = String::from_utf8(folder.read("reproduction.md")).unwrap();
     assert_eq!(ours, include_str!("../docs/figures/paper/reproduction.md"));
+}
+
+/// The diagram is measured by hand; what it counts must be what the integrator does today.
+#[test]
+fn the_measured_diagram_is_of_this_integrator() {
+    let measured: Value =
+        serde_json::from_str(include_str!("../data/work_precision.json")).unwrap();
+    let counted = |case: &Value, memory: &str| -> u64 {
+        let ours = |curve: &&Value| curve["case"] == case["name"] && curve["method"] == memory;
+        let curve = measured["curves"].as_array().unwrap().iter().find(ours).unwrap();
+        let at = |point: &&Value| number(point, "tolerance").log10().round() == -6.0;
+        curve["points"].as_array().unwrap().iter().find(at).unwrap()["steps"].as_u64().unwrap()
+    };
+    for case in measured["cases"].as_array().unwrap() {
+        for (name, memory) in [("modes", MemoryChoice::Modes), ("fft", MemoryChoice::Fft)] {
+            let tip = TipFunction::triple_gaussian(number(case, "beta"), 1.0).unwrap();
+            let model = Model::new(tip, number(case, "alpha"), number(case, "r")).unwrap();
+            let start = Scenario::new(model, number(case, "until"));
+            let kick = number(case, "kick");
+            let result = run(&Scenario { kick, tolerance: 1e-6, memory, ..start }).unwrap();
+            assert_eq!(result.work.steps, counted(case, name), "{name}, {}", case["name"]);
+        }
+    }
 }

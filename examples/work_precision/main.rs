@@ -6,13 +6,12 @@
 //! Beside our integrator, a candidate that it must beat: an explicit Runge-Kutta method of order 8 (DOP853 of
 //! the crate differential-equations) on the embedded system of the modes, z' = 1 + s x0' z.
 //!
-//!     cargo run --release --example work_precision -- DATA.json PICTURE.svg
+//!     cargo run --release --example work_precision -- DATA.json
 
 #![allow(missing_docs, reason = "a program")]
 
 mod case;
 mod explicit;
-mod picture;
 
 use case::{CASES, Case};
 use serde::Serialize;
@@ -108,9 +107,7 @@ fn explicit(case: &'static Case, reference: &Run) -> Curve {
 
 fn main() {
     let paths: Vec<String> = std::env::args().skip(1).collect();
-    let [data, image] = paths.as_slice() else {
-        panic!("usage: work_precision DATA.json PICTURE.svg")
-    };
+    let [data] = paths.as_slice() else { panic!("usage: work_precision DATA.json") };
     let mut curves = vec![];
     for case in &CASES {
         let reference = run(&case.scenario(1e-12, MemoryChoice::Fft)).expect("a reference");
@@ -136,5 +133,4 @@ fn main() {
     let diagram = Diagram { machine, cases: &CASES, curves };
     let json = serde_json::to_string_pretty(&diagram).expect("numbers");
     std::fs::write(data, json + "\n").expect("a file that can be written");
-    std::fs::write(image, picture::draw(&diagram.curves)).expect("a file that can be written");
 }

@@ -26,6 +26,8 @@ pub(crate) enum FigureName {
     Criticality,
     /// u over position and time.
     Kymograph,
+    /// Time against error, measured before.
+    WorkPrecision,
     /// The paper's numbers beside ours.
     Reproduction,
 }

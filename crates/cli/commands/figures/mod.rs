@@ -17,6 +17,7 @@ mod onset;
 mod parts;
 mod reproduction;
 mod tips;
+mod work_precision;
 
 use crate::arguments::{FigureName, FiguresArguments};
 use crate::documents::FigureDocument;
@@ -57,6 +58,7 @@ fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
         FigureName::Bifurcation => bifurcation::figure(),
         FigureName::Criticality => criticality::figure(),
         FigureName::Kymograph => kymograph::figure(),
+        FigureName::WorkPrecision => work_precision::figure(),
         FigureName::Reproduction => return reproduction::write(folder),
     };
     write(&document?, folder)

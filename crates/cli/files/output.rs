@@ -159,15 +159,22 @@ impl Output {
         self.write_with(|out| {
             writeln!(out, "{headings}")?;
             let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
+            let mut line = String::new();
             for row in 0..rows {
-                let cells: Vec<String> = columns.iter().map(|c| c[row].to_string()).collect();
-                writeln!(out, "{}", cells.join(","))?;
+                line.clear();
+                for column in columns {
+                    line.push_str(if line.is_empty() { "" } else { "," });
+                    line.push_str(&column[row].to_string());
+                }
+                line.push('\n');
+                out.write_all(line.as_bytes())?;
             }
             Ok(())
         })
     }
 
-    fn write_with(
+    /// Writes what the function writes, through a buffer.
+    pub(crate) fn write_with(
         self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {

@@ -3,11 +3,12 @@
 use super::places::Places;
 use super::units::Scale;
 use crate::arguments::SurfaceArguments;
-use crate::documents::SurfaceDocument;
+use crate::documents::{SurfaceDocument, SurfaceImage};
 use crate::failure::Failure;
 use crate::files::gsf::{Field, gsf};
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
+use std::io::{self, Write};
 
 /// What is written: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,17 +74,26 @@ fn csv(document: &SurfaceDocument, output: Output) -> Result<(), Failure> {
         let u: Vec<f64> = surfaces.iter().flat_map(|s| s.u.iter().copied()).collect();
         return output.write_csv("t,x,u", &[&t, &x, &u]);
     }
-    let mut columns: [Vec<f64>; 4] = Default::default();
-    for image in images {
-        for (y, row) in image.y.iter().zip(&image.u) {
-            for (x, u) in image.x.iter().zip(row) {
-                let values = [image.t, *x, *y, *u];
-                columns.iter_mut().zip(values).for_each(|(column, v)| column.push(v));
-            }
+    output.write_with(|out| {
+        writeln!(out, "t,x,y,u")?;
+        images.iter().try_for_each(|image| write_image(image, out))
+    })
+}
+
+/// A line a point. The text of a position serves for its whole row or column: shortest digits are what
+/// takes the time.
+fn write_image(image: &SurfaceImage, out: &mut dyn Write) -> io::Result<()> {
+    let starts: Vec<String> = image.x.iter().map(|x| format!("{},{x},", image.t)).collect();
+    let mut lines = String::new();
+    for (y, row) in image.y.iter().zip(&image.u) {
+        let y = format!("{y},");
+        lines.clear();
+        for (start, u) in starts.iter().zip(row) {
+            lines.extend([start, &y, &u.to_string(), "\n"]);
         }
+        out.write_all(lines.as_bytes())?;
     }
-    let [t, x, y, u] = &columns;
-    output.write_csv("t,x,y,u", &[t, x, y, u])
+    Ok(())
 }
 
 /// `u` has an axis for t, one for y in an image, and one for x.

@@ -3,6 +3,7 @@
 pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;
+pub(crate) mod lines;
 pub(crate) mod npz;
 pub(crate) mod output;
 pub(crate) mod stream;

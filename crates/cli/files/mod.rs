@@ -7,3 +7,4 @@ pub(crate) mod lines;
 pub(crate) mod npz;
 pub(crate) mod output;
 pub(crate) mod stream;
+mod temporary;

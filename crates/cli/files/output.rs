@@ -1,4 +1,4 @@
-//! Results on their way out: opened before the work, put under their name when complete.
+//! Results on their way out: their places are judged before the work, and take their names when complete.
 
 use super::temporary::{beside, may_be_made_in, remove_left_behind};
 use crate::failure::Failure;

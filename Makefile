@@ -26,7 +26,7 @@ test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
 survive: ## the long tests: 200 kills, ten million time units in four pieces, a history that outgrows memory
-	$(CARGO) test --release --locked --test long_runs -- --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --locked --test killed_runs --test long_runs -- --ignored --nocapture --test-threads 1
 
 check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) fmt --all --check

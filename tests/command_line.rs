@@ -5,7 +5,7 @@
 
 mod program;
 
-use program::{Folder, said};
+use program::{Folder, said, wait_until_it_listens};
 use serde_json::{Value, json};
 
 #[test]
@@ -197,12 +197,8 @@ mod on_unix {
     fn endless(folder: &Folder, options: &str) -> Child {
         let line = format!("run --alpha 1.2 --r 1 --kick 0.05 --until 1e9 {options}");
         let mut command = folder.command(&line);
-        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        // The output is opened before the work begins.
-        let deadline = Instant::now() + Duration::from_secs(5);
-        while folder.names().is_empty() && Instant::now() < deadline {
-            sleep(Duration::from_millis(5));
-        }
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        wait_until_it_listens(&mut child);
         sleep(Duration::from_millis(100));
         child
     }

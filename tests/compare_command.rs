@@ -6,7 +6,7 @@
 
 mod program;
 
-use program::{Folder, said};
+use program::{Folder, said, wait_until_it_listens};
 use serde_json::Value;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
@@ -116,10 +116,7 @@ fn an_interrupted_comparison_writes_nothing() {
     for (signal, status) in [("-INT", 130), ("-TERM", 143)] {
         let mut child =
             folder.command(long).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        // The output is opened before the work begins.
-        while folder.names().is_empty() && child.try_wait().unwrap().is_none() {
-            sleep(Duration::from_millis(5));
-        }
+        wait_until_it_listens(&mut child);
         sleep(Duration::from_millis(300));
         Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(status));

@@ -12,7 +12,7 @@ use program::{Folder, said};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use stickslip_surface::{Claim, TOLERANCES_ALLOWED, Verification, verify};
+use stickslip_surface::{TOLERANCES_ALLOWED, Verification, verify};
 use stickslip_tip::memory::{Fit, Modes, Term, accuracy_needed};
 use stickslip_tip::stability::{critical, leading_roots};
 use stickslip_tip::{
@@ -25,7 +25,7 @@ fn triple(beta: f64, alpha: f64, r: f64) -> Model {
 }
 
 fn verified(scenario: &Scenario, memory: &str, trajectory: &Trajectory) -> Verification {
-    verify(scenario, memory, Claim::History(trajectory), |_| ControlFlow::Continue(())).unwrap()
+    verify(scenario, memory, trajectory, |_| ControlFlow::Continue(())).unwrap()
 }
 
 /// Those of tests/tolerance_ladder.rs, memories_agree.rs and resume.rs.

@@ -37,6 +37,9 @@ pub(crate) enum Failure {
         /// Why.
         error: io::Error,
     },
+    /// A run of which the end is missing, and nothing else is wrong. Status 3.
+    #[error("{0}")]
+    CutOff(String),
     /// Stopped by a signal, what there was kept to go on from. Status 128 + signal.
     #[error("interrupted: {message}")]
     Unfinished {
@@ -62,6 +65,7 @@ impl Failure {
         match self {
             Self::Input { .. } => 2,
             Self::Run(_) | Self::Write { .. } => 1,
+            Self::CutOff(_) => 3,
             Self::Interrupted(signal) | Self::Stopped(signal) | Self::Unfinished { signal, .. } => {
                 128 + signal
             }

@@ -11,6 +11,7 @@ use crate::commands::sweep::{diagram, merge};
 use crate::commands::{model, run};
 use crate::documents::{RunDocument, SweepDocument};
 use crate::files::input::{parse_columns, parse_document, parse_tip};
+use crate::files::lines::Lines;
 use clap::Parser;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
@@ -183,6 +184,25 @@ fn any_run_document_is_taken_or_refused() {
         let Some(Ok(initial)) = scenario.ok().map(|s| s.initial_surface()) else { return false };
         let surface = Surface::new(&model, &initial, &trajectory);
         surface.heights(trajectory.end(), &[trajectory.x0(trajectory.end())]).unwrap();
+        true
+    });
+}
+
+#[test]
+fn any_lines_are_taken_or_refused() {
+    fuzz("lines", |text| {
+        let mut lines = Lines::new(text.as_bytes());
+        let Ok(head) = lines.head() else { return false };
+        let Ok(scenario) = run::parameters::scenario(&head.parameters) else { return false };
+        let Ok(extent) = lines.survey(&(scenario.start_time()..=scenario.until)) else {
+            return false;
+        };
+        // What the first reading counted, a second one finds.
+        let mut again = Lines::new(text.as_bytes());
+        again.head().unwrap();
+        let times: Vec<f64> = (0..extent.samples).map(|_| again.sample().unwrap().t).collect();
+        assert_eq!(times.last().copied(), extent.last);
+        assert!(times.is_sorted());
         true
     });
 }

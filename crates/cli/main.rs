@@ -1,8 +1,8 @@
 //! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line.
 //!
 //! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit
-//! status is 0, 1 for what failed at run time, 2 for unusable input, 130 (143) when interrupted by
-//! SIGINT (SIGTERM).
+//! status is 0, 1 for what failed at run time, 2 for unusable input, 3 for a run to be verified that is
+//! right as far as it goes but has no end, 130 (143) when interrupted by SIGINT (SIGTERM).
 
 mod arguments;
 mod commands;

@@ -2,11 +2,14 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
 
+pub mod runs;
+
 use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Bad input is found out within this time.
@@ -94,6 +97,25 @@ impl Folder {
         assert!(took < REFUSAL, "{line}\ntook {took:?}");
         for word in words {
             assert!(said.contains(word), "{line}\nsaid nothing of {word:?}:\n{said}");
+        }
+    }
+}
+
+/// Waits until a process listens for SIGINT, as it does once its work begins; where the system does not tell, for
+/// half a second.
+pub fn wait_until_it_listens(child: &mut Child) {
+    const SIGINT: u64 = 1 << 1;
+    let started = Instant::now();
+    let caught = |status: &str| {
+        let line = status.lines().find_map(|line| line.strip_prefix("SigCgt:"))?;
+        u64::from_str_radix(line.trim(), 16).ok()
+    };
+    while child.try_wait().unwrap().is_none() && started.elapsed() < LONGEST {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id()));
+        match status.ok().as_deref().and_then(caught) {
+            Some(signals) if signals & SIGINT != 0 => return,
+            Some(_) => sleep(Duration::from_millis(5)),
+            None => return sleep(Duration::from_millis(500)),
         }
     }
 }

@@ -5,12 +5,20 @@ use std::path::PathBuf;
 
 /// Repeat a saved run with another memory and a tighter tolerance: does it keep its promise?
 ///
-/// Exit status 1 if l or the surface differ by more than the run's tolerance allows.
+/// A run written as lines (.jsonl) is read line by line, twice: first all of it, for what is damaged or cut off,
+/// then beside its repetition. Neither the lines nor the repetition are held: 15 MB will do however long the run,
+/// but where f' cannot be fitted by exponentials (--tip bessel, some tables) and fft made the run: then it is
+/// repeated with direct, which holds all of its past. Of a document (.json), all of it is held, and of one with
+/// its history, all steps of the repetition. Lines from a pipe are put into a temporary file.
+///
+/// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows; 3 if all that there is of
+/// a run is right, but it has no end: it was killed, or is not over.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct VerifyArguments {
-    /// Document that `stickslip run` wrote; `-` is standard input.
-    #[arg(value_name = "RUN.json")]
+    /// What `stickslip run` wrote: a document (.json), lines (.jsonl), or what there is of them
+    /// (.jsonl.part); `-` is standard input.
+    #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
 
     /// File to write, as JSON; `-` is standard output.
@@ -18,6 +26,10 @@ pub(crate) struct VerifyArguments {
     pub(crate) output: PathBuf,
 }
 
-const EXAMPLES: &str = "Example:
+const EXAMPLES: &str = "Examples:
   stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 200 -o run.json
-  stickslip verify run.json";
+  stickslip verify run.json
+  A run that was killed, and the same when it is finished:
+    stickslip verify long.jsonl.part
+    stickslip run --resume long.checkpoint
+    stickslip verify long.jsonl";

@@ -1,4 +1,4 @@
-//! `--plot`: its format judged and its file opened before the work, drawn after it.
+//! `--plot`: its format and its place judged before the work, drawn after it.
 
 use crate::failure::Failure;
 use crate::files::output::Output;

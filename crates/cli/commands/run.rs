@@ -39,7 +39,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let surface = scenario.initial_surface().map_err(|error| order::explain(&error, arguments))?;
     let running = Running::new(&scenario, &surface);
     let running = running.map_err(|error| order::explain(&error, arguments))?;
-    // All files are opened before the work, so that it is not in vain.
+    // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
     let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;

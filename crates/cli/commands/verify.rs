@@ -1,50 +1,68 @@
 //! `stickslip verify`, and `stickslip run --verify`.
 
+mod lines;
+
 use super::progress::Progress;
 use super::run::{document, parameters};
 use crate::arguments::VerifyArguments;
 use crate::documents::{
-    FORMAT_VERSION, LargestDifferenceDocument, RunDocument, Software, VerificationDocument,
-    VerifyDocument,
+    FORMAT_VERSION, LargestDifferenceDocument, LinesDocument, RunDocument, RunParameters, Software,
+    VerificationDocument, VerifyDocument,
 };
 use crate::failure::Failure;
-use crate::files::input::read_run;
+use crate::files::input::read_run_from;
+use crate::files::lines::{Written, open};
 use crate::files::output::Output;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use stickslip_surface::{Claim, Difference, TOLERANCES_ALLOWED, Verification, VerificationError};
+use stickslip_surface::{
+    Difference, Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
+};
 use stickslip_tip::{Scenario, Trajectory};
 
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
-    let run = read_run(&arguments.run)?;
+    let path = &arguments.run;
+    match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
+        Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
+        Written::Lines(file) => lines::verify(path, &file, &arguments.output),
+    }
+}
+
+fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {
     let damaged = |message: String| {
-        Failure::input(
-            format!("RUN.json {}", arguments.run.display()),
-            format!("damaged: {message}"),
-        )
+        let named = format!("RUN.json {}", arguments.run.display());
+        Failure::input(named, format!("damaged: {message}"))
     };
     let scenario = parameters::scenario(&run.parameters).map_err(damaged)?;
-    let verification = if run.history.is_some() {
+    let memory = &run.work.memory;
+    let (verification, output) = if run.history.is_some() {
         let trajectory = document::trajectory(&run).map_err(damaged)?;
         is_of(&scenario, &trajectory).map_err(damaged)?;
         let output = Output::open("--output", &arguments.output)?;
-        (of_history(&scenario, &run.work.memory, &trajectory)?, output)
+        (of_history(&scenario, memory, &trajectory)?, output)
     } else {
         let samples = samples(&run, &scenario).map_err(damaged)?;
-        let until = samples.iter().map(|(t, _)| *t).fold(f64::NEG_INFINITY, f64::max);
         let output = Output::open("--output", &arguments.output)?;
-        (repeated(&scenario, &run.work.memory, Claim::Samples(&samples, until))?, output)
+        (of_samples(&scenario, memory, &samples)?, output)
     };
-    let (verification, output) = verification;
     let failure = broken(&verification, scenario.tolerance);
-    output.write_json(&VerifyDocument {
+    output.write_json(&written(run.parameters, verification, None))?;
+    failure.map_or(Ok(()), Err)
+}
+
+fn written(
+    parameters: RunParameters,
+    verification: VerificationDocument,
+    lines: Option<LinesDocument>,
+) -> VerifyDocument {
+    VerifyDocument {
         format: VerifyDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
-        parameters: run.parameters,
+        parameters,
         verification,
-    })?;
-    failure.map_or(Ok(()), Err)
+        lines,
+    }
 }
 
 /// Whether the history begins and ends as the scenario does.
@@ -61,15 +79,17 @@ fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
     ))
 }
 
-/// Times and l of the samples after the start.
-fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<(f64, f64)>, String> {
-    let (t, l) = (&run.samples.t, &run.samples.l);
+/// The samples in the order of time; some are after the start.
+fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
+    let (t, l, x0) = (&run.samples.t, &run.samples.l, &run.samples.x0);
     let span = scenario.start_time()..=scenario.until;
-    if t.len() != l.len() || t.iter().any(|t| !span.contains(t)) {
-        return Err("samples: t and l do not match each other, or the run".into());
+    if [l.len(), x0.len()] != [t.len(); 2] || t.iter().any(|t| !span.contains(t)) {
+        return Err("samples: t, l and x0 do not match each other, or the run".into());
     }
-    let samples: Vec<_> = t.iter().copied().zip(l.iter().copied()).collect();
-    match samples.iter().any(|(t, _)| *t > scenario.start_time()) {
+    let rows = t.iter().zip(l).zip(x0);
+    let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
+    samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    match samples.last().is_some_and(|last| last.t > scenario.start_time()) {
         true => Ok(samples),
         false => Err("samples: there are none after the start, and no history".into()),
     }
@@ -81,18 +101,31 @@ pub(super) fn of_history(
     memory: &str,
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
-    repeated(scenario, memory, Claim::History(trajectory))
+    let found =
+        repeated(|observe| stickslip_surface::verify(scenario, memory, trajectory, observe))?;
+    Ok(document(&found))
 }
 
-fn repeated(
+/// Samples in the order of time, of which there are some, against the repetition of their run.
+fn of_samples(
     scenario: &Scenario,
     memory: &str,
-    claim: Claim,
+    samples: &[Sample],
 ) -> Result<VerificationDocument, Failure> {
+    let until = samples.last().map_or(scenario.until, |last| last.t);
+    let each = || samples.iter().copied();
+    let found = repeated(|observe| verify_samples(scenario, memory, each, until, observe))?;
+    Ok(document(&found))
+}
+
+/// Does the work before the eyes of a person, who may stop it.
+fn repeated(
+    work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
+) -> Result<Verification, Failure> {
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
     let mut progress = Progress::new(0.0, 1.0);
-    let found = stickslip_surface::verify(scenario, memory, claim, |part| {
+    let found = work(&mut |part| {
         progress.reached(part);
         if interrupt.signal().is_some() {
             ControlFlow::Break(())
@@ -100,7 +133,7 @@ fn repeated(
             ControlFlow::Continue(())
         }
     });
-    found.map(|verification| document(&verification)).map_err(|error| match error {
+    found.map_err(|error| match error {
         VerificationError::Interrupted => {
             interrupt.signal().map_or(Failure::Run(error.to_string()), Failure::Stopped)
         }
@@ -128,6 +161,15 @@ fn document(found: &Verification) -> VerificationDocument {
 
 /// What is said, and the exit status, where the promise is broken.
 pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Failure> {
+    said_of(found, tolerance, None).map(Failure::Run)
+}
+
+/// What is said where the promise is broken; of lines, with their numbers.
+fn said_of(
+    found: &VerificationDocument,
+    tolerance: f64,
+    lines: Option<&LinesDocument>,
+) -> Option<String> {
     if found.kept {
         return None;
     }
@@ -136,14 +178,25 @@ pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Fai
         Some(u) if l.largest <= l.allowed => {
             format!("u is off by {:.1e} at x = {}, {:.1e} is allowed", u.largest, u.at, u.allowed)
         }
-        _ => format!(
-            "l is off by {:.1e} at t = {}, {TOLERANCES_ALLOWED} tolerances of {tolerance:e} are allowed",
-            l.largest, l.at
-        ),
+        _ => {
+            // Of a history, l alone; samples say x0 too.
+            let what = if found.u.is_some() { "l" } else { "l or x0" };
+            let on_line = lines.map_or(String::new(), |lines| format!(", line {}", lines.line));
+            format!(
+                "{what} is off by {:.1e} at t = {}{on_line}, {TOLERANCES_ALLOWED} tolerances of {tolerance:e} are allowed",
+                l.largest, l.at
+            )
+        }
     };
-    let until = found.trusted_until.map_or(String::new(), |t| format!("; trust it until t = {t}"));
+    let from = |t: f64| match lines {
+        Some(LinesDocument { first_wrong_line: Some(line), wrong, samples, .. }) => {
+            format!("; trust it until t = {t}, line {line} ({wrong} of {samples} samples are off)")
+        }
+        _ => format!("; trust it until t = {t}"),
+    };
+    let until = found.trusted_until.map_or(String::new(), from);
     let growth = format!("the motion amplifies errors {:.1e} times", found.amplification);
-    Some(Failure::Run(format!(
+    Some(format!(
         "the tolerance is not kept: {difference}{until}; {growth}: ask for a smaller --tolerance"
-    )))
+    ))
 }

@@ -53,7 +53,9 @@ pub(crate) use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 
-pub(crate) use verification::{LargestDifferenceDocument, VerificationDocument, VerifyDocument};
+pub(crate) use verification::{
+    EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
+};
 
 use clap::ValueEnum;
 use schemars::{JsonSchema, Schema, schema_for};

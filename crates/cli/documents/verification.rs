@@ -18,6 +18,8 @@ pub(crate) struct VerifyDocument {
     pub(crate) parameters: RunParameters,
     /// What was found.
     pub(crate) verification: VerificationDocument,
+    /// How much of a run written as lines there was; null for a document.
+    pub(crate) lines: Option<LinesDocument>,
 }
 
 impl VerifyDocument {
@@ -34,7 +36,8 @@ pub(crate) struct VerificationDocument {
     pub(crate) memory: String,
     /// Its tolerance.
     pub(crate) tolerance: f64,
-    /// In l, over all of the run: ten tolerances are allowed.
+    /// In l, over all of the run: ten tolerances are allowed. Of a run without its history, in l and x0 of its
+    /// samples.
     pub(crate) l: LargestDifferenceDocument,
     /// In the surface at the end; null for a run without its history. Allowed is what an allowed error of x0
     /// does to it.
@@ -56,4 +59,35 @@ pub(crate) struct LargestDifferenceDocument {
     /// Time (of l) or position (of u).
     pub(crate) at: f64,
     pub(crate) allowed: f64,
+}
+
+/// How much of a run written as lines there was, and which of them say what was found.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LinesDocument {
+    /// Samples compared: all that there were.
+    pub(crate) samples: u64,
+    /// Time of the last of them.
+    pub(crate) verified_until: f64,
+    /// How the run ended.
+    pub(crate) ending: EndingName,
+    /// Line, from 1, of the difference reported of l.
+    pub(crate) line: u64,
+    /// Samples whose difference is not allowed: few where lines were damaged, most of those that follow where
+    /// the motion amplifies errors.
+    pub(crate) wrong: u64,
+    /// The line of the first of these.
+    pub(crate) first_wrong_line: Option<u64>,
+}
+
+/// How the lines of a run end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum EndingName {
+    /// The run came to its end.
+    Complete,
+    /// A signal stopped it, which its last line says.
+    Interrupted,
+    /// They break off: the run was killed, or the file was cut.
+    CutOff,
 }

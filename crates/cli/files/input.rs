@@ -14,25 +14,32 @@ pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 /// Measured series are small; this is a million rows and more.
 const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
-const LARGEST_DOCUMENT: u64 = 4 << 30;
+pub(super) const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    let named = format!("{option} {}", path.display());
-    let mut text = String::new();
-    let read = if path == Path::new("-") {
-        io::stdin().lock().take(most + 1).read_to_string(&mut text)
+    let text = if path == Path::new("-") {
+        text_of(io::stdin().lock(), most)
     } else {
-        File::open(path).and_then(|file| file.take(most + 1).read_to_string(&mut text))
+        File::open(path).map_err(unreadable).and_then(|file| text_of(file, most))
     };
-    match read {
-        Err(error) => Err(Failure::input(named, format!("cannot be read: {error}"))),
-        Ok(_) if text.len() as u64 > most => Err(Failure::input(
-            named,
-            format!("larger than {} MB, the most that is read", most >> 20),
-        )),
+    text.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+fn text_of(reader: impl Read, most: u64) -> Result<String, String> {
+    let mut text = String::new();
+    match reader.take(most + 1).read_to_string(&mut text) {
+        Err(error) => Err(unreadable(error)),
+        Ok(_) if text.len() as u64 > most => {
+            Err(format!("larger than {} MB, the most that is read", most >> 20))
+        }
         Ok(_) => Ok(text),
     }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "what map_err hands over")]
+pub(super) fn unreadable(error: io::Error) -> String {
+    format!("cannot be read: {error}")
 }
 
 /// Two columns of numbers from CSV, a heading allowed, `#` comments skipped.
@@ -141,14 +148,40 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
 
 /// What every document begins with.
 #[derive(Debug, Deserialize)]
-struct Kind {
+pub(super) struct Kind {
     format: Option<String>,
     format_version: Option<u32>,
+}
+
+impl Kind {
+    /// Refuses all but what this program reads.
+    pub(super) fn judge(&self, wanted: &str) -> Result<(), String> {
+        match (self.format.as_deref(), self.format_version) {
+            (Some(format), Some(FORMAT_VERSION)) if format == wanted => Ok(()),
+            (Some(format), version) if format == wanted => {
+                let found = version.map_or("none".into(), |v| v.to_string());
+                Err(format!(
+                    "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
+                ))
+            }
+            (format, _) => {
+                let found = format.unwrap_or("missing");
+                Err(format!("format is {found}, \"{wanted}\" is needed"))
+            }
+        }
+    }
 }
 
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
     read_document("RUN.json", path, RunDocument::FORMAT)
+}
+
+/// The same, from a file that is open.
+pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
+    let run = text_of(reader, LARGEST_DOCUMENT)
+        .and_then(|text| parse_document(&text, RunDocument::FORMAT));
+    run.map_err(|message| Failure::input(format!("RUN.json {}", path.display()), message))
 }
 
 /// A document of this format, that of a command of the same name.
@@ -167,19 +200,7 @@ pub(crate) fn parse_document<D: DeserializeOwned>(text: &str, wanted: &str) -> R
         let command = wanted.replace('/', " ");
         format!("not a whole JSON document ({error}); write it again with `{command} -o FILE.json`")
     })?;
-    match (kind.format.as_deref(), kind.format_version) {
-        (Some(format), Some(FORMAT_VERSION)) if format == wanted => {}
-        (Some(format), version) if format == wanted => {
-            let found = version.map_or("none".into(), |v| v.to_string());
-            return Err(format!(
-                "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
-            ));
-        }
-        (format, _) => {
-            let found = format.unwrap_or("missing");
-            return Err(format!("format is {found}, \"{wanted}\" is needed"));
-        }
-    }
+    kind.judge(wanted)?;
     serde_json::from_str(text).map_err(|error| format!("damaged: {error}"))
 }
 

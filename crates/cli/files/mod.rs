@@ -3,6 +3,8 @@
 pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;
+pub(crate) mod lines;
 pub(crate) mod npz;
 pub(crate) mod output;
 pub(crate) mod stream;
+mod temporary;

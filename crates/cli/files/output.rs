@@ -1,11 +1,11 @@
-//! Results on their way out: opened before the work, put under their name when complete.
+//! Results on their way out: their places are judged before the work, and take their names when complete.
 
+use super::temporary::{beside, may_be_made_in, remove_left_behind};
 use crate::failure::Failure;
 use serde::Serialize;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// What is written, by the extension of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,9 +47,9 @@ enum Sink {
     Stdout,
     /// A device or a pipe, written to as it is.
     Special(File),
-    /// A temporary file beside the target, renamed onto it once it is complete: a reader never sees
-    /// half a document, and a failure leaves what was there before.
-    Beside(NamedTempFile),
+    /// A file: written beside itself and renamed once it is complete. A reader never sees half a
+    /// document, and a failure leaves what was there before.
+    Named,
 }
 
 /// What a name on the command line stands for.
@@ -133,9 +133,9 @@ impl Output {
             Place::Stdout => Sink::Stdout,
             Place::Special(file) => Sink::Special(file),
             Place::File(target) => {
-                let file = beside(folder_of(&target));
-                let file = file.map_err(|error| refused(option, path, &error))?;
-                return Ok(Self { path: target, sink: Sink::Beside(file) });
+                may_be_made_in(folder_of(&target))
+                    .map_err(|error| refused(option, path, &error))?;
+                return Ok(Self { path: target, sink: Sink::Named });
             }
         };
         Ok(Self { path: path.into(), sink })
@@ -185,13 +185,21 @@ impl Output {
         let done = match self.sink {
             Sink::Stdout => through(io::stdout().lock(), write),
             Sink::Special(file) => through(file, write),
-            Sink::Beside(mut file) => through(file.as_file_mut(), write)
-                .and_then(|()| file.as_file().sync_all())
-                .and_then(|()| file.persist(&self.path).map(drop).map_err(|error| error.error))
-                .map(|()| sync_folder(&self.path)),
+            Sink::Named => named(&self.path, write),
         };
         done.map_err(|error| Failure::Write { target, error })
     }
+}
+
+/// Writes a file under a temporary name, and gives it its own.
+fn named(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut file = beside(path, folder_of(path))?;
+    through(file.as_file_mut(), write)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    sync_folder(path);
+    remove_left_behind(path, folder_of(path));
+    Ok(())
 }
 
 fn through(
@@ -206,17 +214,4 @@ fn through(
 /// Whether the path is a device or a pipe, which must not be renamed over.
 fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
-}
-
-#[cfg(unix)]
-fn beside(folder: &Path) -> io::Result<NamedTempFile> {
-    use std::os::unix::fs::PermissionsExt;
-    // As any new file: what the umask leaves of it.
-    let permissions = std::fs::Permissions::from_mode(0o666);
-    tempfile::Builder::new().prefix(".stickslip-").permissions(permissions).tempfile_in(folder)
-}
-
-#[cfg(not(unix))]
-fn beside(folder: &Path) -> io::Result<NamedTempFile> {
-    tempfile::Builder::new().prefix(".stickslip-").tempfile_in(folder)
 }

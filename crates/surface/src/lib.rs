@@ -30,7 +30,8 @@ mod verification;
 pub use carved::{Method, carved, carved_by};
 pub use ripple::{Ripple, ripple_behind};
 pub use verification::{
-    Claim, Difference, Growth, TOLERANCES_ALLOWED, Verification, VerificationError, verify,
+    ComparedSamples, Difference, Growth, Sample, TOLERANCES_ALLOWED, Verification,
+    VerificationError, verify, verify_samples,
 };
 
 use ndarray::Array1;

@@ -3,16 +3,18 @@
 
 mod compare;
 mod growth;
+mod repeat;
 mod spread;
 
-pub use compare::Difference;
+pub use compare::{ComparedSamples, Difference, Sample};
 pub use growth::Growth;
 
 use crate::SurfaceError;
-use compare::{compare_l, compare_u};
-use growth::growth;
+use compare::{AgainstSamples, Judgement, compare_l, compare_u};
+use growth::{Probes, growth};
+use repeat::{Kept, Repetition, Witness, another};
 use std::ops::ControlFlow;
-use stickslip_tip::{MemoryChoice, Run, RunError, Scenario, TOLERANCES, Trajectory, run_observed};
+use stickslip_tip::{InitialSurface, MemoryChoice, RunError, Scenario, TOLERANCES, Trajectory};
 use thiserror::Error;
 
 /// What is promised of l is so many tolerances: the errors of steps add up, and slips amplify them. It is
@@ -25,8 +27,7 @@ const TIGHTER: f64 = 100.0;
 const SHIFT: f64 = 1e4;
 /// but by no more than this, far below the motion.
 const LARGEST_SHIFT: f64 = 1e-4;
-/// A direct sum over more steps takes longer than a person waits.
-const MOST_STEPS_OF_DIRECT: u64 = 3000;
+
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verification {
@@ -40,17 +41,10 @@ pub struct Verification {
     pub u: Option<Difference>,
     /// The first time at which l differs by more than is allowed.
     pub trusted_until: Option<f64>,
+    /// Which samples these are; `None` with a dense history.
+    pub samples: Option<ComparedSamples>,
     /// How a small error grows with time.
     pub growth: Growth,
-}
-
-/// What is verified.
-#[derive(Debug, Clone, Copy)]
-pub enum Claim<'a> {
-    /// The dense history of a run.
-    History(&'a Trajectory),
-    /// Samples of a run that lasted to a given time: pairs of t and l.
-    Samples(&'a [(f64, f64)], f64),
 }
 
 /// Why a run could not be verified.
@@ -75,7 +69,8 @@ impl Verification {
     }
 }
 
-/// Repeats a run of `scenario` that was made with the memory of that name, and compares.
+/// Repeats a run of `scenario` that was made with the memory of that name, and compares with its dense
+/// history.
 ///
 /// l is promised to [`TOLERANCES_ALLOWED`] tolerances ε. Where the tip strays by that much, the surface does
 /// by at most α ε ∫|f'(x - x0(t'))|dt', what is allowed of it.
@@ -87,35 +82,93 @@ impl Verification {
 pub fn verify(
     scenario: &Scenario,
     memory: &str,
-    claim: Claim,
-    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+    trajectory: &Trajectory,
+    observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Verification, VerificationError> {
-    let steps = match claim {
-        Claim::History(trajectory) => trajectory.steps().len() as u64,
-        Claim::Samples(..) => u64::MAX,
-    };
-    let until = match claim {
-        Claim::History(trajectory) => trajectory.end(),
-        Claim::Samples(_, until) => until,
-    };
-    let tolerance = tighter(scenario);
-    let other = Scenario { tolerance, until, ..scenario.clone() };
-    let reference = repeat(&other, another(memory, steps), 0.0, &mut observe)?;
-    let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance);
-    let twin = Scenario { kick: scenario.kick + shift, ..other };
-    let twin = repeat(&twin, vec![MemoryChoice::Fft, MemoryChoice::Direct], 0.5, &mut observe)?;
-
+    let surface = scenario.initial_surface()?;
+    let mut second = Second::of(scenario, &surface, trajectory.end(), observe);
+    let steps = trajectory.steps().len() as u64;
+    let mut kept = Kept::default();
+    let (by, growth) = second.run(another(memory, steps), &mut kept)?;
+    let reference = Trajectory::new(scenario.model.r(), kept.steps);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
-    let (l, trusted_until) = compare_l(claim, &reference.trajectory, allowed);
-    let u = match claim {
-        Claim::Samples(..) => None,
-        Claim::History(trajectory) => {
-            Some(compare_u(&scenario.model, trajectory, &reference, allowed)?)
-        }
-    };
-    let growth = growth(&reference.trajectory, &twin.trajectory, shift, tolerance);
-    let memory = reference.memory;
-    Ok(Verification { memory, tolerance, l, u, trusted_until, growth })
+    let judgement = compare_l(trajectory, &reference, allowed);
+    let u = compare_u(&scenario.model, trajectory, &reference, allowed)?;
+    Ok(second.verification(by, &judgement, Some(u), None, growth))
+}
+
+/// As [`verify`], of a run of which nothing is left but samples in the order of time, the last at `until`.
+///
+/// They are asked for once for each memory that is tried, and compared as the second run passes them: memory
+/// holds neither the samples nor the second run, and does not grow with their length but where the second
+/// run's memory is `direct`. Samples beyond `until` are not looked at.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_samples<I: Iterator<Item = Sample>>(
+    scenario: &Scenario,
+    memory: &str,
+    samples: impl Fn() -> I,
+    until: f64,
+    observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Verification, VerificationError> {
+    let surface = scenario.initial_surface()?;
+    let mut second = Second::of(scenario, &surface, until, observe);
+    let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
+    let mut compared =
+        AgainstSamples::new(scenario.model.r(), samples, (scenario.start_time(), until), allowed);
+    let (by, growth) = second.run(another(memory, u64::MAX), &mut compared)?;
+    let (judgement, found) = compared.finish();
+    Ok(second.verification(by, &judgement, None, Some(found), growth))
+}
+
+/// The second run and its twin.
+struct Second<'a, O> {
+    /// What is repeated: to a tighter tolerance, until the run ended.
+    scenario: Scenario,
+    /// That of the run asked for, however early it ended: noise and its spline reach to the end asked for.
+    surface: &'a InitialSurface,
+    observe: O,
+}
+
+impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
+    fn of(run: &Scenario, surface: &'a InitialSurface, until: f64, observe: O) -> Self {
+        let scenario = Scenario { tolerance: tighter(run), until, ..run.clone() };
+        Self { scenario, surface, observe }
+    }
+
+    /// Repeats with the first of the memories that applies, watched by a witness; and tells from the twin how
+    /// errors grow.
+    fn run(
+        &mut self,
+        memories: Vec<MemoryChoice>,
+        witness: &mut impl Witness,
+    ) -> Result<(&'static str, Growth), VerificationError> {
+        let Self { scenario, surface, observe } = self;
+        let tolerance = scenario.tolerance;
+        let mut here = Probes::of(scenario);
+        let repetition = Repetition { scenario, surface, from: 0.0, to: 0.5 };
+        let by = repetition.run(memories, &mut (witness, &mut here), observe)?;
+        let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance);
+        let twin = Scenario { kick: scenario.kick + shift, ..scenario.clone() };
+        let mut there = Probes::of(&twin);
+        let repetition = Repetition { scenario: &twin, surface, from: 0.5, to: 1.0 };
+        repetition.run(vec![MemoryChoice::Fft, MemoryChoice::Direct], &mut there, observe)?;
+        Ok((by, growth(&here, &there, shift, tolerance)))
+    }
+
+    fn verification(
+        self,
+        memory: &'static str,
+        judgement: &Judgement,
+        u: Option<Difference>,
+        samples: Option<ComparedSamples>,
+        growth: Growth,
+    ) -> Verification {
+        let Judgement { worst: l, trusted_until } = *judgement;
+        let tolerance = self.scenario.tolerance;
+        Verification { memory, tolerance, l, u, trusted_until, samples, growth }
+    }
 }
 
 /// The tightest tolerance, down to a hundredth, that can be asked for.
@@ -126,42 +179,4 @@ fn tighter(scenario: &Scenario) -> f64 {
     let can_be_met =
         |tolerance: &f64| Scenario { tolerance: *tolerance, ..scenario.clone() }.validate().is_ok();
     tried.filter(|tolerance| *tolerance < asked).find(can_be_met).unwrap_or(asked)
-}
-
-/// Memories that may repeat a run, the best witness first.
-fn another(used: &str, steps: u64) -> Vec<MemoryChoice> {
-    let mut others = vec![MemoryChoice::Modes, MemoryChoice::Fft, MemoryChoice::Direct];
-    if steps <= MOST_STEPS_OF_DIRECT {
-        others.rotate_right(1);
-    }
-    let name = |choice: &MemoryChoice| match choice {
-        MemoryChoice::Auto => "auto",
-        MemoryChoice::Direct => "direct",
-        MemoryChoice::Fft => "fft",
-        MemoryChoice::Modes => "modes",
-    };
-    others.retain(|choice| name(choice) != used);
-    others
-}
-
-/// Runs with the first of the memories that applies.
-fn repeat(
-    scenario: &Scenario,
-    memories: Vec<MemoryChoice>,
-    done: f64,
-    observe: &mut impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Run, VerificationError> {
-    let (start, until) = (scenario.start_time(), scenario.until);
-    let mut last = None;
-    for memory in memories {
-        let scenario = Scenario { memory, ..scenario.clone() };
-        let part = |t: f64| done + 0.5 * (t - start) / (until - start);
-        match run_observed(&scenario, |step| observe(part(step.end()))) {
-            Ok(run) if run.interrupted => return Err(VerificationError::Interrupted),
-            Ok(run) => return Ok(run),
-            Err(error @ (RunError::Modes(_) | RunError::Integration(_))) => last = Some(error),
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Err(last.map_or(VerificationError::Interrupted, VerificationError::Run))
 }

@@ -52,11 +52,17 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
         return Ok(order);
     }
     let plot = arguments.plot.as_deref().map(|path| format!("--plot {}", path.display()));
-    let verify = arguments.verify.then(|| "--verify".to_string());
-    if let Some(option) = plot.or(verify) {
+    if let Some(option) = plot {
         return Err(Failure::input(
             option,
             "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz",
+        ));
+    }
+    if arguments.verify {
+        return Err(Failure::input(
+            "--verify",
+            "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz, \
+             or verify the lines when they are there, with `stickslip verify FILE.jsonl`",
         ));
     }
     Ok(order)

@@ -1,6 +1,7 @@
 //! How a small error grows: the distance of two runs that start a little apart.
 
-use stickslip_tip::Trajectory;
+use super::repeat::Witness;
+use stickslip_tip::{RunError, Scenario, Step};
 
 /// What becomes of a small disturbance of the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,29 +25,80 @@ const SMALL: f64 = 0.05;
 /// Multiple of the runs' tolerance: differences below are errors.
 const ERRORS: f64 = 30.0;
 
+/// l of a run at the times of all windows.
+pub(super) struct Probes {
+    r: f64,
+    start: f64,
+    end: f64,
+    l: Vec<f64>,
+}
+
+impl Probes {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let l = Vec::with_capacity(WINDOWS * (TIMES_PER_WINDOW + 1));
+        Self { r: scenario.model.r(), start: scenario.start_time(), end: scenario.until, l }
+    }
+
+    fn width(&self) -> f64 {
+        (self.end - self.start) / WINDOWS as f64
+    }
+
+    /// The middle of a window.
+    fn middle(&self, window: usize) -> f64 {
+        self.start + self.width() * (window as f64 + 0.5)
+    }
+
+    /// Of the next value. The last of a window is the first of the next.
+    fn due(&self) -> Option<f64> {
+        let (window, i) =
+            (self.l.len() / (TIMES_PER_WINDOW + 1), self.l.len() % (TIMES_PER_WINDOW + 1));
+        let part = i as f64 / TIMES_PER_WINDOW as f64;
+        let t = self.start + self.width() * (window as f64 + part);
+        (window < WINDOWS).then_some(t.min(self.end))
+    }
+
+    fn probe(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
+        while let Some(t) = self.due().filter(|t| is_due(*t)) {
+            self.l.push(step.l(self.r, t));
+        }
+    }
+
+    fn windows(&self) -> std::slice::Chunks<'_, f64> {
+        self.l.chunks(TIMES_PER_WINDOW + 1)
+    }
+}
+
+impl Witness for Probes {
+    fn begin(&mut self) {
+        self.l.clear();
+    }
+
+    fn see(&mut self, step: &Step) -> Result<(), RunError> {
+        self.probe(step, |t| t < step.end());
+        Ok(())
+    }
+
+    fn end(&mut self, last: &Step) {
+        self.probe(last, |_| true);
+    }
+}
+
 /// From two runs to the same tolerance, whose starts differ by `shift` in l.
-pub(super) fn growth(one: &Trajectory, twin: &Trajectory, shift: f64, tolerance: f64) -> Growth {
-    let (start, end) = (one.start().max(twin.start()), one.end().min(twin.end()));
-    let width = (end - start) / WINDOWS as f64;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut largest = |window: usize| {
-        let times = (0..=TIMES_PER_WINDOW).map(|i| i as f64 / TIMES_PER_WINDOW as f64);
-        let differences = times.map(|part| {
-            let t = (start + width * (window as f64 + part)).min(end);
-            let l = one.l(t);
-            (low, high) = (low.min(l), high.max(l));
-            (l - twin.l(t)).abs()
-        });
-        differences.fold(0.0, f64::max)
-    };
-    let envelope: Vec<f64> = (0..WINDOWS).map(&mut largest).collect();
+pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
+    let (low, high) = one
+        .l
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), l| (low.min(*l), high.max(*l)));
+    let largest =
+        |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let envelope: Vec<f64> = one.windows().zip(twin.windows()).map(largest).collect();
     let amplification = envelope.iter().copied().fold(0.0, f64::max) / shift;
     let meaningful = ERRORS * tolerance..SMALL * (high - low).max(shift / SMALL);
     let points: Vec<(f64, f64)> = envelope
         .iter()
         .enumerate()
         .take_while(|(_, difference)| meaningful.contains(difference))
-        .map(|(window, difference)| (start + width * (window as f64 + 0.5), difference.ln()))
+        .map(|(window, difference)| (one.middle(window), difference.ln()))
         .collect();
     // The first half still shows the disturbance itself, not only what grows fastest of it.
     let settled = &points[points.len() / 2..];

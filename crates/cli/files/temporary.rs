@@ -1,0 +1,117 @@
+//! Temporary files beside what they will replace. They are made once there is something to write, so that a
+//! process killed at its work leaves none; one that is killed as it writes leaves one, which the next to write
+//! the same file removes. A lock, which ends with its process, tells the two apart.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// Finds out whether a folder takes new files, and leaves none there.
+pub(super) fn may_be_made_in(folder: &Path) -> io::Result<()> {
+    // Without a name from the first, where the system has such files.
+    tempfile::tempfile_in(folder).map(drop)
+}
+
+/// A new file in the folder of a target, locked.
+pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+    loop {
+        let file = new(&prefix(target), folder)?;
+        // Not every file system has locks; without them nobody takes the file for one left behind.
+        file.as_file().lock().ok();
+        // Between its birth and its lock, it may have been.
+        if file.path().exists() {
+            return Ok(file);
+        }
+    }
+}
+
+/// Ours, for this target: of a length that any file system allows, however long its name.
+fn prefix(target: &Path) -> String {
+    let name = target.file_name().unwrap_or_default().as_encoded_bytes();
+    format!(".stickslip-{:08x}-", crc32fast::hash(name))
+}
+
+#[cfg(unix)]
+fn new(prefix: &str, folder: &Path) -> io::Result<NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt;
+    // As any new file: what the umask leaves of it.
+    let permissions = fs::Permissions::from_mode(0o666);
+    Builder::new().prefix(prefix).permissions(permissions).tempfile_in(folder)
+}
+
+#[cfg(not(unix))]
+fn new(prefix: &str, folder: &Path) -> io::Result<NamedTempFile> {
+    Builder::new().prefix(prefix).tempfile_in(folder)
+}
+
+/// Removes what was made for this target by processes that are no more. What cannot be removed stays.
+pub(super) fn remove_left_behind(target: &Path, folder: &Path) {
+    let prefix = prefix(target);
+    let is_ours = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().as_encoded_bytes();
+        name.starts_with(prefix.as_bytes())
+            && path.symlink_metadata().is_ok_and(|file| file.is_file())
+    };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for path in entries.map(|entry| entry.path()).filter(is_ours) {
+        // Removed while it is locked here: its maker, if there still is one, looks for it after that.
+        if let Ok(file) = File::open(&path)
+            && file.try_lock().is_ok()
+        {
+            fs::remove_file(&path).ok();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let name =
+            |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name().into_string().unwrap();
+        folder.read_dir().unwrap().map(name).collect()
+    }
+
+    /// As a kill leaves it: without its lock, never removed.
+    fn left_behind(target: &Path, folder: &Path) -> PathBuf {
+        let (file, path) = beside(target, folder).unwrap().keep().unwrap();
+        drop(file);
+        path
+    }
+
+    #[test]
+    fn what_a_dead_process_left_goes_and_what_a_living_one_has_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let (target, other) = (folder.join("run.json"), folder.join("other.json"));
+        let dead = [left_behind(&target, folder), left_behind(&target, folder)];
+        let living = beside(&target, folder).unwrap();
+        let others = left_behind(&other, folder);
+        let foreign = folder.join(".stickslip-a");
+        fs::write(&foreign, "").unwrap();
+        remove_left_behind(&target, folder);
+        assert!(dead.iter().all(|path| !path.exists()), "{:?}", names(folder));
+        for path in [living.path(), &others, &foreign] {
+            assert!(path.exists(), "{}: {:?}", path.display(), names(folder));
+        }
+        living.persist(&target).unwrap();
+        assert_eq!(names(folder).len(), 3);
+    }
+
+    #[test]
+    fn to_look_whether_a_folder_takes_files_leaves_none() {
+        let folder = tempfile::tempdir().unwrap();
+        may_be_made_in(folder.path()).unwrap();
+        assert_eq!(names(folder.path()), [""; 0]);
+        assert!(may_be_made_in(&folder.path().join("none")).is_err());
+    }
+
+    /// Names as long as a system allows are written too.
+    #[test]
+    fn a_long_name_has_a_short_temporary_one() {
+        let long = PathBuf::from("x".repeat(250) + ".json");
+        assert_eq!(prefix(&long).len(), prefix(Path::new("a.json")).len());
+    }
+}

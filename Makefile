@@ -2,7 +2,7 @@
 
 CARGO ?= cargo
 PLOT ?= run.svg
-# Of each of four parsers, and of each of four laws.
+# Cases of each of six parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
 

@@ -6,11 +6,9 @@
 
 mod program;
 
-use program::{Folder, said};
+use program::{Folder, at_work, said};
 use serde_json::Value;
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
 const CASE: &str = "compare --alpha 1.2 --r 1 --kick 0.05 --until 36";
 
@@ -116,11 +114,7 @@ fn an_interrupted_comparison_writes_nothing() {
     for (signal, status) in [("-INT", 130), ("-TERM", 143)] {
         let mut child =
             folder.command(long).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        // The output is opened before the work begins.
-        while folder.names().is_empty() && child.try_wait().unwrap().is_none() {
-            sleep(Duration::from_millis(5));
-        }
-        sleep(Duration::from_millis(300));
+        at_work(&child);
         Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(status));
         assert!(folder.names().is_empty(), "{:?}", folder.names());

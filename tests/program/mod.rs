@@ -6,7 +6,8 @@ use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Bad input is found out within this time.
@@ -96,6 +97,22 @@ impl Folder {
             assert!(said.contains(word), "{line}\nsaid nothing of {word:?}:\n{said}");
         }
     }
+}
+
+/// Waits until the program listens for signals, and works.
+pub fn at_work(child: &Child) {
+    let deadline = Instant::now() + Duration::from_secs(5);
+    while !listens(child) && Instant::now() < deadline {
+        sleep(Duration::from_millis(5));
+    }
+    sleep(Duration::from_millis(100));
+}
+
+/// Whether SIGINT is caught, as Linux tells; elsewhere it never says so.
+fn listens(child: &Child) -> bool {
+    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    caught.is_some_and(|mask| u64::from_str_radix(mask.trim(), 16).unwrap() & 2 != 0)
 }
 
 /// Standard error, on which no panic is ever seen.

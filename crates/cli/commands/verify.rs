@@ -8,6 +8,7 @@ use crate::documents::{
     VerifyDocument,
 };
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::files::input::read_run;
 use crate::files::output::Output;
 use crate::interrupt::Interrupt;
@@ -16,6 +17,7 @@ use stickslip_surface::{Claim, Difference, TOLERANCES_ALLOWED, Verification, Ver
 use stickslip_tip::{Scenario, Trajectory};
 
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
+    apart(&[("--output", Some(&*arguments.output))], &[("RUN.json", Some(&*arguments.run))])?;
     let run = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(
@@ -124,6 +126,15 @@ fn document(found: &Verification) -> VerificationDocument {
         amplification: found.growth.amplification,
         lyapunov_exponent: found.growth.exponent,
     }
+}
+
+/// What is said after the summary of a run that keeps its promise; else nothing.
+pub(super) fn kept(found: &VerificationDocument) -> String {
+    if !found.kept {
+        return String::new();
+    }
+    let (memory, largest, allowed) = (&found.memory, found.l.largest, found.l.allowed);
+    format!("; verified with {memory}: l is off by {largest:.1e} at most, {allowed:.1e} is allowed")
 }
 
 /// What is said, and the exit status, where the promise is broken.

@@ -19,6 +19,14 @@ impl OutputFormat {
     /// # Errors
     /// An extension that none of the formats has.
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
+        Self::or_also(path, "")
+    }
+
+    /// For a command that has an extension `more`, such as ", .gsf", which it has looked for itself.
+    ///
+    /// # Errors
+    /// An extension that none of the formats has.
+    pub(crate) fn or_also(path: &Path, more: &str) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return Ok(Self::Json);
         }
@@ -29,7 +37,10 @@ impl OutputFormat {
             _ if is_special(path) => Ok(Self::Json),
             _ => Err(Failure::input(
                 format!("--output {}", path.display()),
-                "the extension says what is written: .json, .csv or .npz will do, or - for JSON on standard output",
+                format!(
+                    "the extension says what is written: .json, .csv{more} or .npz will do, or - for JSON on \
+                     standard output"
+                ),
             )),
         }
     }
@@ -48,8 +59,9 @@ enum Sink {
     /// A device or a pipe, written to as it is.
     Special(File),
     /// A temporary file beside the target, renamed onto it once it is complete: a reader never sees
-    /// half a document, and a failure leaves what was there before.
-    Beside(NamedTempFile),
+    /// half a document, and a failure leaves what was there before. It is made when there is something
+    /// to write: a signal during the work leaves nothing behind.
+    Beside,
 }
 
 /// What a name on the command line stands for.
@@ -69,7 +81,12 @@ pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
 
 pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
     let advice = "choose a place that exists and can be written to";
-    Failure::input(format!("{option} {}", path.display()), format!("{}; {advice}", error.kind()))
+    let said = match error.kind() {
+        io::ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
+        io::ErrorKind::NotFound => "there is no such folder".into(),
+        kind => kind.to_string(),
+    };
+    Failure::input(format!("{option} {}", path.display()), format!("{said}; {advice}"))
 }
 
 fn writable(path: &Path) -> io::Result<Place> {
@@ -124,7 +141,7 @@ pub(crate) fn replace(
 }
 
 impl Output {
-    /// Opens the file (`-`: standard output) that `option` named.
+    /// Finds the file (`-`: standard output) that `option` named, and whether it can be written.
     ///
     /// # Errors
     /// It cannot be written.
@@ -133,9 +150,9 @@ impl Output {
             Place::Stdout => Sink::Stdout,
             Place::Special(file) => Sink::Special(file),
             Place::File(target) => {
-                let file = beside(folder_of(&target));
-                let file = file.map_err(|error| refused(option, path, &error))?;
-                return Ok(Self { path: target, sink: Sink::Beside(file) });
+                // Whether the folder takes new files.
+                beside(folder_of(&target)).map_err(|error| refused(option, path, &error))?;
+                return Ok(Self { path: target, sink: Sink::Beside });
             }
         };
         Ok(Self { path: path.into(), sink })
@@ -178,13 +195,23 @@ impl Output {
         let done = match self.sink {
             Sink::Stdout => through(io::stdout().lock(), write),
             Sink::Special(file) => through(file, write),
-            Sink::Beside(mut file) => through(file.as_file_mut(), write)
-                .and_then(|()| file.as_file().sync_all())
-                .and_then(|()| file.persist(&self.path).map(drop).map_err(|error| error.error))
-                .map(|()| sync_folder(&self.path)),
+            Sink::Beside => put_beside(&self.path, write),
         };
         done.map_err(|error| Failure::Write { target, error })
     }
+}
+
+/// Writes a temporary file, and gives it the name of the target.
+fn put_beside(
+    target: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut file = beside(folder_of(target))?;
+    through(file.as_file_mut(), write)?;
+    file.as_file().sync_all()?;
+    file.persist(target).map_err(|error| error.error)?;
+    sync_folder(target);
+    Ok(())
 }
 
 fn through(

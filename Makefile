@@ -2,15 +2,14 @@
 
 CARGO ?= cargo
 PLOT ?= run.svg
-# Of each of four parsers, and of each of four laws.
+# Cases of each of six parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
 
 comma := ,
 # Builds by the profile of the second argument, shows the command as a user would type it, and runs it.
-profile = --profile $(or $(1),release) --locked
-stickslip = $(CARGO) build $(call profile,$(2)) && echo 'stickslip $(1)' \
-	&& $(CARGO) run $(call profile,$(2)) --quiet -- $(1)
+stickslip = $(CARGO) build --locked --profile $(or $(2),release) && echo 'stickslip $(1)' \
+	&& $(CARGO) run --locked --profile $(or $(2),release) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
 .PHONY: help run test survive check bench work-precision figures peers fuzz doc install clean

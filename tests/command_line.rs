@@ -164,6 +164,7 @@ fn the_help_of_every_command_shows_an_example() {
         let examples = text.split("Example").nth(1).unwrap_or_default();
         assert!(examples.contains(&format!("stickslip {command}")), "{command}:\n{text}");
     }
+    assert!(help("run --help").contains("[default: 1e-9]"));
     assert!(help("--version").starts_with("stickslip "));
     let nothing = folder.stickslip("");
     assert_eq!(nothing.status.code(), Some(2));
@@ -173,7 +174,9 @@ fn the_help_of_every_command_shows_an_example() {
 #[cfg(unix)]
 mod on_unix {
     use super::*;
+    use std::ffi::OsStr;
     use std::io::Read;
+    use std::os::unix::ffi::OsStrExt;
     use std::os::unix::fs::PermissionsExt;
     use std::process::{Child, Command, Output, Stdio};
     use std::thread::sleep;
@@ -231,6 +234,41 @@ mod on_unix {
             );
             assert_eq!(folder.names(), ["run.json"]);
         }
+    }
+
+    /// Between the judgement of the options and the result there is nothing to be left behind.
+    #[test]
+    fn a_command_stopped_at_work_leaves_no_file() {
+        let folder = Folder::new("stopped");
+        let row =
+            |i: i32| format!("{},{}\n", 0.1 * f64::from(i), (-0.005 * f64::from(i * i)).exp());
+        folder.write("tip.csv", (0..80).map(row).collect::<String>());
+        let long =
+            "boundary --tip-file tip.csv --r-range 0.1,2 --points 100000 -o b.json --plot b.svg";
+        let mut child = folder.command(long).spawn().unwrap();
+        sleep(Duration::from_millis(500));
+        assert!(child.try_wait().unwrap().is_none(), "it must take longer");
+        after(child, "-INT");
+        assert_eq!(folder.names(), ["tip.csv"]);
+    }
+
+    /// A checkpoint is text, and must name the output.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn names_of_any_bytes_will_do_but_beside_a_checkpoint() {
+        let folder = Folder::new("odd_names");
+        let run = |options: &[&OsStr]| {
+            let mut command = folder.command("run --alpha 1.2 --r 1 --until 30 -o");
+            command.args(options).output().unwrap()
+        };
+        let name = OsStr::from_bytes(b"odd\xff.json");
+        assert!(run(&[name]).status.success());
+        assert!(folder.path("").join(name).is_file());
+        let output =
+            run(&[OsStr::from_bytes(b"new\xff.jsonl"), "--checkpoint".as_ref(), "run.ck".as_ref()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains("--output new"), "{}", said(&output));
+        assert_eq!(std::fs::read_dir(folder.path("")).unwrap().count(), 1);
     }
 
     #[test]

@@ -102,7 +102,17 @@ fn a_branch_is_told_in_full() {
     for word in ["unstable cycles", "stable, branch 1", "period doubling", "Hopf", "6 4"] {
         assert!(picture.contains(word), "{word}");
     }
-    folder.prints("continue --r 1 --over alpha --to 1.1 -o branch.csv");
+    // Onset is supercritical: there are no cycles on the way to an α below it.
+    let output =
+        folder.stickslip("continue --r 1 --over alpha --to 0.9 --longest-period 7 -o away.json");
+    assert!(
+        said(&output).contains("where the period exceeds --longest-period"),
+        "{}",
+        said(&output)
+    );
+    let output = folder.stickslip("continue --r 1 --over alpha --to 1.1 -o branch.csv");
+    assert!(output.status.success());
+    assert!(said(&output).contains(" to 1.1, the value of --to"), "{}", said(&output));
     let table = String::from_utf8(folder.read("branch.csv")).unwrap();
     assert!(table.starts_with("branch,alpha,r,period,amplitude_x0,amplitude_u,stable,"));
 }
@@ -115,7 +125,9 @@ fn pictures_and_tables_of_a_cycle_are_made() {
     assert_eq!(table.lines().count(), 52);
     let picture = String::from_utf8(folder.read("cycle.svg")).unwrap();
     assert!(picture.starts_with("<svg") && picture.contains("u far behind the tip"));
-    folder.prints("cycle --alpha 1.2 --r 1 -o cycle.npz");
+    let output = folder.stickslip("cycle --alpha 1.2 --r 1 -o cycle.npz");
+    let told = "stable cycle of one slip, period 7.067359690, amplitude of x0 0.7125586";
+    assert!(output.status.success() && said(&output).contains(told), "{}", said(&output));
     assert_eq!(folder.names(), ["cycle.csv", "cycle.npz", "cycle.svg"]);
 }
 

@@ -258,7 +258,7 @@ fn the_measured_diagram_is_of_this_integrator() {
     let counted = |case: &Value, memory: &str| -> u64 {
         let ours = |curve: &&Value| curve["case"] == case["name"] && curve["method"] == memory;
         let curve = measured["curves"].as_array().unwrap().iter().find(ours).unwrap();
-        let at = |point: &&Value| number(point, "tolerance").log10().round() == -6.0;
+        let at = |point: &&Value| number(point, "tolerance").log10().round() as i32 == -6;
         curve["points"].as_array().unwrap().iter().find(at).unwrap()["steps"].as_u64().unwrap()
     };
     for case in measured["cases"].as_array().unwrap() {

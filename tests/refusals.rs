@@ -184,14 +184,14 @@ fn places_that_cannot_be_written_are_found_before_the_run() {
     std::fs::create_dir(folder.path("folder.svg")).unwrap();
     let long = format!("{}.json", "a".repeat(300));
     let cases = [
-        ("--output", "none/run.json", "choose a place that exists"),
+        ("--output", "none/run.json", "there is no such folder; choose a place that exists"),
         ("--output", "folder.json", "choose a place"),
         ("--output", "file/run.json", "choose a place"),
         ("--output", "run.json/", "choose a place"),
         ("--output", &long, "choose a place"),
-        ("--output", "run.txt", ".json, .csv or .npz will do"),
-        ("--output", "run", ".json, .csv or .npz will do"),
-        ("--output", "folder", ".json, .csv or .npz will do"),
+        ("--output", "run.txt", ".json, .csv, .jsonl or .npz will do"),
+        ("--output", "run", ".json, .csv, .jsonl or .npz will do"),
+        ("--output", "folder", ".json, .csv, .jsonl or .npz will do"),
         ("--plot", "none/run.svg", "choose a place that exists"),
         ("--plot", "folder.svg", "choose a place"),
         ("--plot", "run.pdf", ".svg or .png"),
@@ -214,7 +214,8 @@ fn places_that_cannot_be_written_are_found_before_the_run() {
 fn surfaces_that_cannot_be_had_are_refused() {
     let folder = Folder::new("surfaces");
     folder.prints("run --alpha 1.2 --r 1 --until 30 -o run.json");
-    let cases: [(&str, &[&str]); 22] = [
+    let cases: [(&str, &[&str]); 23] = [
+        ("-o u.txt", &["--output u.txt", ".json, .csv, .gsf or .npz will do"]),
         ("--at 5", &["--at 5", "from 16.03", "to 30"]),
         ("--at 20,31", &["--at 31", "to 30"]),
         ("--at nan", &["--at NaN", "to 30"]),
@@ -242,6 +243,42 @@ fn surfaces_that_cannot_be_had_are_refused() {
         folder.refuses(&format!("surface run.json {options}"), words);
     }
     folder.refuses("surface none.json", &["RUN.json none.json", "cannot be read"]);
+}
+
+#[test]
+fn no_file_is_written_over_another_of_the_same_command() {
+    let folder = Folder::new("apart");
+    folder.prints("run --alpha 1.2 --r 1 --until 30 -o run.json");
+    folder.prints("cycle --alpha 1.2 --r 1 -o cycle.json");
+    folder.write("tip.csv", table(|x| (-0.5 * x * x).exp()));
+    std::fs::create_dir(folder.path("sub")).unwrap();
+    let before = (folder.names(), folder.read("run.json"));
+    let run = "run --alpha 1.2 --r 1 --until 30";
+    for (line, words) in [
+        ("verify run.json -o run.json", ["--output run.json", "of RUN:"]),
+        ("surface run.json -o ./sub/../run.json", ["--output ./sub/../run.json", "RUN.json"]),
+        (&format!("{run} --format json -o a.svg --plot ./a.svg"), ["--plot ./a.svg", "--output"]),
+        (&format!("{run} --tip-file tip.csv -o tip.csv"), ["--output tip.csv", "--tip-file"]),
+        (
+            &format!("{run} -o a.json --plot a.svg --checkpoint a.svg"),
+            ["--checkpoint a.svg", "--plot"],
+        ),
+        ("stability --r 1 --tip-file tip.csv -o tip.csv", ["--output tip.csv", "--tip-file"]),
+        ("sweep --r 1 --alpha 1 --tip-file tip.csv -o tip.csv", ["--output", "--tip-file"]),
+        (
+            "boundary --r-range 1,2 --plot b.svg --plot-onset b.svg",
+            ["--plot-onset b.svg", "--plot"],
+        ),
+        ("continue --from cycle.json --over alpha -o cycle.json", ["--output", "--from"]),
+    ] {
+        folder.refuses(line, &[words[0], words[1], "a name of its own"]);
+    }
+    assert!((folder.names(), folder.read("run.json")) == before);
+    // A cycle may take the place of the one that it came from, and a device may be named twice.
+    folder.prints("cycle --from cycle.json --alpha 1.21 -o cycle.json");
+    if cfg!(unix) {
+        folder.prints(&format!("{run} --format json -o /dev/null --verify"));
+    }
 }
 
 /// Finite, but no tip was ever like that. Whatever comes of it, it comes soon and it is honest.

@@ -108,8 +108,8 @@ fn the_residue_sum_is_what_a_weak_pulse_does_to_a_run() {
             println!("α = {:.3}, A = {amplitude:e}: {after:.1e} of its size", model.alpha());
             // What is of second order in the pulse, and the tolerance of the run.
             assert!(after < 5.0 * amplitude + 1e-7, "{amplitude:e} {after:e}");
-            // Negative control: the modes left out are missed there.
-            assert!(during > 1e-3, "{during:e}");
+            // While the pulse lasts the modes left out are missed, and that is all.
+            assert!((1e-3..0.1).contains(&during), "{during:e}");
         }
     }
 }

@@ -304,6 +304,13 @@ fn tables_and_figures_are_written() {
         assert!(svg.starts_with("<svg") && svg.len() > 2000, "{name}");
         assert!(!svg.contains("NaN"), "{name}");
     }
+    // At the critical point a pair of exponents neither grows nor decays, whatever round-off says.
+    for critical in ["stability --r 1", "stability --alpha 1 --solve-for r"] {
+        let path = place("critical.svg");
+        printed(&format!("{critical} --plot {}", path.display()));
+        let svg = std::fs::read_to_string(path).unwrap();
+        assert!(svg.contains("neither") && svg.contains("decaying") && !svg.contains("growing"));
+    }
 }
 
 #[test]

@@ -155,13 +155,14 @@ fn what_cannot_be_swept_is_refused_by_name() {
         ("sweep --r 1 --alpha -1", ["--alpha -1", "0 or above"]),
         ("sweep --r 1 --alpha 2:1:3", ["--alpha", "LO below HI"]),
         ("sweep --r 1 --alpha 1 --shard 3/2", ["--shard", "I/N"]),
-        ("sweep --r 1 --alpha 1 --threads 0", ["--threads 0", "1 to"]),
+        ("sweep --r 1 --alpha 1 --threads 0 -o map.json", ["--threads 0", "1 to"]),
         ("sweep --r 1 --alpha 1 --tolerance 1", ["--tolerance 1", "1e-4"]),
         ("sweep --tip gaussian --beta 1 --r 1 --alpha 1", ["--beta", "side lobes"]),
         ("sweep --r 1:2:10000 --alpha 1:2:10000", ["--alpha", "points"]),
     ] {
         folder.refuses(line, &words);
     }
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
 }
 
 #[test]

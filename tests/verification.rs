@@ -220,6 +220,10 @@ fn a_user_is_told_by_document_and_exit_status() {
     validate(&folder, "verify", &saved);
     assert_eq!(saved["verification"], document["verification"]);
 
+    // A table has no room for it: it is said.
+    let output = folder.stickslip(&format!("{good} --verify -o run.csv"));
+    assert!(said(&output).contains("verified with direct: l is off by"), "{}", said(&output));
+
     // Without its history: by the samples.
     folder.prints(&format!("{good} --history none -o bare.json"));
     let bare = folder.prints_json("verify bare.json");

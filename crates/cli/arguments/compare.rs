@@ -45,7 +45,7 @@ pub(crate) struct CompareArguments {
     #[arg(
         long,
         value_name = "E",
-        default_value_t = 1e-9,
+        default_value = "1e-9",
         allow_hyphen_values = true,
         help_heading = "Closed equation"
     )]

@@ -20,7 +20,7 @@ pub(crate) struct CycleStart {
     #[arg(
         long,
         value_name = "E",
-        default_value_t = stickslip_tip::cycle::DEFAULT_TOLERANCE,
+        default_value = "1e-9",
         allow_hyphen_values = true,
         help_heading = "Accuracy"
     )]

@@ -104,7 +104,7 @@ pub(crate) struct RunArguments {
     #[arg(
         long,
         value_name = "E",
-        default_value_t = 1e-9,
+        default_value = "1e-9",
         allow_hyphen_values = true,
         help_heading = "Accuracy"
     )]

@@ -109,7 +109,7 @@ pub(crate) struct SweepArguments {
     #[arg(
         long,
         value_name = "E",
-        default_value_t = stickslip_tip::cycle::DEFAULT_TOLERANCE,
+        default_value = "1e-9",
         allow_hyphen_values = true,
         help_heading = "Accuracy"
     )]
@@ -123,8 +123,8 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// File to write: .json for all, .csv or .npz for the columns; `-` is JSON on standard output, without
-    /// a FILE.partial to go on from.
+    /// File to write: .json for all, .csv or .npz for the columns (regime in .npz: 0 steady, 1 stick-slip,
+    /// 2 trapped, 3 transient); `-` is JSON on standard output, without a FILE.partial to go on from.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 

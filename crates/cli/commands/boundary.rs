@@ -8,6 +8,7 @@ use crate::documents::{
     SpacingName,
 };
 use crate::failure::{Failure, Typed};
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
@@ -19,6 +20,12 @@ const MOST_POINTS: usize = 100_000;
 
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    let written = [
+        ("--output", Some(&*arguments.output)),
+        ("--plot", arguments.plot.as_deref()),
+        ("--plot-onset", arguments.plot_onset.as_deref()),
+    ];
+    apart(&written, &[("--tip-file", arguments.tip.tip_file.as_deref())])?;
     let tip = tip(&arguments.tip)?;
     let range = range(arguments)?;
     let points = arguments.points;

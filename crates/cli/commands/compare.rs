@@ -11,6 +11,7 @@ use crate::documents::{
     PulseParameters, Software,
 };
 use crate::failure::{Failure, Typed};
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
@@ -23,6 +24,10 @@ const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    apart(
+        &[("--output", Some(&*arguments.output))],
+        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
+    )?;
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
     let interrupt = Interrupt::listen()

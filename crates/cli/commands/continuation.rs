@@ -1,6 +1,7 @@
 //! `stickslip continue`.
 
 mod document;
+mod summary;
 
 use super::cycle::start::{Start, explain};
 use super::figure::Figure;
@@ -9,11 +10,13 @@ use super::progress::Progress;
 use crate::arguments::{ContinueArguments, OverName};
 use crate::documents::{ContinueDocument, CycleBranch, SpecialDocument, SpecialName};
 use crate::failure::{Failure, Typed};
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
 use crate::plot;
 use std::ops::ControlFlow;
+use std::path::Path;
 use stickslip_tip::TipFunction;
 use stickslip_tip::cycle::{
     Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind,
@@ -27,6 +30,10 @@ const SAME: f64 = 1e-6;
 
 pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    let start = &arguments.start;
+    let read =
+        [("--tip-file", start.model.tip.tip_file.as_deref()), ("--from", start.from.as_deref())];
+    apart(&[("--output", Some(&*arguments.output))], &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
@@ -42,6 +49,9 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
         figure.write(&draw(&document))?;
     }
     write(&document, format, output)?;
+    if arguments.output != Path::new("-") {
+        eprint!("{}", summary::summary(&document));
+    }
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }
 
@@ -243,9 +253,9 @@ fn draw(document: &ContinueDocument) -> String {
     let model = &document.parameters.model;
     let over_alpha = document.parameters.over == OverName::Alpha;
     let (title, label) = if over_alpha {
-        (format!("Cycles at r = {}", model.r), "α = ΓNa/(k²σ²)")
+        (format!("Cycles at r = {}", plot::seven_digits(model.r)), "α = ΓNa/(k²σ²)")
     } else {
-        (format!("Cycles at α = {:.6}", model.alpha), "r = Γv₀/(kσ)")
+        (format!("Cycles at α = {}", plot::seven_digits(model.alpha)), "r = Γv₀/(kσ)")
     };
     let parameter = |b: &CycleBranch| if over_alpha { b.alpha.clone() } else { b.r.clone() };
     let columns: Vec<Vec<f64>> = document.branches.iter().map(parameter).collect();

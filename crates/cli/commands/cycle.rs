@@ -10,10 +10,12 @@ use crate::documents::{
     ModelParameters, Software,
 };
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
 use start::Start;
+use std::path::Path;
 use std::time::Instant;
 use stickslip_tip::Step;
 use stickslip_tip::cycle::Cycle;
@@ -27,6 +29,10 @@ const DRAWN_WAVELENGTHS: f64 = 2.0;
 
 pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    apart(
+        &[("--output", Some(&*arguments.output))],
+        &[("--tip-file", arguments.start.model.tip.tip_file.as_deref())],
+    )?;
     let start = Start::asked(&arguments.start)?;
     if !(1..=MOST_POINTS).contains(&arguments.points) {
         let option = format!("--points {}", arguments.points);
@@ -41,7 +47,22 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     if let Some(figure) = figure {
         figure.write(&draw(&document, &cycle))?;
     }
-    write(&document, format, output)
+    write(&document, format, output)?;
+    if arguments.output != Path::new("-") {
+        eprintln!("{}", summary(&document));
+    }
+    Ok(())
+}
+
+/// One line for a person who sent the cycle to a file.
+fn summary(document: &CycleDocument) -> String {
+    let stable = if document.stable { "stable" } else { "unstable" };
+    let slips = match document.slips {
+        1 => "one slip".into(),
+        n => format!("{n} slips"),
+    };
+    let (period, amplitude) = (document.period, document.amplitude_x0);
+    format!("{stable} cycle of {slips}, period {period:.9}, amplitude of x0 {amplitude:.9}")
 }
 
 fn document(arguments: &CycleArguments, cycle: &Cycle, seconds: f64) -> CycleDocument {
@@ -102,12 +123,8 @@ fn write(document: &CycleDocument, format: OutputFormat, output: Output) -> Resu
 fn draw(document: &CycleDocument, cycle: &Cycle) -> String {
     let model = cycle.model();
     let stable = if document.stable { "stable" } else { "unstable" };
-    let title = format!(
-        "α = {:.6}, r = {}: {stable} cycle, T = {:.6}",
-        model.alpha(),
-        model.r(),
-        document.period
-    );
+    let [alpha, r, period] = [model.alpha(), model.r(), document.period].map(plot::seven_digits);
+    let title = format!("α = {alpha}, r = {r}: {stable} cycle, T = {period}");
     let length = DRAWN_WAVELENGTHS * document.wavelength;
     let x: Vec<f64> = (0..=DRAWN_POINTS).map(|i| length * i as f64 / DRAWN_POINTS as f64).collect();
     // The steps are short where the motion is fast.

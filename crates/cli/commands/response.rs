@@ -12,6 +12,7 @@ use crate::documents::{
     ResponseParameters, ResponseSamples, Software, SteadyState,
 };
 use crate::failure::{Failure, Typed};
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
@@ -25,6 +26,10 @@ const WIDTHS_OF_PULSE: f64 = 5.5;
 
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    apart(
+        &[("--output", Some(&*arguments.output))],
+        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
+    )?;
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
@@ -208,7 +213,8 @@ fn csv(samples: &ResponseSamples) -> String {
 
 fn draw(document: &ResponseDocument) -> String {
     let model = &document.parameters.model;
-    let title = format!("Linear response, α = {:.6}, r = {}", model.alpha, model.r);
+    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
+    let title = format!("Linear response, α = {alpha}, r = {r}");
     let deviation = numbers(&document.samples.deviation);
     let series = [(String::new(), document.samples.t.as_slice(), deviation.as_slice())];
     plot::lines(&title, "t (Γ/k)", "l − l₀ (σ)", &series)

@@ -16,6 +16,7 @@ use super::figure::Figure;
 use crate::arguments::{RunArguments, RunFormat};
 use crate::documents::Order;
 use crate::failure::Failure;
+use crate::files::apart::resting_place;
 use crate::files::output::{Output, Place, place};
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
@@ -93,7 +94,7 @@ fn checkpoint_place(path: &Path) -> Result<PathBuf, Failure> {
     // Its folder must take new files.
     drop(Output::open("--checkpoint", path)?);
     match place("--checkpoint", path)? {
-        Place::File(path) => Ok(order::resting_place(&path)),
+        Place::File(path) => Ok(resting_place(&path)),
         Place::Stdout | Place::Special(_) => Err(Failure::input(
             format!("--checkpoint {}", path.display()),
             "must be a file, which is replaced by each checkpoint",
@@ -107,13 +108,6 @@ fn open(
     order: &Order,
     checkpoint: Option<&Path>,
 ) -> Result<(Target, Sink), Failure> {
-    let taken = |path: &&Path| [Some(&*order.output), order.plot.as_deref()].contains(&Some(*path));
-    if let Some(path) = checkpoint.filter(taken) {
-        return Err(Failure::input(
-            format!("--checkpoint {}", path.display()),
-            "is what the run is written to: give it a name of its own",
-        ));
-    }
     if order.format == RunFormat::Jsonl {
         let stream = Stream::open("--output", output, checkpoint.is_some())?;
         if checkpoint.is_some() && !stream.is_file() {

@@ -9,6 +9,7 @@ use crate::documents::{
     StabilityParameters, TrappingDocument,
 };
 use crate::failure::{Failure, Typed};
+use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
@@ -22,6 +23,10 @@ const DEFAULT_ROOTS: usize = 10;
 
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    apart(
+        &[("--output", Some(&*arguments.output))],
+        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
+    )?;
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
     let output = Output::open("--output", &arguments.output)?;
@@ -192,7 +197,8 @@ fn draw(document: &StabilityDocument) -> String {
         (_, true) => "stable",
         (_, false) => "unstable",
     };
-    let title = format!("α = {:.6}, r = {:.6}: {what}", model.alpha, model.r);
+    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
+    let title = format!("α = {alpha}, r = {r}: {what}");
     let (re, im) = columns(document);
-    plot::roots(&title, &re, &im)
+    plot::roots(&title, &re, &im, document.certificate.largest_error)
 }

@@ -11,6 +11,7 @@ use super::progress::Progress;
 use crate::arguments::{SweepArguments, SweepThen};
 use crate::documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
 use finished::Finished;
 use grid::Grid;
@@ -29,6 +30,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     }
     let grid = Grid::asked(arguments)?;
     let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
+    let threads = threads(arguments)?;
+    apart(&[("--output", Some(output))], &[("--tip-file", arguments.tip_file.as_deref())])?;
     Writer::check(output, plot, &grid.parameters)?;
     let finished = if output == Path::new("-") {
         Finished::in_memory()
@@ -37,7 +40,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     };
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-    let finished = compute(&grid, finished, threads(arguments)?, &interrupt)?;
+    let finished = compute(&grid, finished, threads, &interrupt)?;
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }

@@ -10,6 +10,7 @@ use crate::documents::{
     UnitsDocument,
 };
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::files::output::{Output, OutputFormat};
 use solve::Given;
 use stickslip_tip::TipFunction;
@@ -18,6 +19,10 @@ use stickslip_tip::units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    apart(
+        &[("--output", Some(&*arguments.output))],
+        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
+    )?;
     if format == OutputFormat::Npz {
         let message = "there are no arrays to write: .json or .csv will do";
         return Err(Failure::input(format!("--output {}", arguments.output.display()), message));

@@ -10,6 +10,7 @@ use crate::documents::{
     VerificationDocument, VerifyDocument,
 };
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::files::output::Output;
@@ -22,6 +23,7 @@ use stickslip_tip::{Scenario, Trajectory};
 
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
+    apart(&[("--output", Some(&*arguments.output))], &[("RUN", Some(&**path))])?;
     match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
         Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
         Written::Lines(file) => lines::verify(path, &file, &arguments.output),
@@ -157,6 +159,15 @@ fn document(found: &Verification) -> VerificationDocument {
         amplification: found.growth.amplification,
         lyapunov_exponent: found.growth.exponent,
     }
+}
+
+/// What is said after the summary of a run that keeps its promise; else nothing.
+pub(super) fn kept(found: &VerificationDocument) -> String {
+    if !found.kept {
+        return String::new();
+    }
+    let (memory, largest, allowed) = (&found.memory, found.l.largest, found.l.allowed);
+    format!("; verified with {memory}: l is off by {largest:.1e} at most, {allowed:.1e} is allowed")
 }
 
 /// What is said, and the exit status, where the promise is broken.

@@ -1,5 +1,6 @@
 //! Files that come in and go out.
 
+pub(crate) mod apart;
 pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;

@@ -19,6 +19,14 @@ impl OutputFormat {
     /// # Errors
     /// An extension that none of the formats has.
     pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
+        Self::or_also(path, "")
+    }
+
+    /// For a command that has an extension `more`, such as ", .gsf", which it has looked for itself.
+    ///
+    /// # Errors
+    /// An extension that none of the formats has.
+    pub(crate) fn or_also(path: &Path, more: &str) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return Ok(Self::Json);
         }
@@ -29,7 +37,10 @@ impl OutputFormat {
             _ if is_special(path) => Ok(Self::Json),
             _ => Err(Failure::input(
                 format!("--output {}", path.display()),
-                "the extension says what is written: .json, .csv or .npz will do, or - for JSON on standard output",
+                format!(
+                    "the extension says what is written: .json, .csv{more} or .npz will do, or - for JSON on \
+                     standard output"
+                ),
             )),
         }
     }
@@ -69,7 +80,12 @@ pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
 
 pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
     let advice = "choose a place that exists and can be written to";
-    Failure::input(format!("{option} {}", path.display()), format!("{}; {advice}", error.kind()))
+    let said = match error.kind() {
+        io::ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
+        io::ErrorKind::NotFound => "there is no such folder".into(),
+        kind => kind.to_string(),
+    };
+    Failure::input(format!("{option} {}", path.display()), format!("{said}; {advice}"))
 }
 
 fn writable(path: &Path) -> io::Result<Place> {
@@ -124,7 +140,7 @@ pub(crate) fn replace(
 }
 
 impl Output {
-    /// Opens the file (`-`: standard output) that `option` named.
+    /// Finds the file (`-`: standard output) that `option` named, and whether it can be written.
     ///
     /// # Errors
     /// It cannot be written.

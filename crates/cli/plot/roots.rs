@@ -9,10 +9,12 @@ use super::style::{BLACK, BLUE, TALL, VERMILLION};
 /// Part of the width that the unstable half has at least, even when no root is there.
 const UNSTABLE_PART: f64 = 0.15;
 
-/// Exponents `re + i im`, the growing ones marked, the unstable half shaded. An SVG document.
-pub(crate) fn roots(title: &str, re: &[f64], im: &[f64]) -> String {
-    let growing = halves(re, im, |re| re > 0.0);
-    let decaying = halves(re, im, |re| re <= 0.0);
+/// Exponents `re + i im`, each off by at most `error`, the growing ones marked, the unstable half
+/// shaded. Those at the critical point are neither. An SVG document.
+pub(crate) fn roots(title: &str, re: &[f64], im: &[f64], error: f64) -> String {
+    let growing = part(re, im, |re| re > error);
+    let decaying = part(re, im, |re| re < -error);
+    let neutral = part(re, im, |re| re.abs() <= error);
     let (x, y) = axes(re, im);
     let (upright, level) = ([y.low, y.high], [x.low, x.high]);
     let thin_line = Pen { colour: BLACK, mark: Mark::Line { width: 1.0, dashes: "" } };
@@ -21,6 +23,7 @@ pub(crate) fn roots(title: &str, re: &[f64], im: &[f64]) -> String {
         Curve { x: &level, y: &[0.0; 2], pen: thin_line, label: None },
         dots(&decaying, BLUE, "decaying"),
         dots(&growing, VERMILLION, "growing"),
+        dots(&neutral, BLACK, "neither"),
     ];
     let shades = vec![Shade::Columns(0.0, x.high, VERMILLION)];
     let (x_label, y_label) = ("Re λ (k/Γ)", "Im λ (k/Γ)");
@@ -42,8 +45,8 @@ pub(crate) fn roots(title: &str, re: &[f64], im: &[f64]) -> String {
     )
 }
 
-/// Abscissas and ordinates of the roots in one half of the plane.
-fn halves(re: &[f64], im: &[f64], wanted: impl Fn(f64) -> bool) -> (Vec<f64>, Vec<f64>) {
+/// Abscissas and ordinates of the roots in a part of the plane.
+fn part(re: &[f64], im: &[f64], wanted: impl Fn(f64) -> bool) -> (Vec<f64>, Vec<f64>) {
     re.iter().zip(im).filter(|(re, _)| wanted(**re)).map(|(re, im)| (*re, *im)).unzip()
 }
 

@@ -25,6 +25,7 @@ use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::plot::{self, PlotFormat};
 use clap::ValueEnum;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -32,7 +33,12 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
     std::fs::create_dir_all(folder).map_err(|error| {
         let named = format!("--out-dir {}", folder.display());
-        Failure::input(named, format!("{}; name a folder that can be made", error.kind()))
+        let said = match error.kind() {
+            io::ErrorKind::AlreadyExists => "is a file".into(),
+            io::ErrorKind::NotFound => "cannot be made".into(),
+            kind => kind.to_string(),
+        };
+        Failure::input(named, format!("{said}; name a folder that can be made"))
     })?;
     let asked = arguments.only.as_deref().unwrap_or(FigureName::value_variants());
     let names = FigureName::value_variants().iter().filter(|name| asked.contains(name));

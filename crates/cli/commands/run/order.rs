@@ -7,9 +7,10 @@ use super::parameters;
 use crate::arguments::{HistoryName, RunArguments, RunFormat};
 use crate::documents::{Order, Times};
 use crate::failure::{Failure, Typed};
+use crate::files::apart::{apart, resting_place};
 use crate::files::input::{Columns, read_columns};
 use crate::files::output::OutputFormat;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, PathBuf};
 use stickslip_tip::{Force, ForceError, Noise, Pulse, RunError, Scenario};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
@@ -48,6 +49,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
 
 /// What does not go together.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
+    files(arguments)?;
     if order.format != RunFormat::Jsonl {
         return Ok(order);
     }
@@ -68,12 +70,30 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     Ok(order)
 }
 
-/// The same file from wherever a run is taken up again.
-pub(super) fn resting_place(path: &Path) -> PathBuf {
-    if path == Path::new("-") {
-        return path.into();
+/// Whether each file has a name of its own, which a checkpoint, if there is one, can hold.
+fn files(arguments: &RunArguments) -> Result<(), Failure> {
+    let written = [
+        ("--output", Some(&*arguments.output)),
+        ("--plot", arguments.plot.as_deref()),
+        ("--checkpoint", arguments.checkpoint.as_deref()),
+    ];
+    let read = [
+        ("--tip-file", arguments.model.tip.tip_file.as_deref()),
+        ("--initial-surface", arguments.initial_surface.as_deref()),
+        ("--force-file", arguments.force_file.as_deref()),
+    ];
+    apart(&written, &read)?;
+    let is_text = |path: &Path| resting_place(path).to_str().is_some();
+    let odd = written
+        .into_iter()
+        .find_map(|(option, path)| Some((option, path?)).filter(|n| !is_text(n.1)));
+    match odd.filter(|_| arguments.checkpoint.is_some()) {
+        None => Ok(()),
+        Some((option, path)) => Err(Failure::input(
+            format!("{option} {}", path.display()),
+            "its name, or that of a folder, is not UTF-8, and a checkpoint holds text: choose another name",
+        )),
     }
-    path.canonicalize().or_else(|_| absolute(path)).unwrap_or_else(|_| path.into())
 }
 
 fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
@@ -84,7 +104,7 @@ fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if extension.is_some_and(|e| e.eq_ignore_ascii_case("jsonl")) {
         return Ok(RunFormat::Jsonl);
     }
-    Ok(match OutputFormat::of(&arguments.output)? {
+    Ok(match OutputFormat::or_also(&arguments.output, ", .jsonl")? {
         OutputFormat::Json => RunFormat::Json,
         OutputFormat::Csv => RunFormat::Csv,
         OutputFormat::Npz => RunFormat::Npz,

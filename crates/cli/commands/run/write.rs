@@ -46,7 +46,7 @@ pub(super) fn all(
     let said = summary(&end);
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
-    let mut failure = None;
+    let (mut failure, mut verified) = (None, String::new());
     match target {
         Target::Lines => {
             let Sink::Lines(mut stream) = travelled.record.sink else {
@@ -61,20 +61,21 @@ pub(super) fn all(
             let mut document = document::of(order, scenario, end, samples, trajectory.as_ref());
             let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
             // What was computed is written even if a signal ends its verification.
-            let verified = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
-            document.verification = verified.as_ref().ok().cloned().flatten();
+            let found = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
+            document.verification = found.as_ref().ok().cloned().flatten();
+            verified = document.verification.as_ref().map_or(String::new(), verify::kept);
             write(&document, order.format, output)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 figure.write(&draw(&document, scenario, initial, trajectory)?)?;
             }
-            failure = match verified {
+            failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),
             };
         }
     }
     if order.output != Path::new("-") {
-        eprintln!("{said}");
+        eprintln!("{said}{verified}");
     }
     let interrupted = travelled.signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)
@@ -139,7 +140,8 @@ fn draw(
 
 fn title(document: &RunDocument) -> String {
     let model = &document.parameters.model;
-    format!("α = {:.6}, r = {}: {}", model.alpha, model.r, document.regime)
+    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
+    format!("α = {alpha}, r = {r}: {}", document.regime)
 }
 
 /// One line for a person who sent the run to a file.

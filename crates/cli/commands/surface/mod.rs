@@ -14,6 +14,7 @@ use crate::documents::{
     FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
 };
 use crate::failure::Failure;
+use crate::files::apart::apart;
 use crate::files::input::read_run;
 use crate::files::output::Output;
 use crate::plot;
@@ -25,6 +26,8 @@ use write::SurfaceFormat;
 
 pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = SurfaceFormat::of(arguments)?;
+    let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
+    apart(&[("--output", Some(&*arguments.output))], &read)?;
     let document = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(
@@ -98,7 +101,8 @@ fn empty(
 /// α and r, above a picture.
 fn title(document: &SurfaceDocument) -> String {
     let model = &document.parameters.model;
-    format!("α = {:.6}, r = {}", model.alpha, model.r)
+    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
+    format!("α = {alpha}, r = {r}")
 }
 
 /// Such as "t = 457".

@@ -31,7 +31,7 @@ impl SurfaceFormat {
                     "only .gsf files carry units: name the output so, or leave the option out";
                 return refused(named, advice);
             }
-            return OutputFormat::of(path).map(Self::Document);
+            return OutputFormat::or_also(path, ", .gsf").map(Self::Document);
         }
         let named = format!("--output {}", path.display());
         if arguments.y_range.is_none() {

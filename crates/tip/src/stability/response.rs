@@ -58,8 +58,9 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
 impl Response {
     /// l(t) - l0: each mode convolved with the force up to t.
     ///
-    /// Before a pulse it vanishes as it should; while one lasts the modes left out count, and the sum is
-    /// off by up to half; 3 time units after a pulse of width 0.5, ten modes give it to 1e-8.
+    /// Before a pulse it vanishes as it should; while one lasts the modes left out count: ten give a
+    /// pulse of width 0.5 to 6 % of the largest response, a hundred to 1 %. 3 time units after it, ten
+    /// give it to 1e-8.
     #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         let mode = |(mode, weight): (&ResponseMode, &Complex64)| {
@@ -76,10 +77,10 @@ fn transform(pulse: &Pulse, lambda: Complex64) -> Complex64 {
     exponent.exp() * (pulse.amplitude * pulse.width * (2.0 * PI).sqrt())
 }
 
-/// ∫_{-∞}^t Fext(t') e^{λ(t-t')}dt' = A W √(π/2) e^{-(t-T)²/2W²} erfcx(z), z = (λW² - (t-T))/(W√2).
+/// ∫_{-∞}^t Fext(t') e^{λ(t-t')}dt' = A W √(π/2) e^{-(t-T)²/2W²} erfcx(z), z = -(λW² + t - T)/(W√2).
 fn driven(pulse: &Pulse, lambda: Complex64, t: f64) -> Complex64 {
     let since = t - pulse.time;
-    let z = (lambda * pulse.width - since / pulse.width) / SQRT_2;
+    let z = -(lambda * pulse.width + since / pulse.width) / SQRT_2;
     let size = pulse.amplitude * pulse.width * (PI / 2.0).sqrt();
     let force = (-0.5 * (since / pulse.width).powi(2)).exp();
     if z.re >= 0.0 {
@@ -102,4 +103,42 @@ fn slope_of_characteristic(model: &Model) -> Box<dyn Fn(Complex64) -> Complex64 
         let Scaled { derivative, log_scale, .. } = h.at(z / r);
         derivative * (log_scale.exp() / r)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mode_driven_by_a_pulse_is_the_integral_over_the_force_so_far() {
+        let pulse = Pulse { amplitude: 0.3, time: 2.0, width: 0.5 };
+        // Growing, decaying and fast modes; before, within and after the pulse.
+        for lambda in [(0.05, 0.9), (-0.6, 0.0), (-3.2, 5.2), (-9.0, 11.0)] {
+            let lambda = Complex64::new(lambda.0, lambda.1);
+            for t in [0.5, 1.2, 1.7, 2.0, 2.4, 3.5, 6.0] {
+                let found = driven(&pulse, lambda, t);
+                let exact = by_simpson(&pulse, lambda, t);
+                let scale = pulse.amplitude * pulse.width;
+                assert!((found - exact).norm() < 1e-12 * scale, "{lambda} {t} {found} {exact}");
+            }
+        }
+    }
+
+    /// ∫ Fext(t') e^{λ(t-t')}dt' from nine widths before the pulse to t.
+    fn by_simpson(pulse: &Pulse, lambda: Complex64, t: f64) -> Complex64 {
+        let (start, panels) = (pulse.time - 9.0 * pulse.width, 20_000);
+        let h = (t - start) / f64::from(panels);
+        let term = |i: i32| {
+            let at = start + h * f64::from(i);
+            let force = pulse.amplitude * (-0.5 * ((at - pulse.time) / pulse.width).powi(2)).exp();
+            let weight = match i {
+                0 => 1.0,
+                i if i == panels => 1.0,
+                i if i % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            (lambda * (t - at)).exp() * (weight * force)
+        };
+        (0..=panels).map(term).sum::<Complex64>() * (h / 3.0)
+    }
 }

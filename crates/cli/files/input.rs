@@ -26,6 +26,9 @@ pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, 
         File::open(path).and_then(|file| file.take(most + 1).read_to_string(&mut text))
     };
     match read {
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Err(Failure::input(named, "cannot be read: it is no text in UTF-8"))
+        }
         Err(error) => Err(Failure::input(named, format!("cannot be read: {error}"))),
         Ok(_) if text.len() as u64 > most => Err(Failure::input(
             named,

@@ -35,8 +35,14 @@ pub(crate) struct SpecialMark {
     pub(crate) name: &'static str,
 }
 
-/// Colours of the marks, those of the palette that branches do not begin with.
-const MARKS: [&str; 5] = [BLACK, PALETTE[3], PALETTE[4], PALETTE[5], PALETTE[2]];
+/// Marks, told apart from each other by shape and from the first branches by colour.
+const MARKS: [Pen; 5] = [
+    Pen::dots(BLACK),
+    Pen::triangles(BLACK),
+    Pen::dots(PALETTE[5]),
+    Pen::triangles(PALETTE[5]),
+    Pen::dots(PALETTE[4]),
+];
 
 /// Amplitude and period over the parameter, stable parts solid and unstable ones dashed. An SVG document.
 pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
@@ -60,7 +66,7 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
         let marks = marks.0.iter().enumerate().map(|(n, mark)| Curve {
             x: &mark.parameter,
             y: of_mark(mark),
-            pen: Pen::dots(MARKS[n % MARKS.len()]),
+            pen: MARKS[n % MARKS.len()],
             label: Some(mark.name.to_owned()),
         });
         let fitted =

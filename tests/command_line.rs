@@ -23,6 +23,21 @@ fn a_document_is_json_on_standard_output_unless_a_file_is_named() {
 }
 
 #[test]
+fn a_steady_run_says_whether_it_would_stay_so() {
+    let folder = Folder::new("unstable");
+    for (options, hint) in [
+        ("--alpha 1.2", true),
+        ("--alpha-above=-0.01", false),
+        ("--alpha 1.2 --tip bessel", true),
+        ("--alpha 1.2 --kick 0.05", false),
+    ] {
+        let output = folder.stickslip(&format!("run {options} --r 1 --until 60 -o run.json"));
+        assert!(output.status.success());
+        assert_eq!(said(&output).contains("but unstable: --kick"), hint, "{}", said(&output));
+    }
+}
+
+#[test]
 fn a_surface_reads_its_run_from_standard_input() {
     let folder = Folder::new("standard_input");
     let run = folder.prints("run --alpha 1.2 --r 1 --kick 0.05 --until 40");

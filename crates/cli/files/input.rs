@@ -29,6 +29,9 @@ pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, 
 fn text_of(reader: impl Read, most: u64) -> Result<String, String> {
     let mut text = String::new();
     match reader.take(most + 1).read_to_string(&mut text) {
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Err("cannot be read: it is no text in UTF-8".into())
+        }
         Err(error) => Err(unreadable(error)),
         Ok(_) if text.len() as u64 > most => {
             Err(format!("larger than {} MB, the most that is read", most >> 20))

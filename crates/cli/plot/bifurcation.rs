@@ -3,6 +3,7 @@
 use super::axis::Axis;
 use super::curve::{Curve, Pen};
 use super::panel::Panel;
+use super::phases_over::scaled;
 use super::sheet::sheet;
 use super::style::{BLACK, LOW, PALETTE};
 
@@ -35,11 +36,18 @@ pub(crate) struct SpecialMark {
     pub(crate) name: &'static str,
 }
 
-/// Colours of the marks, those of the palette that branches do not begin with.
-const MARKS: [&str; 5] = [BLACK, PALETTE[3], PALETTE[4], PALETTE[5], PALETTE[2]];
+/// Marks, told apart from each other by shape and from the first branches by colour.
+const MARKS: [Pen; 5] = [
+    Pen::dots(BLACK),
+    Pen::triangles(BLACK),
+    Pen::dots(PALETTE[5]),
+    Pen::triangles(PALETTE[5]),
+    Pen::dots(PALETTE[4]),
+];
 
 /// Amplitude and period over the parameter, stable parts solid and unstable ones dashed. An SVG document.
 pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
+    let (figure, period_label) = with_scaled_periods(figure);
     let pieces: Vec<(usize, BranchCurve)> = figure
         .branches
         .iter()
@@ -60,7 +68,7 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
         let marks = marks.0.iter().enumerate().map(|(n, mark)| Curve {
             x: &mark.parameter,
             y: of_mark(mark),
-            pen: Pen::dots(MARKS[n % MARKS.len()]),
+            pen: MARKS[n % MARKS.len()],
             label: Some(mark.name.to_owned()),
         });
         let fitted =
@@ -71,9 +79,23 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
     };
     let panels = [
         panel(|p| &p.amplitude, |m| &m.amplitude, "amplitude of x₀ (σ)", 1.3 * LOW),
-        panel(|p| &p.period, |m| &m.period, "period (Γ/k)", 1.3 * LOW),
+        panel(|p| &p.period, |m| &m.period, &period_label, 1.3 * LOW),
     ];
     sheet(figure.title, &panels)
+}
+
+/// Periods by their logarithm where they span much, as towards trapping; and the label of their axis.
+fn with_scaled_periods<'a>(figure: &BifurcationFigure<'a>) -> (BifurcationFigure<'a>, String) {
+    let of_branches = figure.branches.iter().flat_map(|branch| branch.period.iter().copied());
+    let all: Vec<f64> = of_branches.chain(figure.special.iter().map(|mark| mark.period)).collect();
+    let (values, label) = scaled(&all, "period (Γ/k)");
+    let (mut figure, mut values) = (figure.clone(), values.into_iter());
+    let of_branches = figure.branches.iter_mut().flat_map(|branch| branch.period.iter_mut());
+    let of_marks = figure.special.iter_mut().map(|mark| &mut mark.period);
+    for (period, value) in of_branches.chain(of_marks).zip(&mut values) {
+        *period = value;
+    }
+    (figure, label)
 }
 
 /// The name of piece n: that of its branch and stability, once.
@@ -158,5 +180,33 @@ impl Marks {
             marks[i].period.push(mark.period);
         }
         Self(marks)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(periods: [f64; 3]) -> String {
+        let branch = BranchCurve {
+            parameter: vec![1.0, 1.5, 2.0],
+            amplitude: vec![0.1, 1.0, 2.0],
+            period: periods.to_vec(),
+            stable: vec![true; 3],
+        };
+        let mark = SpecialMark { parameter: 1.0, amplitude: 0.0, period: periods[0], name: "Hopf" };
+        let (title, label) = ("test", "alpha");
+        bifurcations(&BifurcationFigure {
+            title,
+            label,
+            branches: vec![branch],
+            special: vec![mark],
+        })
+    }
+
+    #[test]
+    fn periods_that_span_much_are_drawn_by_their_logarithm() {
+        assert!(!drawn([6.0, 8.0, 20.0]).contains("log₁₀ period"));
+        assert!(drawn([6.0, 8.0, 300.0]).contains("log₁₀ period"));
     }
 }

@@ -46,20 +46,30 @@ const BAR_GAP: f64 = 16.0;
 const BAR: f64 = 18.0;
 const BAR_STEPS: usize = 128;
 
-/// Maps one below the other. An SVG document.
+/// Maps one below the other, with one scale of colours for all. An SVG document.
 pub(crate) fn maps(title: &str, maps: &[Map]) -> Result<String, PlotError> {
-    let panels: Result<Vec<Panel>, PlotError> = maps.iter().map(Map::panel).collect();
+    let axis = scale(maps.iter().flat_map(|map| map.z.iter().flatten().copied()));
+    let panels: Result<Vec<Panel>, PlotError> =
+        maps.iter().map(|map| map.panel_on(axis.clone())).collect();
     Ok(sheet(title, &panels?))
+}
+
+/// From the lowest to the highest.
+fn scale(heights: impl IntoIterator<Item = f64>) -> Axis {
+    Axis::fit(heights, Fit { padding: 0.0, natural: 0.0, ticks: 5.0 })
 }
 
 impl<'a> Map<'a> {
     /// A panel filled by the map.
     pub(super) fn panel(&self) -> Result<Panel<'a>, PlotError> {
+        self.panel_on(scale(self.z.iter().flatten().copied()))
+    }
+
+    /// The same with colours on this scale.
+    fn panel_on(&self, axis: Axis) -> Result<Panel<'a>, PlotError> {
         let (x, y) = (edges(self.x), edges(self.y));
         let aspect = (y.1 - y.0) / (x.1 - x.0);
         let height = (0.75 * WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);
-        let heights = self.z.iter().flatten().copied();
-        let axis = Axis::fit(heights, Fit { padding: 0.0, natural: 0.0, ticks: 5.0 });
         let colours = self.colours;
         let colour = |z: f64| colours.at((z - axis.low) / (axis.high - axis.low));
         let picture = Picture::of(self.z, colour)?;
@@ -174,5 +184,25 @@ impl Drawn<'_> {
         let x = WIDTH - 0.5 * f64::from(LABEL_SIZE);
         let middle = 0.5 * (top + bottom);
         scene.add(text(x, middle, self.label, LABEL_SIZE, TextAnchor::Middle, Some(-90.0)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_in_one_figure_have_one_scale() {
+        let (low, high) = ([vec![0.0, 1.0], vec![0.5, 0.2]], [vec![0.0, 8.0], vec![4.0, 2.0]]);
+        let map = |z| Map {
+            x: &[0.0, 1.0],
+            y: &[0.0, 1.0],
+            z,
+            labels: ("x", "y", "z"),
+            name: "",
+            colours: Colours::Grey,
+        };
+        let svg = maps("test", &[map(&low), map(&high)]).unwrap();
+        assert_eq!(svg.matches(">8</text>").count(), 2, "the highest of both, at either bar");
     }
 }

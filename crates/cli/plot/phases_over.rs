@@ -36,7 +36,7 @@ pub(crate) fn phases_over(figure: &PhasesOver) -> String {
 }
 
 /// Values as they are drawn, and what they are called then.
-fn scaled(values: &[f64], name: &str) -> (Vec<f64>, String) {
+pub(super) fn scaled(values: &[f64], name: &str) -> (Vec<f64>, String) {
     let above_0 = values.iter().filter(|v| **v > 0.0);
     let (low, high) =
         above_0.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(*v), high.max(*v)));

@@ -6,14 +6,15 @@ use super::record::{Record, Sink};
 use crate::arguments::RunFormat;
 use crate::commands::figure::Figure;
 use crate::commands::{surface, verify};
-use crate::documents::{Order, RunDocument, RunEnd, RunHead, SteadyState};
+use crate::documents::{Order, RegimeName, RunDocument, RunEnd, RunHead, SteadyState};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::plot;
 use std::path::Path;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{InitialSurface, Scenario, Trajectory};
+use stickslip_tip::stability::unstable_count;
+use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
 
 /// What the run is written to.
 pub(super) enum Target {
@@ -43,7 +44,7 @@ pub(super) fn all(
     figure: Option<Figure>,
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
-    let said = summary(&end);
+    let said = summary(&end, &scenario.model);
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let (mut failure, mut verified) = (None, String::new());
@@ -145,14 +146,17 @@ fn title(document: &RunDocument) -> String {
 }
 
 /// One line for a person who sent the run to a file.
-fn summary(end: &RunEnd) -> String {
+fn summary(end: &RunEnd, model: &Model) -> String {
     let work = &end.work;
+    // A start in the steady state stays there for long where nothing disturbs it.
+    let unstable = end.regime == RegimeName::Steady && unstable_count(model).is_ok_and(|n| n > 0);
+    let hint = if unstable { ", but unstable: --kick D shows what becomes of it" } else { "" };
     let motion = end.oscillation.as_ref().map_or(String::new(), |o| {
         let (period, amplitude) = (o.period, o.amplitude_x0);
         format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
     });
     format!(
-        "{}{motion}: t = {} reached in {} steps with {}, {:.1} ms",
+        "{}{motion}{hint}: t = {} reached in {} steps with {}, {:.1} ms",
         end.regime,
         end.end,
         work.steps,

@@ -30,7 +30,8 @@ pub(crate) struct DisturbanceArguments {
     )]
     pub(crate) seed: Option<u64>,
 
-    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside.
+    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside. Begin and end
+    /// it with rows of 0: a slow tip may come to rest in a corner, and its run with it.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 

@@ -49,6 +49,45 @@ fn every_grid_comes_near_and_the_difference_is_that_of_the_columns() {
     }
 }
 
+/// Noise, a profile and a measured force are met by both sides: each changes the motion by far more than the two
+/// are apart, and the closed equation's is that of `run`.
+#[test]
+fn both_sides_meet_the_same_surface_and_force() {
+    let folder = Folder::new("compare-disturbed");
+    folder.write("bump.csv", "x,u\n16,0\n17,0.2\n18,-0.1\n19,0.3\n20,0\n");
+    folder.write("force.csv", "t,force\n18,0\n20,0.9\n22,-0.3\n25,0\n");
+    let at_the_end = |document: &Value| *column(document, "/closed/x0").last().unwrap();
+    let plain = at_the_end(&folder.prints_json(CASE));
+    for (grid, parts) in [
+        ("--tolerance 1e-11", 1e-7),
+        ("--tolerance 1e-11 --grid sinc", 1e-7),
+        ("--grid windowed --spacing 0.02", 0.2),
+        ("--grid uniform --spacing 0.02 --step 0.04", 0.2),
+    ] {
+        for options in [
+            "--noise 0.1 --noise-spacing 0.5 --seed 3",
+            "--initial-surface bump.csv",
+            "--force-file force.csv",
+        ] {
+            let document = folder.prints_json(&format!("{CASE} {grid} {options}"));
+            let changed = (at_the_end(&document) - plain).abs();
+            for difference in ["x0", "u"] {
+                let found = number(&document, &format!("/max_difference/{difference}"));
+                println!("{grid} {options}: {difference} {found:.1e}, changed by {changed:.1e}");
+                assert!(found < parts * changed, "{grid} {options}: {difference} {found:e}");
+            }
+        }
+    }
+    let all = "--noise 1e-3 --seed 8 --initial-surface bump.csv --force-file force.csv";
+    let compared = folder.prints_json(&format!("{CASE} {all}"));
+    let line = format!("{CASE} {all} --sample-at 36").replace("compare", "run");
+    let run = folder.prints_json(&line);
+    assert!((number(&run, "/samples/x0/0") - at_the_end(&compared)).abs() < 1e-12);
+    for field in ["noise", "initial_surface", "pulses", "force"] {
+        assert_eq!(run["parameters"][field], compared["parameters"][field], "{field}");
+    }
+}
+
 /// A lattice too wide for the tip is seen to give another motion.
 #[test]
 fn a_coarse_grid_shows_in_the_difference() {
@@ -90,6 +129,7 @@ fn what_would_take_too_long_is_refused_with_what_would_do() {
 #[test]
 fn unusable_options_are_refused_by_name() {
     let folder = Folder::new("compare-refusals");
+    folder.write("back.csv", "1,0\n0,1\n2,1\n3,1\n");
     for (options, words) in [
         ("--spacing 0", ["--spacing 0", "above 0"]),
         ("--spacing NaN", ["--spacing NaN", "above 0"]),
@@ -102,6 +142,12 @@ fn unusable_options_are_refused_by_name() {
         ("--tolerance 1", ["--tolerance 1", "1e-13"]),
         ("--tip bessel", ["--tip bessel", "fades"]),
         ("--pulse 1,2", ["--pulse 1,2", "A,T,W"]),
+        ("--noise 1e-3 --noise-spacing 0", ["--noise 0.001 --noise-spacing 0", "above 0"]),
+        ("--noise inf", ["--noise inf", "finite"]),
+        ("--noise-spacing 1", ["--noise <A>", "required"]),
+        ("--force-file none.csv", ["--force-file none.csv", "cannot be read"]),
+        ("--force-file back.csv", ["--force-file back.csv", "increas"]),
+        ("--initial-surface back.csv", ["--initial-surface back.csv", "increas"]),
     ] {
         folder.refuses(&format!("{CASE} {options}"), &words);
     }

@@ -247,6 +247,15 @@ fn a_user_is_told_by_document_and_exit_status() {
     validate(&folder, "run", &document);
     assert_eq!(document["verification"]["kept"], json!(false));
     assert_eq!(folder.stickslip("verify broken.json").status.code(), Some(1));
+    // One whose samples are not those of its history.
+    for field in ["l", "x0"] {
+        let mut other = folder.json("run.json");
+        let sample = &mut other["samples"][field][700];
+        *sample = json!(sample.as_f64().unwrap() + 2e-9);
+        folder.write("other.json", other.to_string());
+        let t = other["samples"]["t"][700].to_string();
+        folder.refuses("verify other.json", &["RUN.json other.json", &t, "those of the history"]);
+    }
     // One with a history that is that of another run.
     let mut other = folder.json("run.json");
     other["parameters"]["alpha"] = json!(1.200_001);

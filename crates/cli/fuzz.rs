@@ -272,7 +272,7 @@ fn any_command_line_is_taken_or_refused() {
         let Ok(cli) = Cli::try_parse_from(words) else { return false };
         match &cli.command {
             Command::Run(given) => {
-                judge_model(&given.model) && run::parse_pulses(&given.pulse).is_ok()
+                judge_model(&given.model) && run::parse_pulses(&given.disturbance.pulse).is_ok()
             }
             Command::Compare(given) => judge_model(&given.model),
             _ => true,

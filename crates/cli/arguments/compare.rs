@@ -1,6 +1,6 @@
 //! `stickslip compare`.
 
-use super::{MemoryName, ModelArguments, SamplingArguments, StartArguments};
+use super::{DisturbanceArguments, MemoryName, ModelArguments, SamplingArguments, StartArguments};
 use clap::{Args, ValueEnum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,9 +33,8 @@ pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) start: StartArguments,
 
-    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
-    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
-    pub(crate) pulse: Vec<String>,
+    #[command(flatten)]
+    pub(crate) disturbance: DisturbanceArguments,
 
     /// How the closed equation remembers the past.
     #[arg(long, value_enum, default_value = "auto", help_heading = "Closed equation")]
@@ -100,6 +99,8 @@ pub(crate) struct CompareArguments {
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:
     stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
+  The paper's start, noise on the surface:
+    stickslip compare --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:
     stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
   Against the paper's own grid, for a time unit of it:

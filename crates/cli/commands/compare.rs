@@ -4,11 +4,11 @@ mod closed;
 mod grid;
 mod pace;
 
-use super::run::parse_pulses;
+use super::run;
+use super::run::disturbance::Disturbance;
 use crate::arguments::CompareArguments;
 use crate::documents::{
-    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, ModelParameters,
-    PulseParameters, Software,
+    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, Software,
 };
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
@@ -17,7 +17,7 @@ use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
 use closed::Closed;
 use grid::{Discretisation, Motion};
-use stickslip_tip::{Force, Pulse, Scenario};
+use stickslip_tip::Scenario;
 
 /// Heights compared.
 const POINTS: usize = 2001;
@@ -26,7 +26,11 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
         &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
+        &[
+            ("--tip-file", arguments.model.tip.tip_file.as_deref()),
+            ("--initial-surface", arguments.disturbance.initial_surface.as_deref()),
+            ("--force-file", arguments.disturbance.force_file.as_deref()),
+        ],
     )?;
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
@@ -46,7 +50,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
 /// The options, judged.
 struct Asked {
     scenario: Scenario,
-    pulses: Vec<Pulse>,
+    disturbance: Disturbance,
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
@@ -56,10 +60,8 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &CompareArguments) -> Result<Self, Failure> {
-        let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
-        let force =
-            Force::new(pulses.clone(), None).map_err(|error| Failure::input("--pulse", error))?;
-        let scenario = closed::scenario(arguments, force)?;
+        let disturbance = Disturbance::of(&arguments.disturbance)?;
+        let scenario = closed::scenario(arguments, &disturbance)?;
         let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
@@ -76,7 +78,7 @@ impl Asked {
                 "must be a number of seconds above 0",
             ));
         }
-        Ok(Self { scenario, pulses, discretisation, grid_until, time_limit })
+        Ok(Self { scenario, disturbance, discretisation, grid_until, time_limit })
     }
 
     /// Where the surfaces are compared: all that the tip came within reach of.
@@ -131,14 +133,18 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
-    let pulse =
-        |p: &Pulse| PulseParameters { amplitude: p.amplitude, time: p.time, width: p.width };
+    let Disturbance { pulses, table, .. } = &asked.disturbance;
+    let above = arguments.model.alpha_above;
+    let run = run::parameters::of(&asked.scenario, above, pulses, table.clone());
     CompareParameters {
-        model: ModelParameters::of(&asked.scenario.model, arguments.model.alpha_above),
-        start: arguments.start.start,
-        start_position: arguments.start.start_position,
-        kick: arguments.start.kick,
-        pulses: asked.pulses.iter().map(pulse).collect(),
+        model: run.model,
+        start: run.start,
+        start_position: run.start_position,
+        kick: run.kick,
+        noise: run.noise,
+        initial_surface: run.initial_surface,
+        pulses: run.pulses,
+        force: run.force,
         until: arguments.until,
         tolerance: arguments.tolerance,
         memory: arguments.memory,

@@ -1,6 +1,7 @@
 //! `stickslip run`.
 
 pub(crate) mod checkpoint;
+pub(crate) mod disturbance;
 pub(crate) mod document;
 mod journey;
 pub(crate) mod limits;
@@ -10,7 +11,8 @@ mod record;
 pub(crate) mod samples;
 mod write;
 
-pub(crate) use order::{option_at_fault, parse_pulses};
+pub(crate) use disturbance::parse_pulses;
+pub(crate) use order::{explain, option_at_fault};
 
 use super::figure::Figure;
 use crate::arguments::{RunArguments, RunFormat};
@@ -23,7 +25,7 @@ use checkpoint::Checkpoints;
 use journey::Journey;
 use record::{Record, Sink};
 use std::path::{Path, PathBuf};
-use stickslip_tip::{Running, Scenario};
+use stickslip_tip::{RunError, Running, Scenario};
 use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -36,10 +38,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
     let said = |message: String| Failure::input("the run", message);
+    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = parameters::scenario(&order.parameters).map_err(said)?;
-    let surface = scenario.initial_surface().map_err(|error| order::explain(&error, arguments))?;
-    let running = Running::new(&scenario, &surface);
-    let running = running.map_err(|error| order::explain(&error, arguments))?;
+    let surface = scenario.initial_surface().map_err(explained)?;
+    let running = Running::new(&scenario, &surface).map_err(explained)?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
     let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;

@@ -21,6 +21,9 @@ use stickslip_surface::{
 };
 use stickslip_tip::{Scenario, Trajectory};
 
+/// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
+const ROUNDINGS: f64 = 16.0;
+
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
     apart(&[("--output", Some(&*arguments.output))], &[("RUN", Some(&**path))])?;
@@ -40,10 +43,12 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     let (verification, output) = if run.history.is_some() {
         let trajectory = document::trajectory(&run).map_err(damaged)?;
         is_of(&scenario, &trajectory).map_err(damaged)?;
+        let samples = samples(&run, &scenario).map_err(damaged)?;
+        are_of(&samples, &trajectory, scenario.tolerance).map_err(damaged)?;
         let output = Output::open("--output", &arguments.output)?;
         (of_history(&scenario, memory, &trajectory)?, output)
     } else {
-        let samples = samples(&run, &scenario).map_err(damaged)?;
+        let samples = samples_alone(&run, &scenario).map_err(damaged)?;
         let output = Output::open("--output", &arguments.output)?;
         (of_samples(&scenario, memory, &samples)?, output)
     };
@@ -81,7 +86,7 @@ fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
     ))
 }
 
-/// The samples in the order of time; some are after the start.
+/// The samples in the order of time.
 fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
     let (t, l, x0) = (&run.samples.t, &run.samples.l, &run.samples.x0);
     let span = scenario.start_time()..=scenario.until;
@@ -91,9 +96,31 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     let rows = t.iter().zip(l).zip(x0);
     let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    Ok(samples)
+}
+
+/// Those that stand for a run of which no history is left: some must be after the start.
+fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
+    let samples = samples(run, scenario)?;
     match samples.last().is_some_and(|last| last.t > scenario.start_time()) {
         true => Ok(samples),
         false => Err("samples: there are none after the start, and no history".into()),
+    }
+}
+
+/// Whether the samples are those of the history, which is what is repeated.
+fn are_of(samples: &[Sample], trajectory: &Trajectory, tolerance: f64) -> Result<(), String> {
+    let agree = |sample: &Sample| {
+        let Sample { t, l, x0 } = *sample;
+        let rounding = ROUNDINGS * f64::EPSILON * (1.0 + l.abs() + x0.abs());
+        let differences = [l - trajectory.l(t), x0 - trajectory.x0(t)];
+        differences.iter().all(|difference| difference.abs() <= tolerance + rounding)
+    };
+    match samples.iter().find(|sample| !agree(sample)) {
+        None => Ok(()),
+        Some(sample) => {
+            Err(format!("samples: at t = {} they are not those of the history", sample.t))
+        }
     }
 }
 

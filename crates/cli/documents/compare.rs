@@ -1,6 +1,6 @@
 //! `stickslip/compare`.
 
-use super::{ModelParameters, PulseParameters, Software};
+use super::{ForceTable, ModelParameters, NoiseParameters, Profile, PulseParameters, Software};
 use crate::arguments::{GridName, MemoryName, StartName};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,8 +48,14 @@ pub(crate) struct CompareParameters {
     pub(crate) start_position: f64,
     /// D: the tip starts at X - D.
     pub(crate) kick: f64,
+    /// Noise added to the initial surface.
+    pub(crate) noise: Option<NoiseParameters>,
+    /// Profile added to the initial surface.
+    pub(crate) initial_surface: Option<Profile>,
     /// Gaussian pulses of external force.
     pub(crate) pulses: Vec<PulseParameters>,
+    /// Tabulated external force.
+    pub(crate) force: Option<ForceTable>,
     /// Time at which the closed equation ends.
     pub(crate) until: f64,
     /// Error asked of the closed equation.

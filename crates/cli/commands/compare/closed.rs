@@ -5,15 +5,16 @@ use super::pace::{PATIENCE, Pace};
 use crate::arguments::CompareArguments;
 use crate::commands::model::model;
 use crate::commands::progress::Progress;
+use crate::commands::run::disturbance::Disturbance;
 use crate::commands::run::limits::within_range;
-use crate::commands::run::option_at_fault;
 use crate::commands::run::parameters::{memory, start};
+use crate::commands::run::{explain, option_at_fault};
 use crate::documents::{ClosedDocument, ClosedWork};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use stickslip_surface::Surface;
-use stickslip_tip::{Force, Run, RunError, Scenario, Trajectory, run_observed};
+use stickslip_tip::{Run, RunError, Scenario, Trajectory, run_observed};
 
 /// The shortest of so many runs is its time: a run may be as short as a millisecond.
 const REPETITIONS: usize = 5;
@@ -28,22 +29,31 @@ pub(super) struct Closed {
 }
 
 /// The run that both sides make.
-pub(super) fn scenario(arguments: &CompareArguments, force: Force) -> Result<Scenario, Failure> {
+pub(super) fn scenario(
+    arguments: &CompareArguments,
+    disturbance: &Disturbance,
+) -> Result<Scenario, Failure> {
+    let Disturbance { noise, profile, force, .. } = disturbance;
+    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = Scenario {
         start: start(arguments.start.start),
         start_position: arguments.start.start_position,
         kick: arguments.start.kick,
-        force,
+        noise: *noise,
+        profile: profile.clone(),
+        force: force.clone(),
         tolerance: arguments.tolerance,
         memory: memory(arguments.memory),
         ..Scenario::new(model(&arguments.model)?, arguments.until)
     };
     within_range(&arguments.model, &scenario)?;
-    scenario.validate().map_err(|error| explain(&error))?;
+    scenario.validate().map_err(explained)?;
+    scenario.initial_surface().map_err(explained)?;
     Ok(scenario)
 }
 
-fn explain(error: &RunError) -> Failure {
+/// What no judgement before the run found.
+fn at_run_time(error: &RunError) -> Failure {
     match option_at_fault(error) {
         Some(option) => Failure::input(option, error),
         None => Failure::Run(error.to_string()),
@@ -70,7 +80,7 @@ pub(super) fn run(asked: &Asked, interrupt: &Interrupt) -> Result<Closed, Failur
         let seconds = pace.seconds();
         match failure {
             Some(failure) => Err(failure),
-            None => Ok((run.map_err(|error| explain(&error))?, seconds)),
+            None => Ok((run.map_err(|error| at_run_time(&error))?, seconds)),
         }
     };
     let (run, mut seconds) = once()?;

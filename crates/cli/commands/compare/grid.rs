@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Problem, Request, Run, Start, Stepping, solve_observed,
 };
-use stickslip_tip::{Scenario, TipFunction};
+use stickslip_tip::{InitialSurface, Scenario, TipFunction};
 
 /// π/8.7 widths: the widest lattice that is exact to round-off.
 const EXACT: f64 = std::f64::consts::PI / 8.7;
@@ -130,7 +130,9 @@ pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Mot
     let request = Request { times: &[*grid_until], points: x };
     let explain = |error| explain(asked, error);
     let footprint = Footprint::new(&f, discretisation.reach).map_err(explain)?;
-    let problem = Problem::new(model.alpha(), model.r(), footprint, start(scenario, footprint))
+    let texture = texture(scenario)?;
+    let start = start(scenario, footprint, texture.as_ref());
+    let problem = Problem::new(model.alpha(), model.r(), footprint, start)
         .map_err(explain)?
         .with_force(&force);
 
@@ -163,14 +165,32 @@ pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Mot
     Ok(Motion { t: samples.t, grid: GridDocument { x0: samples.x0, u: run.u, work } })
 }
 
-fn start<'a>(scenario: &Scenario, footprint: Footprint<'a>) -> Start<'a> {
+/// What no tip has carved of the surface at the start: noise and profile.
+fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
+    if scenario.noise.is_none() && scenario.profile.is_none() {
+        return Ok(None);
+    }
+    let scenario = Scenario { start: stickslip_tip::Start::Flat, ..scenario.clone() };
+    scenario.initial_surface().map(Some).map_err(|error| Failure::Run(error.to_string()))
+}
+
+/// The texture is given to the grid as f and the force are: as functions of what the closed equation is given.
+fn start<'a>(
+    scenario: &Scenario,
+    footprint: Footprint<'a>,
+    texture: Option<&'a InitialSurface>,
+) -> Start<'a> {
     let (position, kick) = (scenario.start_position, scenario.kick);
     let (alpha, r) = (scenario.model.alpha(), scenario.model.r());
-    match scenario.start {
+    let start = match scenario.start {
         stickslip_tip::Start::Steady => Start::steady(alpha, r, footprint, position, kick),
         stickslip_tip::Start::Flat => {
             Start::new(scenario.start_time(), position - kick, |_| 0.0, |_| 0.0)
         }
+    };
+    match texture {
+        None => start,
+        Some(u) => start.on_top_of(|x| u.texture(x), |x| u.slope_and_curvature(x).0),
     }
 }
 

@@ -2,41 +2,35 @@
 
 use super::super::model::model;
 use super::checkpoint;
+use super::disturbance::Disturbance;
 use super::limits::within_range;
 use super::parameters;
-use crate::arguments::{HistoryName, RunArguments, RunFormat};
+use crate::arguments::{
+    DisturbanceArguments, HistoryName, RunArguments, RunFormat, StartArguments,
+};
 use crate::documents::{Order, Times};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::{apart, resting_place};
-use crate::files::input::{Columns, read_columns};
 use crate::files::output::OutputFormat;
-use std::path::{Path, PathBuf};
-use stickslip_tip::{Force, ForceError, Noise, Pulse, RunError, Scenario};
-
-const DEFAULT_NOISE_SPACING: f64 = 0.1;
-const DEFAULT_SEED: u64 = 1;
-
-/// What came from files and repeated options.
-struct Inputs {
-    profile: Option<Columns>,
-    force: Option<Columns>,
-    pulses: Vec<Pulse>,
-}
+use std::path::Path;
+use stickslip_tip::{RunError, Scenario};
 
 /// What is asked for, judged as a whole.
 pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let format = format(arguments)?;
-    let inputs = read_inputs(arguments)?;
-    let scenario = scenario(arguments, &inputs)?;
+    let disturbance = Disturbance::of(&arguments.disturbance)?;
+    let scenario = scenario(arguments, &disturbance)?;
     within_range(&arguments.model, &scenario)?;
-    scenario.validate().map_err(|error| explain(&error, arguments))?;
+    scenario
+        .validate()
+        .map_err(|error| explain(&error, &arguments.start, &arguments.disturbance))?;
     let span = (scenario.start_time(), scenario.until);
     let are_kept = format != RunFormat::Jsonl;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;
-    let Inputs { pulses, force, .. } = inputs;
+    let Disturbance { pulses, table, .. } = disturbance;
     let order = Order {
         samples: Times::asked(&arguments.sampling, span, "the run", are_kept)?,
-        parameters: parameters::of(&scenario, arguments.model.alpha_above, &pulses, force),
+        parameters: parameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
         output: resting_place(&arguments.output),
         format,
         history: arguments.history == HistoryName::All,
@@ -79,8 +73,8 @@ fn files(arguments: &RunArguments) -> Result<(), Failure> {
     ];
     let read = [
         ("--tip-file", arguments.model.tip.tip_file.as_deref()),
-        ("--initial-surface", arguments.initial_surface.as_deref()),
-        ("--force-file", arguments.force_file.as_deref()),
+        ("--initial-surface", arguments.disturbance.initial_surface.as_deref()),
+        ("--force-file", arguments.disturbance.force_file.as_deref()),
     ];
     apart(&written, &read)?;
     let is_text = |path: &Path| resting_place(path).to_str().is_some();
@@ -111,79 +105,36 @@ fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     })
 }
 
-fn read_inputs(arguments: &RunArguments) -> Result<Inputs, Failure> {
-    let read = |option, path: &Option<PathBuf>, heading| {
-        path.as_deref().map(|path| read_columns(option, path, heading)).transpose()
-    };
-    Ok(Inputs {
-        profile: read("--initial-surface", &arguments.initial_surface, "x,u")?,
-        force: read("--force-file", &arguments.force_file, "t,force")?,
-        pulses: parse_pulses(&arguments.pulse)?,
-    })
-}
-
-/// All that `--pulse` was given for.
-pub(crate) fn parse_pulses(texts: &[String]) -> Result<Vec<Pulse>, Failure> {
-    texts.iter().map(|text| parse_pulse(text)).collect()
-}
-
-/// A, T and W of `--pulse`.
-fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.as_deref() {
-        Ok(&[amplitude, time, width])
-            if amplitude.is_finite() && time.is_finite() && width.is_finite() && width > 0.0 =>
-        {
-            Ok(Pulse { amplitude, time, width })
-        }
-        _ => Err(Failure::input(
-            format!("--pulse {text}"),
-            "needs three finite numbers A,T,W: amplitude, time and width, the width above 0, such as \
-             --pulse 2,30,0.5",
-        )),
-    }
-}
-
-fn scenario(arguments: &RunArguments, inputs: &Inputs) -> Result<Scenario, Failure> {
+fn scenario(arguments: &RunArguments, disturbance: &Disturbance) -> Result<Scenario, Failure> {
     let until = arguments.until.ok_or_else(|| {
         Failure::input("--until", "the end of the run is missing: give --until T")
     })?;
-    let model = model(&arguments.model)?;
-    let force = Force::new(inputs.pulses.clone(), inputs.force.clone()).map_err(|error| {
-        let path = arguments.force_file.as_deref().unwrap_or(Path::new(""));
-        match error {
-            ForceError::Table(error) => {
-                Failure::input(format!("--force-file {}", path.display()), error)
-            }
-            error => Failure::input("--pulse", error),
-        }
-    })?;
-    let noise = arguments.noise.map(|amplitude| Noise {
-        amplitude,
-        spacing: arguments.noise_spacing.unwrap_or(DEFAULT_NOISE_SPACING),
-        seed: arguments.seed.unwrap_or(DEFAULT_SEED),
-    });
+    let Disturbance { noise, profile, force, .. } = disturbance;
     Ok(Scenario {
         start: parameters::start(arguments.start.start),
         start_position: arguments.start.start_position,
         kick: arguments.start.kick,
-        noise,
-        profile: inputs.profile.clone(),
-        force,
+        noise: *noise,
+        profile: profile.clone(),
+        force: force.clone(),
         tolerance: arguments.tolerance,
         memory: parameters::memory(arguments.memory),
-        ..Scenario::new(model, until)
+        ..Scenario::new(model(&arguments.model)?, until)
     })
 }
 
 /// Names the option that an error of the library is about.
-pub(super) fn explain(error: &RunError, arguments: &RunArguments) -> Failure {
+pub(crate) fn explain(
+    error: &RunError,
+    start: &StartArguments,
+    disturbance: &DisturbanceArguments,
+) -> Failure {
     let option = match error {
-        RunError::TooFar { .. } if arguments.start.start_position.abs() > 1e3 => {
-            format!("--start-position {}", arguments.start.start_position)
+        RunError::TooFar { .. } if start.start_position.abs() > 1e3 => {
+            format!("--start-position {}", start.start_position)
         }
         RunError::Profile(_) => {
-            let path = arguments.initial_surface.as_deref().unwrap_or(Path::new(""));
+            let path = disturbance.initial_surface.as_deref().unwrap_or(Path::new(""));
             format!("--initial-surface {}", path.display())
         }
         _ => match option_at_fault(error) {

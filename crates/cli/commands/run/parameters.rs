@@ -7,7 +7,7 @@ use crate::documents::{
 use stickslip_tip::{Force, MemoryChoice, Noise, Pulse, Scenario, Start};
 
 /// What a document says of a scenario; the force is given as what it was made of.
-pub(super) fn of(
+pub(crate) fn of(
     scenario: &Scenario,
     alpha_above: Option<f64>,
     pulses: &[Pulse],

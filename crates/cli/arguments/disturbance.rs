@@ -1,0 +1,45 @@
+//! What the tip meets beside its own groove: the options of every command that makes a run of it.
+
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Clone, Args)]
+pub(crate) struct DisturbanceArguments {
+    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them.
+    #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]
+    pub(crate) noise: Option<f64>,
+
+    /// Spacing of the noise grid, in σ [default: 0.1]. It is part of the start: white noise has no
+    /// limit as the spacing goes to 0.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "noise",
+        allow_hyphen_values = true,
+        help_heading = "Start"
+    )]
+    pub(crate) noise_spacing: Option<f64>,
+
+    /// Seed of the noise [default: 1].
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "noise",
+        allow_hyphen_values = true,
+        help_heading = "Start"
+    )]
+    pub(crate) seed: Option<u64>,
+
+    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside. Begin and end
+    /// it with rows of 0: a slow tip may come to rest in a corner, and its run with it.
+    #[arg(long, value_name = "FILE", help_heading = "Start")]
+    pub(crate) initial_surface: Option<PathBuf>,
+
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
+    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
+    pub(crate) pulse: Vec<String>,
+
+    /// External force from a file: CSV `t,force`, a cubic spline through it, 0 outside.
+    #[arg(long, value_name = "FILE", help_heading = "Force")]
+    pub(crate) force_file: Option<PathBuf>,
+}

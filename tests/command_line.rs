@@ -64,6 +64,25 @@ fn far_behind_leaves_the_initial_surface_out() {
 }
 
 #[test]
+fn a_surface_written_before_is_an_initial_surface() {
+    let folder = Folder::new("second_pass");
+    folder.prints("run --alpha 1.2 --r 1 --kick 0.05 --until 60 -o first.json");
+    folder.prints("surface first.json --range 10,70 --spacing 0.1 -o written.csv");
+    let written = folder.read("written.csv");
+    let rows = std::str::from_utf8(&written).unwrap().lines();
+    let profile: Vec<&str> = rows.map(|row| row.split_once(',').unwrap().1).collect();
+    folder.write("profile.csv", profile.join("\n"));
+    let samples = |file: &str| {
+        let line = format!("run --alpha 1.2 --r 1 --start flat --until 60 --initial-surface {file}");
+        folder.prints_json(&line)["samples"].clone()
+    };
+    assert_eq!(samples("written.csv"), samples("profile.csv"));
+    folder.prints("surface first.json --at 50,60 --range 10,70 --spacing 0.1 -o both.csv");
+    let line = "run --alpha 1.2 --r 1 --until 60 --initial-surface both.csv";
+    folder.refuses(line, &["--initial-surface both.csv", "several times, 50 and 60", "--at"]);
+}
+
+#[test]
 fn a_failed_run_leaves_what_was_there_before() {
     let folder = Folder::new("failed");
     folder.write("run.json", "precious");

@@ -73,6 +73,23 @@ fn on_an_initial_bump() {
     judge("bump", Scenario { profile: Some((x, u)), ..Scenario::new(triple(0.9, 1.0), 60.0) });
 }
 
+/// At ends with a slope, u0 would have a hollow corner at x = 20, and this tip would never leave it.
+#[test]
+fn on_a_profile_that_falls_to_its_end_under_a_tip_held_back() {
+    let profile = (vec![16.0, 17.0, 18.0, 19.0, 20.0], vec![0.0, 0.2, -0.1, 0.3, 0.0]);
+    let held_back = (vec![18.0, 20.0, 22.0, 25.0], vec![0.0, 0.9, -0.3, 0.0]);
+    let scenario = Scenario {
+        start: Start::Flat,
+        kick: 0.05,
+        profile: Some(profile),
+        force: Force::new(vec![], Some(held_back)).unwrap(),
+        ..Scenario::new(triple(1.2, 1.0), 36.0)
+    };
+    let steps = run(&scenario).unwrap().work.steps;
+    assert!(steps < 500, "{steps}");
+    judge("level ends", scenario);
+}
+
 #[test]
 fn on_noise_whose_knots_lie_closer_than_steps() {
     let noise = |spacing| Some(Noise { amplitude: 1e-4, spacing, seed: 7 });

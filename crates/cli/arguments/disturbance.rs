@@ -30,8 +30,9 @@ pub(crate) struct DisturbanceArguments {
     )]
     pub(crate) seed: Option<u64>,
 
-    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it, 0 outside. Begin and end
-    /// it with rows of 0: a slow tip may come to rest in a corner, and its run with it.
+    /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it that ends level, 0
+    /// outside; or one surface `t,x,u` as `surface -o FILE.csv` writes it, with --start flat, as it holds the
+    /// past already.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 

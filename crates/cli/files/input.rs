@@ -52,6 +52,27 @@ pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<C
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
+/// A profile x,u; or one surface t,x,u, as `surface` writes it.
+pub(crate) fn read_profile(option: &str, path: &Path) -> Result<Columns, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    parse_profile(&text)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+pub(crate) fn parse_profile(text: &str) -> Result<Columns, String> {
+    if width_of(text) != 3 {
+        return parse_columns(text, "x,u");
+    }
+    let [t, x, u] = parse_table(text, "t,x,u")?;
+    match t.iter().position(|time| time.to_bits() != t[0].to_bits()) {
+        None => Ok((x, u)),
+        Some(row) => Err(format!(
+            "holds surfaces at several times, {} and {}: write one with `surface --at T`",
+            t[0], t[row]
+        )),
+    }
+}
+
 pub(crate) fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
     parse_table::<2>(text, heading).map(|[first, second]| (first, second))
 }

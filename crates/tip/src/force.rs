@@ -1,5 +1,6 @@
 //! The external force Fext(t) of (9), (10), in units of kσ.
 
+use crate::series::checked;
 use crate::spline::CubicSpline;
 use std::fmt;
 use std::sync::Arc;
@@ -70,7 +71,8 @@ impl Force {
                 return Err(ForceError::PulseWidth(*pulse));
             }
         }
-        let table = table.map(|(t, force)| crate::series::spline_through(t, force)).transpose()?;
+        let table = table.map(|(t, force)| checked(t, force)).transpose()?;
+        let table = table.map(|(t, force)| CubicSpline::through(t, force));
         Ok(Self { pulses, table, function: None })
     }
 

@@ -4,7 +4,7 @@
 //! flat start is 0, noise and a measured profile are splines. (15) prints the force of u0 with a factor
 //! α; from (14) it is -u0'(x0), for u0 is a height.
 
-use crate::series::{SeriesError, spline_through};
+use crate::series::{SeriesError, checked};
 use crate::spline::CubicSpline;
 use crate::{Model, TipFunction};
 use rand::{RngExt, SeedableRng};
@@ -73,12 +73,15 @@ impl InitialSurface {
         Self { steady: Some(SteadyPast { tip, depth, position, reach }), ..Self::default() }
     }
 
-    /// Adds the natural cubic spline through (x, u), 0 outside.
+    /// Adds the cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
+    /// feels, is continuous. (A corner that is hollow would hold a slow tip for ever, pushed back from
+    /// either side.)
     ///
     /// # Errors
     /// Too short, not finite, unsorted.
     pub fn with_profile(mut self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
-        self.profile = Some(spline_through(x, u)?);
+        let (x, u) = checked(x, u)?;
+        self.profile = Some(CubicSpline::level(x, u));
         Ok(self)
     }
 

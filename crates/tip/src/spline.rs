@@ -1,7 +1,7 @@
-//! The natural cubic spline through given points, with two derivatives: initial surfaces, measured
-//! forces and unevenly sampled footprints come through it. (No crate found gives the derivatives.)
+//! The cubic spline through given points, with two derivatives: initial surfaces, measured forces and
+//! unevenly sampled footprints come through it. (No crate found gives the derivatives.)
 
-/// Cubic spline through (x_i, y_i), its second derivative 0 at both ends.
+/// Cubic spline through (x_i, y_i).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CubicSpline {
     x: Vec<f64>,
@@ -11,9 +11,16 @@ pub(crate) struct CubicSpline {
 }
 
 impl CubicSpline {
-    /// `x` increasing, as long as `y`, at least two points: the callers have validated that.
+    /// The natural spline: its second derivative is 0 at both ends. `x` increasing, as long as `y`, at
+    /// least two points: the callers have validated that.
     pub(crate) fn through(x: Vec<f64>, y: Vec<f64>) -> Self {
-        let m = second_derivatives(&x, &y);
+        let m = second_derivatives(&x, &y, Ends::Straight);
+        Self { x, y, m }
+    }
+
+    /// The spline that ends level: its slope is 0 at both ends.
+    pub(crate) fn level(x: Vec<f64>, y: Vec<f64>) -> Self {
+        let m = second_derivatives(&x, &y, Ends::Level);
         Self { x, y, m }
     }
 
@@ -62,19 +69,37 @@ impl CubicSpline {
     }
 }
 
-/// The tridiagonal system of the natural spline, by Thomas's algorithm (diagonally dominant).
-fn second_derivatives(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let n = x.len();
-    let mut m = vec![0.0; n];
-    let mut upper = vec![0.0; n];
-    for i in 1..n.saturating_sub(1) {
-        let (h0, h1) = (x[i] - x[i - 1], x[i + 1] - x[i]);
-        let jump = (y[i + 1] - y[i]) / h1 - (y[i] - y[i - 1]) / h0;
-        let pivot = 2.0 * (h0 + h1) - h0 * upper[i - 1];
-        upper[i] = h1 / pivot;
-        m[i] = (6.0 * jump - h0 * m[i - 1]) / pivot;
+/// What vanishes at both ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    /// The second derivative.
+    Straight,
+    /// The first.
+    Level,
+}
+
+/// The tridiagonal system of the second derivatives, by Thomas's algorithm (diagonally dominant).
+fn second_derivatives(x: &[f64], y: &[f64], ends: Ends) -> Vec<f64> {
+    let last = x.len() - 1;
+    let h = |i: usize| x[i + 1] - x[i];
+    let slope = |i: usize| (y[i + 1] - y[i]) / h(i);
+    // Neighbours to the left and right, diagonal, right-hand side.
+    let row = |i: usize| match (i, ends) {
+        (i, Ends::Straight) if i == 0 || i == last => [0.0, 0.0, 1.0, 0.0],
+        (0, Ends::Level) => [0.0, h(0), 2.0 * h(0), 6.0 * slope(0)],
+        (i, Ends::Level) if i == last => [h(i - 1), 0.0, 2.0 * h(i - 1), -6.0 * slope(i - 1)],
+        (i, _) => [h(i - 1), h(i), 2.0 * (h(i - 1) + h(i)), 6.0 * (slope(i) - slope(i - 1))],
+    };
+    let mut m = vec![0.0; x.len()];
+    let mut upper = vec![0.0; x.len()];
+    for i in 0..=last {
+        let [left, right, diagonal, wanted] = row(i);
+        let (upper_before, m_before) = if i == 0 { (0.0, 0.0) } else { (upper[i - 1], m[i - 1]) };
+        let pivot = diagonal - left * upper_before;
+        upper[i] = right / pivot;
+        m[i] = (wanted - left * m_before) / pivot;
     }
-    for i in (1..n.saturating_sub(1)).rev() {
+    for i in (0..last).rev() {
         m[i] -= upper[i] * m[i + 1];
     }
     m
@@ -93,6 +118,23 @@ mod tests {
             let spline = CubicSpline::through(x, y);
             let at = |i: i32| f64::from(i) / 1000.0;
             let miss = |x: f64| spline.value(x) - (std::f64::consts::PI * x).sin();
+            (0..=1000).map(|i| miss(at(i)).abs()).fold(0.0, f64::max)
+        };
+        for n in [8, 16, 32, 64] {
+            let order = (error(n) / error(2 * n)).log2();
+            assert!((order - 4.0).abs() < 0.1, "order {order} from {n} to {}", 2 * n);
+        }
+    }
+
+    #[test]
+    fn a_level_spline_ends_level_and_is_as_accurate_where_the_function_is() {
+        let error = |n: i32| {
+            let x: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
+            let y = x.iter().map(|x| (std::f64::consts::PI * x).cos()).collect();
+            let spline = CubicSpline::level(x, y);
+            assert!(spline.jet(0.0).1.abs() < 1e-13 && spline.jet(1.0).1.abs() < 1e-13);
+            let at = |i: i32| f64::from(i) / 1000.0;
+            let miss = |x: f64| spline.value(x) - (std::f64::consts::PI * x).cos();
             (0..=1000).map(|i| miss(at(i)).abs()).fold(0.0, f64::max)
         };
         for n in [8, 16, 32, 64] {

@@ -2,8 +2,8 @@
 
 use crate::arguments::DisturbanceArguments;
 use crate::failure::Failure;
-use crate::files::input::{Columns, read_columns};
-use std::path::{Path, PathBuf};
+use crate::files::input::{Columns, read_columns, read_profile};
+use std::path::Path;
 use stickslip_tip::{Force, ForceError, Noise, Pulse};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
@@ -21,11 +21,10 @@ pub(crate) struct Disturbance {
 
 impl Disturbance {
     pub(crate) fn of(arguments: &DisturbanceArguments) -> Result<Self, Failure> {
-        let read = |option, path: &Option<PathBuf>, heading| {
-            path.as_deref().map(|path| read_columns(option, path, heading)).transpose()
-        };
-        let profile = read("--initial-surface", &arguments.initial_surface, "x,u")?;
-        let table = read("--force-file", &arguments.force_file, "t,force")?;
+        let profile = arguments.initial_surface.as_deref();
+        let profile = profile.map(|path| read_profile("--initial-surface", path)).transpose()?;
+        let table = arguments.force_file.as_deref();
+        let table = table.map(|path| read_columns("--force-file", path, "t,force")).transpose()?;
         let pulses = parse_pulses(&arguments.pulse)?;
         let force = Force::new(pulses.clone(), table.clone());
         let force = force.map_err(|error| explain(&error, arguments))?;

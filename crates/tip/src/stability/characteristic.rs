@@ -101,11 +101,11 @@ impl Characteristic {
         (h.value.norm() + roundoff * self.size_of_terms(lambda, &h)) / h.derivative.norm()
     }
 
+    /// Σ|terms| of h, those of G each by itself: they may cancel.
     fn size_of_terms(&self, lambda: Complex64, h: &Scaled) -> f64 {
-        let down = (-h.log_scale).exp();
-        let linear = (lambda * self.r + 1.0) * down;
-        let sizes = (self.r * lambda.norm() + 1.0) * down + (h.value - linear).norm();
-        sizes.max(f64::MIN_POSITIVE)
+        let linear = (self.r * lambda.norm() + 1.0) * (-h.log_scale).exp();
+        let transform = self.ratio * self.transform.size(lambda, h.log_scale);
+        (linear + transform).max(f64::MIN_POSITIVE)
     }
 
     /// R such that h has no zero with Re Λ ≥ 0 and |Λ| ≥ R: there |rΛ + 1| ≥ r|Λ|, and |G| is below

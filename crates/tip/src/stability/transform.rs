@@ -76,6 +76,19 @@ impl CurvatureTransform {
             Kind::Bessel => bessel(lambda),
         }
     }
+
+    /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
+    ///
+    /// Side lobes of height β balance the peak along Re Λ ≈ -ln(2/β)/c, where each is e^{|Λ|²w²/2} times
+    /// what they leave.
+    pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        match &self.kind {
+            Kind::ClosedForms(terms) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
+            Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Bessel => bessel(lambda).value.norm(),
+        }
+    }
 }
 
 /// Σ over Gaussians of Λ²f̃ - Λf(0) - f'(0). With z = (Λw² - c)/(w√2) and R of [`scaled_erfc`], one of
@@ -88,12 +101,10 @@ impl CurvatureTransform {
 /// and where Re z < 0, the same with erfcx(z), R(z) replaced by -erfcx(-z), R(-z), plus
 /// a w √(2π) Λ² exp(Λ²w²/2 - cΛ).
 fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
-    let exponent = |g: &Gaussian| lambda * (lambda * (0.5 * g.width * g.width) - g.center);
-    let is_left = |g: &Gaussian| lambda.re * g.width * g.width < g.center;
     let largest = terms
         .iter()
-        .filter(|g| is_left(g))
-        .map(|g| exponent(g).re)
+        .filter(|g| is_left(g, lambda))
+        .map(|g| exponent(g, lambda).re)
         .fold(f64::NEG_INFINITY, f64::max);
     let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
     let down = (-log_scale).exp();
@@ -103,15 +114,42 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
         let (v, d) = algebraic_part(g, lambda);
         value += v * down;
         derivative += d * down;
-        if is_left(g) {
-            let growth =
-                (exponent(g) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt());
+        if is_left(g, lambda) {
+            let growth = two_sided(g, lambda, log_scale);
             value += growth * lambda * lambda;
             derivative +=
                 growth * lambda * (2.0 + lambda * (lambda * (g.width * g.width) - g.center));
         }
     }
     Scaled { value, derivative, log_scale }
+}
+
+/// Λ²w²/2 - cΛ
+fn exponent(g: &Gaussian, lambda: Complex64) -> Complex64 {
+    lambda * (lambda * (0.5 * g.width * g.width) - g.center)
+}
+
+/// Re z < 0
+fn is_left(g: &Gaussian, lambda: Complex64) -> bool {
+    lambda.re * g.width * g.width < g.center
+}
+
+/// a w √(2π) exp(Λ²w²/2 - cΛ) e^{-`log_scale`}
+fn two_sided(g: &Gaussian, lambda: Complex64, log_scale: f64) -> Complex64 {
+    (exponent(g, lambda) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt())
+}
+
+/// Σ|terms| of [`closed_forms`].
+fn size_of_closed_forms(terms: &[Gaussian], lambda: Complex64, log_scale: f64) -> f64 {
+    let down = (-log_scale).exp();
+    let size = |g: &Gaussian| {
+        let algebraic = algebraic_part(g, lambda).0.norm() * down;
+        if !is_left(g, lambda) {
+            return algebraic;
+        }
+        algebraic + two_sided(g, lambda, log_scale).norm() * lambda.norm_sqr()
+    };
+    terms.iter().map(size).sum()
 }
 
 /// The bracket above with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
@@ -202,6 +240,17 @@ impl Panels {
 
     fn serves(&self, lambda: Complex64) -> bool {
         lambda.norm() <= self.largest_lambda
+    }
+
+    /// ∫|f'' e^{-Λy}|dy e^{-`log_scale`}
+    fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        let nodes = self.offsets.len();
+        let at = |(i, weight): (usize, &f64)| {
+            #[expect(clippy::cast_precision_loss, reason = "a count")]
+            let y = (i / nodes) as f64 * self.width + self.offsets[i % nodes];
+            weight.abs() * (-lambda.re * y - log_scale).exp()
+        };
+        self.weighted.iter().enumerate().map(at).sum()
     }
 
     fn integrate(&self, lambda: Complex64) -> Scaled {

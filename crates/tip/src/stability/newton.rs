@@ -54,7 +54,8 @@ pub(super) fn pair(
         let (curvature, at) = second(middle);
         middle -= at.derivative / curvature;
     }
-    if !((middle - start).norm() < step) {
+    let away = (middle - start).norm();
+    if away.is_nan() || away >= step {
         return None;
     }
     if middle.im.abs() < 1e-7 * scale {

@@ -84,8 +84,8 @@ impl CurvatureTransform {
 
     /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
     ///
-    /// Side lobes of height β balance the peak along Re Λ ≈ -ln(2/β)/c, where each is e^{|Λ|²w²/2} times
-    /// what they leave.
+    /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
+    /// times what they leave.
     pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
         match &self.kind {
             Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {

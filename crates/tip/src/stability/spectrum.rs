@@ -33,7 +33,8 @@ const MOST_SHIFTS: u32 = 8;
 /// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
 /// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
 /// finds fewer than were counted, from halving the rectangle. Each is polished to round-off, or, beside
-/// a double root, had with its neighbour from where h' vanishes. If a root lies on Re λ = `bound`, the edge is moved a little to the left: see the certificate's region.
+/// a double root, had with its neighbour from where h' vanishes. If a root lies on Re λ = `bound`, the
+/// edge is moved a little to the left: see the certificate's region.
 ///
 /// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
 /// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis

@@ -7,6 +7,8 @@ a few minutes.
 
     critical   αc, ω on (42), (43); every Ω on a scan, the smallest α kept
     roots      roots Λ of (30) polished from the starts listed, λ = rΛ
+    lobes      the same for side lobes of height 5e-9, all with Re Λ > -10.9, by Newton's method at 80
+               digits: f'' e^{-Λy} is of size e^{60} there
     trapping   1/max_p(p ∫e^{-ps}(-f'(s))ds)
     erfcx      erfcx(x + iy) = e^{z²} erfc(z), Re z ≥ 0, on a grid that covers every branch of the
                Faddeeva algorithm, both axes included
@@ -15,6 +17,7 @@ a few minutes.
 import json
 import pathlib
 
+from mpmath.calculus.quadrature import GaussLegendre
 from mpmath import diff, erfc, exp, findroot, mp, mpc, mpf, nstr, pi, quad, sqrt
 
 mp.dps = 40
@@ -88,6 +91,31 @@ def roots(beta, width, alpha, r, starts):
     return [r * z for z in found]
 
 
+def lobes(beta, alpha, r, starts):
+    """Roots by Newton's method from f'' at the Gauss-Legendre nodes of panels of length 1."""
+    mp.dps = 80
+    f2 = curvature(mpf(beta), mpf(1))
+    half = mpf(1) / 2
+    rule = [(half * (1 + x), half * w) for x, w in GaussLegendre(mp).calc_nodes(6, mp.prec)]
+    nodes = [(k + x, w * f2(k + x)) for k in range(32) for x, w in rule]
+    found = []
+    for start in starts:
+        lam = mpc(*start)
+        for _ in range(12):
+            terms = [(y, w * exp(-lam * y)) for y, w in nodes]
+            h = r * lam + 1 + alpha / mpf(r) * sum(term for _, term in terms)
+            step = h / (r - alpha / mpf(r) * sum(y * term for y, term in terms))
+            lam -= step
+            if abs(step) < mpf(10)**-25 * abs(lam):
+                break
+        else:
+            raise ArithmeticError(f"no root from {start}")
+        found.append(lam)
+    mp.dps = 40
+    found.sort(key=lambda z: -z.real)
+    return [r * z for z in found]
+
+
 def trapping(beta, width):
     g = transform(beta, width)
     p = findroot(lambda p: diff(lambda q: g(q), p), mpf(1) / width)
@@ -96,7 +124,7 @@ def trapping(beta, width):
 
 def main():
     out = {"origin": "stability_reference.py, mpmath, 40 digits", "critical": [], "critical_r": [],
-           "roots": [], "trapping": [], "erfcx": []}
+           "roots": [], "lobes": [], "trapping": [], "erfcx": []}
     half = 1 / sqrt(mpf(2))
     cases = [(b, 1, r) for b in ("0", "0.3", "1") for r in ("0.01", "1", "100")]
     cases += [("0", half, "1")]
@@ -114,6 +142,13 @@ def main():
         found = roots(mpf(beta), mpf(1), mpf(alpha), mpf(r), starts)
         out["roots"].append({"beta": float(beta), "alpha": float(alpha), "r": float(r),
                              "lambda": [[show(z.real), show(z.imag)] for z in found]})
+    starts = [(-0.29, 0.79), (-1.96, 2.89), (-3.09, 3.85), (-3.94, 4.6), (-4.65, 5.25), (-5.27, 5.82),
+              (-5.83, 6.35), (-6.34, 6.83), (-6.81, 7.28), (-7.25, 7.7), (-7.67, 8.1), (-8.06, 8.48),
+              (-8.44, 8.84), (-8.81, 9.18), (-9.19, 9.5), (-9.55, 9.91), (-9.56, 0), (-9.56, 3.14),
+              (-9.56, 6.28), (-9.56, 9.43), (-9.82, 10.26), (-10.09, 10.57), (-10.36, 10.87),
+              (-10.61, 11.15), (-10.86, 11.43)]
+    out["lobes"].append({"beta": 1e-8, "alpha": 1.0, "r": 1.0,
+                         "lambda": [[show(z.real), show(z.imag)] for z in lobes("1e-8", 1, 1, starts)]})
     for beta in ("0", "1"):
         threshold, p = trapping(mpf(beta), mpf(1))
         out["trapping"].append({"beta": float(beta), "threshold": show(threshold), "p": show(p)})

@@ -73,7 +73,8 @@ fn a_surface_written_before_is_an_initial_surface() {
     let profile: Vec<&str> = rows.map(|row| row.split_once(',').unwrap().1).collect();
     folder.write("profile.csv", profile.join("\n"));
     let samples = |file: &str| {
-        let line = format!("run --alpha 1.2 --r 1 --start flat --until 60 --initial-surface {file}");
+        let line =
+            format!("run --alpha 1.2 --r 1 --start flat --until 60 --initial-surface {file}");
         folder.prints_json(&line)["samples"].clone()
     };
     assert_eq!(samples("written.csv"), samples("profile.csv"));

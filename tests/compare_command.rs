@@ -54,7 +54,7 @@ fn every_grid_comes_near_and_the_difference_is_that_of_the_columns() {
 #[test]
 fn both_sides_meet_the_same_surface_and_force() {
     let folder = Folder::new("compare-disturbed");
-    folder.write("bump.csv", "x,u\n16,0\n17,0.2\n18,-0.1\n19,0.3\n20,0\n");
+    folder.write("bump.csv", "x,u\n29,0\n30,0.4\n31,-0.2\n32,0.6\n33,0\n");
     folder.write("force.csv", "t,force\n18,0\n20,0.9\n22,-0.3\n25,0\n");
     let at_the_end = |document: &Value| *column(document, "/closed/x0").last().unwrap();
     let plain = at_the_end(&folder.prints_json(CASE));

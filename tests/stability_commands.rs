@@ -216,6 +216,21 @@ fn a_response_and_a_run_are_sampled_at_the_same_times() {
     }
 }
 
+/// The modes that follow those listed, from which `valid_from` comes, belong to lobes of height 5e-9; and
+/// α/r² above 1e5 was refused.
+#[test]
+fn roots_far_from_each_other_are_found_by_the_commands() {
+    let response = document(
+        "response --beta 1e-8 --alpha 1 --r 1 --pulse 0.01,5,1 --until 40 --sample-every 1",
+    );
+    assert_eq!(response["certificate"]["complete"], true);
+    close(&response["valid_from"], 10.5, 1e-12);
+    let large = document("stability --alpha 1e6 --r 1");
+    assert_eq!(large["certificate"]["complete"], true);
+    assert_eq!(large["stable"], false);
+    close(&large["roots"][1]["re"], 1.0 / (1e6 * triple().value(0.0) - 1.0), 1e-11);
+}
+
 #[test]
 fn a_late_pulse_overflows_nothing() {
     let found =

@@ -1,28 +1,35 @@
 //! Zeros of an analytic function in a rectangle, by halving it: the search that cannot miss one.
 
 use super::StabilityError;
-use super::newton::polish;
+use super::newton::{pair, polish};
 use super::transform::Scaled;
-use super::winding::{argument_along, whole};
+use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Rectangles smaller than this fraction of the first hold one multiple zero.
-const SMALLEST: f64 = 1e-7;
+/// Rectangles smaller than this, in units of 1/`length`, hold one multiple zero.
+const SMALLEST: f64 = 1e-6;
+/// Or smaller than this fraction of how far away they are.
+const SMALLEST_PART: f64 = 1e-12;
+/// Two zeros in a rectangle smaller than this, in units of 1/`length`, are looked for as a pair: lines
+/// between them would pass too close by.
+const PAIR: f64 = 1e-3;
 /// Newton's method has arrived where its step is below this fraction of where it is.
 const ARRIVED: f64 = 1e-11;
 
 /// A rectangle of the Λ plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
+    /// Over which the function may vary: a width of the tip.
+    pub(super) length: f64,
     pub(super) lower_left: Complex64,
     pub(super) upper_right: Complex64,
 }
 
 impl Cell {
-    pub(super) fn square(center: Complex64, half: f64) -> Self {
+    pub(super) fn square(center: Complex64, half: f64, length: f64) -> Self {
         let corner = Complex64::new(half, half);
-        Self { lower_left: center - corner, upper_right: center + corner }
+        Self { length, lower_left: center - corner, upper_right: center + corner }
     }
 
     fn contains(&self, z: Complex64) -> bool {
@@ -34,7 +41,7 @@ impl Cell {
     pub(super) fn count(&self, h: &impl Fn(Complex64) -> Scaled) -> Result<usize, StabilityError> {
         let (a, c) = (self.lower_left, self.upper_right);
         let (b, d) = (Complex64::new(c.re, a.im), Complex64::new(a.re, c.im));
-        let turned = argument_along(h, &[a, b, c, d, a])?;
+        let turned = argument_along(h, &resolved(&[a, b, c, d, a], self.length))?;
         whole(turned, 2.0 * PI).ok_or(StabilityError::RootOnContour { re: a.re })
     }
 
@@ -58,22 +65,20 @@ impl Cell {
         h: &impl Fn(Complex64) -> Scaled,
         count: usize,
     ) -> Result<Vec<Complex64>, StabilityError> {
-        let size = (self.upper_right - self.lower_left).norm();
-        self.zeros_above(h, count, SMALLEST * size)
-    }
-
-    fn zeros_above(
-        &self,
-        h: &impl Fn(Complex64) -> Scaled,
-        count: usize,
-        smallest: f64,
-    ) -> Result<Vec<Complex64>, StabilityError> {
         if count == 0 {
             return Ok(Vec::new());
         }
         let center = (self.lower_left + self.upper_right) * 0.5;
-        if (self.upper_right - self.lower_left).norm() < smallest {
-            return Ok(vec![polish(h, center); count]);
+        let size = (self.upper_right - self.lower_left).norm();
+        if count == 2 && size < PAIR / self.length {
+            let both = pair(h, center, 1.0 / self.length);
+            if let Some(both) = both.filter(|both| both.iter().all(|z| self.contains(*z))) {
+                return Ok(Vec::from(both));
+            }
+        }
+        let smallest = (SMALLEST / self.length).max(SMALLEST_PART * center.norm());
+        if size < smallest {
+            return Ok(vec![near(h, center, smallest); count]);
         }
         if count == 1 {
             // Newton's method, given up on its way, may stop inside as well: twice as many steps.
@@ -83,8 +88,8 @@ impl Cell {
             }
         }
         let (halves, lower) = self.counted_halves(h)?;
-        let mut zeros = halves[0].zeros_above(h, lower, smallest)?;
-        zeros.extend(halves[1].zeros_above(h, count.saturating_sub(lower), smallest)?);
+        let mut zeros = halves[0].zeros(h, lower)?;
+        zeros.extend(halves[1].zeros(h, count.saturating_sub(lower))?);
         Ok(zeros)
     }
 
@@ -103,6 +108,12 @@ impl Cell {
         }
         Err(last)
     }
+}
+
+/// Where Newton's method leads, or `center` if it leads elsewhere.
+fn near(h: &impl Fn(Complex64) -> Scaled, center: Complex64, radius: f64) -> Complex64 {
+    let zero = polish(h, center);
+    if (zero - center).norm() <= radius { zero } else { center }
 }
 
 /// Whether Newton's method has no way to go from z.

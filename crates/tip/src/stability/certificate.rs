@@ -111,7 +111,7 @@ fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
         found += if together == 1 {
             1
         } else {
-            let cell = Cell::square(*z, 3.0 * radius);
+            let cell = Cell::square(*z, 3.0 * radius, h.length);
             together.min(cell.count(&|z| h.at(z)).unwrap_or(0))
         };
     }

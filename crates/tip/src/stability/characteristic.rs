@@ -30,11 +30,13 @@ pub(super) struct Characteristic {
     bounds: Bounds,
 }
 
-/// What bounds G: ∫|f''|, |f''(0)| + ∫|f'''|, and for each Gaussian (a w √(2π), c, w).
+/// What bounds G: ∫|f''|, |f''(0)| + ∫|f'''|, f''(0), and for each Gaussian (a w √(2π), c, w).
 #[derive(Debug, Clone)]
 struct Bounds {
     area: f64,
     variation: f64,
+    /// f''(0)
+    peak: f64,
     terms: Vec<(f64, f64, f64)>,
 }
 
@@ -63,7 +65,7 @@ impl Characteristic {
     pub(super) fn is_out_of_proportion(&self) -> bool {
         let (drag, pull) = (self.r / self.length, self.ratio * self.bounds.area);
         let relative = pull / drag.max(1.0);
-        !(1e-12..=1e12).contains(&drag) || (self.ratio > 0.0 && !(1e-50..=1e5).contains(&relative))
+        !(1e-12..=1e12).contains(&drag) || (self.ratio > 0.0 && !(1e-50..=1e14).contains(&relative))
     }
 
     /// The reason behind an error: numbers out of all proportion, if they are.
@@ -96,16 +98,34 @@ impl Characteristic {
     }
 
     /// How far round-off in h displaces a root at Λ: the Newton step, and `roundoff` of its terms / |h'|.
+    /// Beside a double root, where h' is small too, no further than h'' allows.
     pub(super) fn root_error(&self, lambda: Complex64, roundoff: f64) -> f64 {
         let h = self.at(lambda);
-        (h.value.norm() + roundoff * self.size_of_terms(lambda, &h)) / h.derivative.norm()
+        let unknown = h.value.norm() + roundoff * self.size_of_terms(lambda, &h);
+        let error = unknown / h.derivative.norm();
+        if error < 1e-9 * lambda.norm() {
+            return error;
+        }
+        let step = 1e-3 / self.length;
+        let far = self.at(lambda + step);
+        let change = far.derivative * (far.log_scale - h.log_scale).exp() - h.derivative;
+        error.min((2.0 * unknown * step / change.norm()).sqrt())
     }
 
+    /// Σ|terms| of h, those of G each by itself: they may cancel.
     fn size_of_terms(&self, lambda: Complex64, h: &Scaled) -> f64 {
-        let down = (-h.log_scale).exp();
-        let linear = (lambda * self.r + 1.0) * down;
-        let sizes = (self.r * lambda.norm() + 1.0) * down + (h.value - linear).norm();
-        sizes.max(f64::MIN_POSITIVE)
+        let linear = (self.r * lambda.norm() + 1.0) * (-h.log_scale).exp();
+        let transform = self.ratio * self.transform.size(lambda, h.log_scale);
+        (linear + transform).max(f64::MIN_POSITIVE)
+    }
+
+    /// Zeros of rΛ + 1 + (α/r) f''(0)/Λ, on or above the real axis: those of h far from 0, where
+    /// G(Λ) = f''(0)/Λ + O(Λ^{-3}).
+    pub(super) fn algebraic_roots(&self) -> Vec<Complex64> {
+        let squared = 1.0 - 4.0 * self.r * self.ratio * self.bounds.peak;
+        let root = Complex64::new(squared, 0.0).sqrt();
+        let zeros = [root, -root].map(|root| (root - 1.0) / (2.0 * self.r));
+        zeros.into_iter().filter(|z| z.im >= 0.0).collect()
     }
 
     /// R such that h has no zero with Re Λ ≥ 0 and |Λ| ≥ R: there |rΛ + 1| ≥ r|Λ|, and |G| is below
@@ -120,7 +140,7 @@ impl Characteristic {
     /// For Re Λ < 0, G(Λ) = E(Λ) - G(-Λ) with E the two-sided transform, whose Gaussians fade as
     /// e^{w²(Re² - Im²)/2}, and G(-Λ) is bounded as on the right.
     pub(super) fn top_bound(&self, left: f64) -> f64 {
-        let Bounds { area, variation, terms } = &self.bounds;
+        let Bounds { area, variation, terms, .. } = &self.bounds;
         let narrowest = terms.iter().map(|t| t.2).fold(f64::INFINITY, f64::min);
         let fades = |top: f64| {
             let two_sided: f64 = terms
@@ -148,13 +168,14 @@ impl Characteristic {
 impl Bounds {
     fn new(tip: &TipFunction) -> Self {
         let TipFunction::Gaussians(sum) = tip else {
-            return Self { area: 0.0, variation: 0.0, terms: Vec::new() };
+            return Self { area: 0.0, variation: 0.0, peak: 0.0, terms: Vec::new() };
         };
         let reach = tip.reach().unwrap_or(1.0);
         let samples = f64::from(SAMPLES).max(reach * tip.band()).min(1e5);
         let step = reach / samples;
         let (mut area, mut x) = (0.0, 0.0);
-        let mut last = tip.slope_and_curvature(0.0).1;
+        let peak = tip.slope_and_curvature(0.0).1;
+        let mut last = peak;
         let mut variation = last.abs();
         while x < reach {
             x += step;
@@ -167,6 +188,6 @@ impl Bounds {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
         };
         let terms = sum.terms().iter().map(term).collect();
-        Self { area: MARGIN * area, variation: MARGIN * variation, terms }
+        Self { area: MARGIN * area, variation: MARGIN * variation, peak, terms }
     }
 }

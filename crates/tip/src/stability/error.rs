@@ -37,7 +37,7 @@ pub enum StabilityError {
     /// α, r and the tip so far apart that the roots cannot be counted, or told from each other, in floating
     /// point.
     #[error(
-        "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: for a tip of height and width 1, alpha/r² should be between 1e-50 and 1e5, and r below 1e12"
+        "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: for a tip of height and width 1, alpha/r² should be between 1e-50 and 1e14, and r below 1e12"
     )]
     TooFarApart {
         /// The indentation rate asked for.

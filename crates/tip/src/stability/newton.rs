@@ -6,24 +6,71 @@ use num_complex::Complex64;
 /// Iterations before a start is given up.
 const MOST_ITERATIONS: usize = 40;
 
-/// Newton's method to round-off: until the steps no longer shrink.
+/// Newton's method to round-off: until the steps no longer shrink. Beside a double zero they never
+/// settle: of all places on the way, that of the smallest |h|.
 pub(super) fn polish(h: impl Fn(Complex64) -> Scaled, start: Complex64) -> Complex64 {
     let mut z = start;
     let mut last = f64::INFINITY;
+    let (mut best, mut smallest) = (start, f64::INFINITY);
     for _ in 0..MOST_ITERATIONS {
         let at = h(z);
+        let logarithm = at.value.norm().ln() + at.log_scale;
+        if logarithm <= smallest {
+            (best, smallest) = (z, logarithm);
+        }
         let step = at.value / at.derivative;
         let size = step.norm();
-        if !size.is_finite() || (size >= last && size <= 1e-9 * (z.norm() + 1e-300)) {
+        if !size.is_finite() {
             break;
+        }
+        if size >= last && size <= 1e-9 * (z.norm() + 1e-300) {
+            return z;
         }
         z -= step;
         last = size;
         if size <= 0.5 * f64::EPSILON * z.norm() {
-            break;
+            return z;
         }
     }
-    z
+    best
+}
+
+/// Both zeros beside a double one, from where h' vanishes: h ≈ h(m) + h''(m)(z-m)²/2, with h'' by
+/// differences over a small part of `length`⁻¹ = `scale`. h is real on the real axis: where m is real the
+/// zeros are real or conjugate. `None` if there is no such m close by.
+pub(super) fn pair(
+    h: impl Fn(Complex64) -> Scaled,
+    start: Complex64,
+    scale: f64,
+) -> Option<[Complex64; 2]> {
+    let step = 1e-3 * scale;
+    let second = |z: Complex64| {
+        let (base, far, near) = (h(z), h(z + step), h(z - step));
+        let at = |h: &Scaled| h.derivative * (h.log_scale - base.log_scale).exp();
+        ((at(&far) - at(&near)) / (2.0 * step), base)
+    };
+    let mut middle = start;
+    for _ in 0..4 {
+        let (curvature, at) = second(middle);
+        middle -= at.derivative / curvature;
+    }
+    let away = (middle - start).norm();
+    if away.is_nan() || away >= step {
+        return None;
+    }
+    if middle.im.abs() < 1e-7 * scale {
+        middle.im = 0.0;
+    }
+    let (curvature, at) = second(middle);
+    let mut squared = at.value / curvature * -2.0;
+    if middle.im.abs() <= 0.0 {
+        squared.im = 0.0;
+    }
+    let half = squared.sqrt();
+    let zeros = [middle + half, middle - half];
+    // Closer than this, one step of Newton's method leads from one to the other.
+    let distinct = half.norm() > 1e-6 * scale;
+    Some(if distinct { zeros.map(|z| polish(&h, z)) } else { zeros })
 }
 
 /// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly),

@@ -5,8 +5,8 @@ use super::bessel_roots;
 use super::cell::Cell;
 use super::certificate::{Certificate, ROUNDOFF, Region};
 use super::characteristic::Characteristic;
-use super::newton::{another, polish};
-use super::winding::{argument_along, whole};
+use super::newton::{another, pair, polish};
+use super::winding::{argument_along, resolved, whole};
 use crate::{Model, TipFunction};
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -22,6 +22,8 @@ pub struct Spectrum {
 
 /// Contours reach no further than this, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
 const FARTHEST: f64 = 1e9;
+/// A root whose error is more than this part of it has another beside it.
+const BESIDE: f64 = 1e-10;
 /// A left edge on a root is moved this often, a little further each time.
 const MOST_SHIFTS: u32 = 8;
 
@@ -30,8 +32,9 @@ const MOST_SHIFTS: u32 = 8;
 /// The number of roots comes from the argument principle on a rectangle beyond whose other three
 /// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
 /// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
-/// finds fewer than were counted, from halving the rectangle. Each is polished to round-off. If a root
-/// lies on Re λ = `bound`, the edge is moved a little to the left: see the certificate's region.
+/// finds fewer than were counted, from halving the rectangle. Each is polished to round-off, or, beside
+/// a double root, had with its neighbour from where h' vanishes. If a root lies on Re λ = `bound`, the
+/// edge is moved a little to the left: see the certificate's region.
 ///
 /// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
 /// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
@@ -156,21 +159,23 @@ impl HalfPlane {
             if total(&upper) >= self.count {
                 break;
             }
-            let found = another(|z| h.at(z), start, &upper, 2.0 / h.length);
-            let Some(zero) = found.map(|z| above_axis(h, z)) else { continue };
-            let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
-            let is_new = upper.iter().all(|k| (k - zero).norm() > 1e-8 / h.length);
-            if inside && is_new && h.relative_residual(zero) < 1e-9 {
-                upper.push(zero);
-            }
+            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length) else { continue };
+            let is_new = |zero: &Complex64| {
+                let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
+                let apart = 1e-8 * zero.norm().min(1.0 / h.length);
+                inside && upper.iter().all(|k: &Complex64| (k - zero).norm() > apart)
+            };
+            let zeros = settled(h, zero).into_iter().filter(is_new);
+            let zeros: Vec<_> = zeros.filter(|z| h.relative_residual(*z) < 1e-9).collect();
+            upper.extend(zeros);
         }
         upper
     }
 
-    /// The root of α = 0, that of large α, and a grid that widens upwards as the roots do.
+    /// The root of α = 0, those of large α, and a grid that widens upwards as the roots do.
     fn starts(&self, h: &Characteristic) -> Vec<Complex64> {
         let mut starts = vec![Complex64::new(0.0, 0.8 / h.length), Complex64::new(-1.0 / h.r, 0.0)];
-        starts.push(Complex64::new(self.right / 1.05, 0.01 / h.length));
+        starts.extend(h.algebraic_roots());
         let spacing = 0.8 / h.length;
         let across = ((self.right.min(2.0 / h.length) - self.left) / spacing).clamp(1.0, 80.0);
         let up = (self.top.min(2.0 / h.length - self.left) / spacing).clamp(1.0, 80.0);
@@ -191,12 +196,13 @@ impl HalfPlane {
         let at = |z| h.at(z);
         for below in [0.0137, 0.0291, 0.0533] {
             let cell = Cell {
+                length: h.length,
                 lower_left: Complex64::new(self.left, -below / h.length),
                 upper_right: Complex64::new(self.right, self.top),
             };
             let Ok(count) = cell.count(&at) else { continue };
-            let mut zeros: Vec<Complex64> =
-                cell.zeros(&at, count)?.into_iter().map(|z| snapped(h, z)).collect();
+            let zeros = cell.zeros(&at, count)?.into_iter();
+            let mut zeros: Vec<Complex64> = zeros.map(|z| settled_alone(h, z)).collect();
             // Those just below the axis are conjugates of others found.
             zeros.retain(|z| z.im >= 0.0);
             return Ok(zeros);
@@ -205,38 +211,39 @@ impl HalfPlane {
     }
 }
 
-/// Corners added to a path through the upper half-plane, so that h varies little from one to the next:
-/// over the tip's width, and over |Λ| where that is larger and no exponential of Λ² is left.
-fn resolved(path: &[Complex64], length: f64) -> Vec<Complex64> {
-    let spacing = |z: Complex64| {
-        let algebraic = z.im + 1.5 * z.re.min(0.0) > 10.0 / length || z.re > 0.0;
-        (0.3 / length).max(if algebraic { 0.2 * z.norm() } else { 0.0 })
-    };
-    let mut corners: Vec<Complex64> = path.iter().take(1).copied().collect();
-    for side in path.windows(2) {
-        let (mut at, to) = (side[0], side[1]);
-        while (to - at).norm() > spacing(at) {
-            at += (to - at) / (to - at).norm() * spacing(at);
-            corners.push(at);
-        }
-        corners.push(to);
-    }
-    corners
-}
-
 /// Zeros that `upper` stands for: a conjugate pair each, one if real.
 fn total(upper: &[Complex64]) -> usize {
     upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
 }
 
-fn above_axis(h: &Characteristic, z: Complex64) -> Complex64 {
-    let z = snapped(h, z);
-    Complex64::new(z.re, z.im.abs())
+/// A zero that Newton's method found, on or above the real axis, and another that is too close to it for
+/// that method.
+fn settled(h: &Characteristic, z: Complex64) -> Vec<Complex64> {
+    let above = Complex64::new(z.re, z.im.abs());
+    let both = both(h, above).map_or_else(|| vec![snapped(h, above)], Vec::from);
+    both.into_iter().filter(|z| z.im >= 0.0).collect()
+}
+
+/// z, on the real axis if it belongs there, or of two zeros too close for Newton's method the nearer one.
+fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
+    match both(h, z) {
+        Some([a, b]) if (a - z).norm() <= (b - z).norm() => a,
+        Some([_, b]) => b,
+        None => snapped(h, z),
+    }
+}
+
+fn both(h: &Characteristic, z: Complex64) -> Option<[Complex64; 2]> {
+    has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length)).flatten()
+}
+
+fn has_neighbour(h: &Characteristic, z: Complex64) -> bool {
+    h.root_error(z, ROUNDOFF) > BESIDE * z.norm()
 }
 
 /// z, moved onto the real axis if it is a real root but for round-off.
 fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
-    if z.im.abs() > 1e-6 * (z.norm() + 1.0 / h.length) {
+    if z.im.abs() > 1e-6 * z.norm() + h.root_error(z, ROUNDOFF) {
         return z;
     }
     let real = polish(|z| h.at(Complex64::new(z.re, 0.0)), Complex64::new(z.re, 0.0));

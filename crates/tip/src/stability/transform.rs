@@ -19,6 +19,10 @@ const BANDS_SERVED: f64 = 1.5;
 const WIDTHS_INTEGRATED: f64 = 13.0;
 /// Exponents above this are carried in [`Scaled::log_scale`].
 const LARGEST_EXPONENT: f64 = 300.0;
+/// |Λ| times the largest width below which Λ²f̃ and Λf(0) do not cancel.
+const NEAR_ORIGIN: f64 = 0.5;
+/// An exponent of 1 is rounded by so much of what else rounds e to it: 3 × 2.2e-16 of 3e-14.
+const ROUNDING_OF_EXPONENT: f64 = 0.02;
 
 /// A value and its derivative with respect to Λ, both times e^`log_scale`.
 ///
@@ -43,7 +47,7 @@ pub(super) struct CurvatureTransform {
 
 #[derive(Debug, Clone)]
 enum Kind {
-    ClosedForms(Vec<Gaussian>),
+    ClosedForms(Vec<Gaussian>, Origin),
     Quadrature(Panels, Vec<Gaussian>),
     Bessel,
 }
@@ -53,7 +57,7 @@ impl CurvatureTransform {
         let kind = match tip {
             TipFunction::Bessel => Kind::Bessel,
             TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
-                Kind::ClosedForms(sum.terms().to_vec())
+                Kind::ClosedForms(sum.terms().to_vec(), Origin::of(sum.terms()))
             }
             TipFunction::Gaussians(sum) => {
                 Kind::Quadrature(Panels::new(sum.terms(), tip.band()), sum.terms().to_vec())
@@ -70,10 +74,27 @@ impl CurvatureTransform {
     /// G(Λ) and G'(Λ).
     pub(super) fn at(&self, lambda: Complex64) -> Scaled {
         match &self.kind {
-            Kind::ClosedForms(terms) => closed_forms(terms, lambda),
-            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.integrate(lambda),
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => origin.at(terms, lambda),
+            Kind::ClosedForms(terms, _) => closed_forms(terms, lambda),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
             Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
             Kind::Bessel => bessel(lambda),
+        }
+    }
+
+    /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
+    ///
+    /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
+    /// times what they leave.
+    pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        match &self.kind {
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+                origin.size(terms, lambda)
+            }
+            Kind::ClosedForms(terms, _) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
+            Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Bessel => bessel(lambda).value.norm(),
         }
     }
 }
@@ -88,12 +109,10 @@ impl CurvatureTransform {
 /// and where Re z < 0, the same with erfcx(z), R(z) replaced by -erfcx(-z), R(-z), plus
 /// a w √(2π) Λ² exp(Λ²w²/2 - cΛ).
 fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
-    let exponent = |g: &Gaussian| lambda * (lambda * (0.5 * g.width * g.width) - g.center);
-    let is_left = |g: &Gaussian| lambda.re * g.width * g.width < g.center;
     let largest = terms
         .iter()
-        .filter(|g| is_left(g))
-        .map(|g| exponent(g).re)
+        .filter(|g| is_left(g, lambda))
+        .map(|g| exponent(g, lambda).re)
         .fold(f64::NEG_INFINITY, f64::max);
     let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
     let down = (-log_scale).exp();
@@ -103,15 +122,108 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
         let (v, d) = algebraic_part(g, lambda);
         value += v * down;
         derivative += d * down;
-        if is_left(g) {
-            let growth =
-                (exponent(g) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt());
+        if is_left(g, lambda) {
+            let growth = two_sided(g, lambda, log_scale);
             value += growth * lambda * lambda;
             derivative +=
                 growth * lambda * (2.0 + lambda * (lambda * (g.width * g.width) - g.center));
         }
     }
     Scaled { value, derivative, log_scale }
+}
+
+/// Where Λ is small against 1/width: Λ(Λf̃ - f(0)), whose terms do not cancel there. Those of the bracket
+/// above are of the size of f'(0) of each Gaussian, while G falls like Λ.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    radius: f64,
+    height: f64,
+    /// Σ of the sizes of what `height` adds up.
+    size: f64,
+}
+
+impl Origin {
+    fn of(terms: &[Gaussian]) -> Self {
+        let height = |g: &Gaussian| g.amplitude * (-0.5 * (g.center / g.width).powi(2)).exp();
+        Self {
+            radius: NEAR_ORIGIN / terms.iter().map(|g| g.width).fold(0.0, f64::max),
+            height: terms.iter().map(height).sum(),
+            size: terms.iter().map(|g| height(g).abs()).sum(),
+        }
+    }
+
+    fn is_near(&self, lambda: Complex64) -> bool {
+        lambda.norm_sqr() < self.radius * self.radius
+    }
+
+    fn at(&self, terms: &[Gaussian], lambda: Complex64) -> Scaled {
+        let (mut transform, mut slope) = (Complex64::ZERO, Complex64::ZERO);
+        for g in terms {
+            let (value, derivative) = laplace(g, lambda);
+            transform += value;
+            slope += derivative;
+        }
+        let bracket = lambda * transform - self.height;
+        let derivative = bracket + lambda * (transform + lambda * slope);
+        Scaled { value: lambda * bracket, derivative, log_scale: 0.0 }
+    }
+
+    fn size(&self, terms: &[Gaussian], lambda: Complex64) -> f64 {
+        let transform: f64 = terms.iter().map(|g| laplace(g, lambda).0.norm()).sum();
+        lambda.norm() * (lambda.norm() * transform + self.size)
+    }
+}
+
+/// f̃ = a w √(π/2) e^{-c²/2w²} erfcx(z) of one Gaussian, and its derivative.
+fn laplace(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
+    let (c, w) = (g.center, g.width);
+    let z = (lambda * w - c / w) / SQRT_2;
+    let at_origin = (-0.5 * (c / w).powi(2)).exp();
+    let scale = g.amplitude * w * (PI / 2.0).sqrt();
+    // erfcx' = 2z erfcx - 2/√π = 2R/√π
+    let (k, remainder) = scaled_erfc(if z.re < 0.0 { -z } else { z });
+    let edge = remainder * (SQRT_2 * w / PI.sqrt()) * at_origin;
+    if z.re >= 0.0 {
+        return (k * at_origin * scale, edge * scale);
+    }
+    let growth = exponent(g, lambda).exp() * 2.0;
+    let value = growth - k * at_origin;
+    (value * scale, (growth * (lambda * (w * w) - c) + edge) * scale)
+}
+
+/// Λ²w²/2 - cΛ
+fn exponent(g: &Gaussian, lambda: Complex64) -> Complex64 {
+    lambda * (lambda * (0.5 * g.width * g.width) - g.center)
+}
+
+/// Σ|terms| of [`exponent`].
+fn exponent_size(g: &Gaussian, lambda: Complex64) -> f64 {
+    0.5 * lambda.norm_sqr() * g.width * g.width + lambda.norm() * g.center.abs()
+}
+
+/// Re z < 0
+fn is_left(g: &Gaussian, lambda: Complex64) -> bool {
+    lambda.re * g.width * g.width < g.center
+}
+
+/// a w √(2π) exp(Λ²w²/2 - cΛ) e^{-`log_scale`}
+fn two_sided(g: &Gaussian, lambda: Complex64, log_scale: f64) -> Complex64 {
+    (exponent(g, lambda) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt())
+}
+
+/// Σ|terms| of [`closed_forms`].
+fn size_of_closed_forms(terms: &[Gaussian], lambda: Complex64, log_scale: f64) -> f64 {
+    let down = (-log_scale).exp();
+    let size = |g: &Gaussian| {
+        let algebraic = algebraic_part(g, lambda).0.norm() * down;
+        if !is_left(g, lambda) {
+            return algebraic;
+        }
+        let (squared, rounded) = (lambda.norm_sqr(), exponent_size(g, lambda));
+        let rounding = 1.0 + ROUNDING_OF_EXPONENT * rounded;
+        algebraic + two_sided(g, lambda, log_scale).norm() * squared * rounding
+    };
+    terms.iter().map(size).sum()
 }
 
 /// The bracket above with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
@@ -153,25 +265,29 @@ pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
     (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
 }
 
-/// f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
-fn curvature(terms: &[Gaussian], y: f64) -> f64 {
+/// f'(y) and f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
+fn slope_and_curvature(terms: &[Gaussian], y: f64) -> (f64, f64) {
     let scaled = |g: &Gaussian| (y - g.center) / g.width;
-    let near = terms.iter().filter(|g| scaled(g).abs() < WIDTHS_INTEGRATED);
-    let term = |g: &Gaussian| {
-        let z2 = scaled(g).powi(2);
-        g.amplitude / (g.width * g.width) * (z2 - 1.0) * (-0.5 * z2).exp()
-    };
-    near.map(term).sum()
+    let near = terms.iter().map(|g| (g, scaled(g))).filter(|(_, z)| z.abs() < WIDTHS_INTEGRATED);
+    near.fold((0.0, 0.0), |(slope, curvature), (g, z)| {
+        let value = g.amplitude / g.width * (-0.5 * z * z).exp();
+        (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
+    })
 }
 
-/// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip.
+/// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip; near Λ = 0 of
+/// Λ f' e^{-Λy}, which is the same by parts and does not cancel there.
 #[derive(Debug, Clone)]
 struct Panels {
     width: f64,
     /// Nodes within a panel, from its start.
     offsets: Vec<f64>,
-    /// Weight times f'' at every node, panel by panel.
-    weighted: Vec<f64>,
+    /// Weight times f' at every node, panel by panel.
+    slope: Vec<f64>,
+    /// Weight times f'' likewise.
+    curvature: Vec<f64>,
+    /// |Λ| below which the integral by parts is of the smaller terms.
+    by_parts_below: f64,
     largest_lambda: f64,
 }
 
@@ -190,23 +306,52 @@ impl Panels {
         let offsets: Vec<f64> = pairs.iter().map(|(x, _)| 0.5 * width * (1.0 + x)).collect();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let starts = (0..panels as u32).map(|i| f64::from(i) * width);
-        let weighted = starts
+        let (slope, curvature): (Vec<f64>, Vec<f64>) = starts
             .flat_map(|start| {
-                let node =
-                    |(x, w): (&f64, &(f64, f64))| 0.5 * width * w.1 * curvature(terms, start + x);
+                let node = |(x, w): (&f64, &(f64, f64))| {
+                    let (slope, curvature) = slope_and_curvature(terms, start + x);
+                    (0.5 * width * w.1 * slope, 0.5 * width * w.1 * curvature)
+                };
                 offsets.iter().zip(&pairs).map(node).collect::<Vec<_>>()
             })
-            .collect();
-        Self { width, offsets, weighted, largest_lambda }
+            .unzip();
+        let area = |weighted: &[f64]| weighted.iter().map(|v| v.abs()).sum::<f64>();
+        let by_parts_below = area(&curvature) / area(&slope).max(f64::MIN_POSITIVE);
+        Self { width, offsets, slope, curvature, by_parts_below, largest_lambda }
     }
 
     fn serves(&self, lambda: Complex64) -> bool {
         lambda.norm() <= self.largest_lambda
     }
 
-    fn integrate(&self, lambda: Complex64) -> Scaled {
+    fn at(&self, lambda: Complex64) -> Scaled {
+        if lambda.norm() >= self.by_parts_below {
+            return self.integral(&self.curvature, lambda);
+        }
+        let slope = self.integral(&self.slope, lambda);
+        let derivative = slope.value + lambda * slope.derivative;
+        Scaled { value: lambda * slope.value, derivative, ..slope }
+    }
+
+    /// Σ|terms| of [`Self::at`] times e^{-`log_scale`}.
+    fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        let by_parts = lambda.norm() < self.by_parts_below;
+        let weighted = if by_parts { &self.slope } else { &self.curvature };
+        let nodes = self.offsets.len();
+        let at = |(i, weight): (usize, &f64)| {
+            #[expect(clippy::cast_precision_loss, reason = "a count")]
+            let y = (i / nodes) as f64 * self.width + self.offsets[i % nodes];
+            let rounding = 1.0 + ROUNDING_OF_EXPONENT * lambda.norm() * y;
+            weight.abs() * (-lambda.re * y - log_scale).exp() * rounding
+        };
+        let sum: f64 = weighted.iter().enumerate().map(at).sum();
+        if by_parts { sum * lambda.norm() } else { sum }
+    }
+
+    /// ∫g e^{-Λy}dy of `weighted` g, and its derivative.
+    fn integral(&self, weighted: &[f64], lambda: Complex64) -> Scaled {
         let within: Vec<Complex64> = self.offsets.iter().map(|x| (-lambda * x).exp()).collect();
-        let panels = self.weighted.chunks_exact(self.offsets.len());
+        let panels = weighted.chunks_exact(self.offsets.len());
         #[expect(clippy::cast_precision_loss, reason = "a count")]
         let length = self.width * panels.len() as f64;
         let largest = -lambda.re * length;

@@ -75,6 +75,25 @@ pub(super) fn argument_along(
     corners.windows(2).map(|side| argument_change(&h, side[0], side[1])).sum()
 }
 
+/// Corners added to a path, so that h varies little from one to the next:
+/// over the tip's width, and over |Λ| where that is larger and no exponential of Λ² is left.
+pub(super) fn resolved(path: &[Complex64], length: f64) -> Vec<Complex64> {
+    let spacing = |z: Complex64| {
+        let algebraic = z.im + 1.5 * z.re.min(0.0) > 10.0 / length || z.re > 0.0;
+        (0.3 / length).max(if algebraic { 0.2 * z.norm() } else { 0.0 })
+    };
+    let mut corners: Vec<Complex64> = path.iter().take(1).copied().collect();
+    for side in path.windows(2) {
+        let (mut at, to) = (side[0], side[1]);
+        while (to - at).norm() > spacing(at) {
+            at += (to - at) / (to - at).norm() * spacing(at);
+            corners.push(at);
+        }
+        corners.push(to);
+    }
+    corners
+}
+
 /// `turned` in units of `unit`, if that is a whole number ≥ 0.
 pub(super) fn whole(turned: f64, unit: f64) -> Option<usize> {
     let count = turned / unit;

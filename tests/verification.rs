@@ -48,6 +48,8 @@ fn cases() -> Vec<(&'static str, Scenario)> {
         ("trapped", kicked(0.01, triple(0.0, 3.0, 1.0), 1017.0)),
         ("trapped fast", kicked(0.01, triple(1.0, 4.0, 1.0), 1017.0)),
         ("flat", Scenario { start: Start::Flat, ..Scenario::new(triple(1.0, 0.75, 0.6), 90.0) }),
+        // Its groove is 48,000 deep.
+        ("deep", Scenario { start: Start::Flat, ..Scenario::new(triple(1.0, 1.2, 1e-3), 4e4) }),
         ("pulses", Scenario { force, ..plain(triple(1.0, 0.9, 1.0)) }),
         ("bump", Scenario { profile: Some((x, u)), ..plain(triple(1.0, 0.9, 1.0)) }),
         ("noise", Scenario { noise, ..Scenario::new(triple(1.0, 1.1, 1.0), 32.0) }),

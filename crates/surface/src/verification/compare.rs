@@ -12,6 +12,8 @@ const ROUND_OFF: f64 = 1e-12;
 const DIGITS: f64 = 8.0 * f64::EPSILON;
 /// and a height not to this part of what was carved there.
 const DIGITS_OF_SUM: f64 = 1e-13;
+/// Sums by FFT leave this part of the deepest groove everywhere.
+const DIGITS_OF_FFT: f64 = f64::EPSILON;
 
 /// The largest difference of two runs; where differences are not allowed, the one that is least so.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -201,10 +203,11 @@ pub(super) fn compare_u(
     let carved = |by: &Trajectory| Surface::new(model, &flat, by).heights(end, &x);
     let (one, other) = (carved(trajectory)?, carved(reference)?);
     let spread = Spread::of(model.tip(), trajectory, &x);
+    let everywhere = DIGITS_OF_FFT * spread.height.iter().fold(0.0, |most, u| u.max(most));
     let mut worst = Difference { largest: 0.0, at: x[0], allowed };
     for (i, at) in x.iter().enumerate() {
-        let allowed =
-            model.alpha() * (allowed * spread.slope[i] + DIGITS_OF_SUM * spread.height[i]);
+        let sum = DIGITS_OF_SUM * spread.height[i] + everywhere;
+        let allowed = model.alpha() * (allowed * spread.slope[i] + sum);
         let difference = Difference {
             largest: (one[i] - other[i]).abs(),
             at: *at,

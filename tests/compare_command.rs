@@ -117,6 +117,21 @@ fn the_same_input_gives_the_same_document() {
 }
 
 #[test]
+fn both_motions_and_their_distance_are_drawn() {
+    let folder = Folder::new("compare-drawn");
+    let pictures = ["a.svg", "b.svg"].map(|name| {
+        folder.prints(&format!("{CASE} -o c.json --plot {name}"));
+        String::from_utf8(folder.read(name)).unwrap()
+    });
+    assert_eq!(pictures[0], pictures[1]);
+    for label in ["closed equation", "grid", "|Δx₀|", "|Δu|"] {
+        assert!(pictures[0].contains(label), "{label}");
+    }
+    folder.refuses(&format!("{CASE} -o c.svg --plot c.svg"), &["--output c.svg"]);
+    folder.refuses(&format!("{CASE} --plot c.pdf"), &["--plot c.pdf", ".svg"]);
+}
+
+#[test]
 fn what_would_take_too_long_is_refused_with_what_would_do() {
     let folder = Folder::new("compare-long");
     let paper = "compare --alpha 1.2 --r 1 --until 457 --grid uniform --spacing 0.001 --step 0.04";

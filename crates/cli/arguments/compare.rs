@@ -94,11 +94,15 @@ pub(crate) struct CompareArguments {
     /// as NumPy arrays; `-` is JSON on standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
+
+    /// Draw both motions, and how far apart they and the surfaces are, to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:
-    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
+    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76 -o compare.json --plot compare.svg
   The paper's start, noise on the surface:
     stickslip compare --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:

@@ -1,9 +1,11 @@
 //! `stickslip compare`.
 
 mod closed;
+mod draw;
 mod grid;
 mod pace;
 
+use super::figure::Figure;
 use super::run;
 use super::run::disturbance::Disturbance;
 use crate::arguments::CompareArguments;
@@ -25,7 +27,7 @@ const POINTS: usize = 2001;
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
-        &[("--output", Some(&*arguments.output))],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
         &[
             ("--tip-file", arguments.model.tip.tip_file.as_deref()),
             ("--initial-surface", arguments.disturbance.initial_surface.as_deref()),
@@ -34,6 +36,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     )?;
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
+    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
 
@@ -43,6 +46,9 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let document = document(arguments, &asked, &closed, motion, x)?;
     if arguments.output != std::path::Path::new("-") {
         eprintln!("{}", summary(&document));
+    }
+    if let Some(figure) = figure {
+        figure.write(&draw::draw(&document)?)?;
     }
     write(&document, format, output)
 }

@@ -10,7 +10,7 @@ use crate::arguments::{Cli, Command, ModelArguments};
 use crate::commands::sweep::{diagram, merge};
 use crate::commands::{model, run};
 use crate::documents::{RunDocument, SweepDocument};
-use crate::files::input::{parse_columns, parse_document, parse_tip};
+use crate::files::input::{parse_document, parse_profile, parse_tip};
 use crate::files::lines::Lines;
 use clap::Parser;
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip_surface::Surface;
 use stickslip_tip::units::Unit;
-use stickslip_tip::{Force, Running};
+use stickslip_tip::{Force, InitialSurface, Running};
 
 /// Cases of each target where the environment sets no other number: some seconds in all.
 const CASES: u32 = 2000;
@@ -160,8 +160,11 @@ fn any_tip_file_is_taken_or_refused() {
 #[test]
 fn any_columns_are_taken_or_refused() {
     fuzz("columns", |text| {
-        let Ok(columns) = parse_columns(text, "t,force") else { return false };
-        let Ok(force) = Force::new(vec![], Some(columns)) else { return false };
+        // Tables of two columns are read as this does; of three, surfaces alone.
+        let Ok((x, u)) = parse_profile(text) else { return false };
+        let Ok(force) = Force::new(vec![], Some((x.clone(), u.clone()))) else { return false };
+        let Ok(surface) = InitialSurface::flat().with_profile(x, u) else { return false };
+        let _ = surface.slope_and_curvature(16.2);
         // A spline through values near the largest number overflows between them, and a run says so.
         let _ = force.value(16.2);
         true

@@ -73,7 +73,7 @@ pub(crate) fn parse_profile(text: &str) -> Result<Columns, String> {
     }
 }
 
-pub(crate) fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
+fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
     parse_table::<2>(text, heading).map(|[first, second]| (first, second))
 }
 

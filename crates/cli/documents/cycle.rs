@@ -27,7 +27,7 @@ pub(crate) struct CycleDocument {
     pub(crate) amplitude_u: f64,
     /// Maxima of l in one period.
     pub(crate) slips: usize,
-    /// One period, evenly sampled from where l is largest.
+    /// One period from where l is largest, sampled at uneven times: densely where the motion is fast.
     pub(crate) profile: CycleProfile,
     /// Floquet multipliers by falling modulus, down to 1e-6, the one above the real axis first of each
     /// pair: a small deviation is multiplied by them in each period. One is 1, that of a shift in time.
@@ -58,15 +58,16 @@ pub(crate) struct CycleParameters {
     pub(crate) tolerance: f64,
 }
 
-/// Columns of equal length.
+/// Columns of equal length, at times that are uneven: each step of the cycle's mesh, short where the motion is fast,
+/// is divided evenly. The largest velocity is seen to a per cent.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CycleProfile {
-    /// From 0, where l is largest, to T.
+    /// From 0, where l is largest, to T, in Γ/k; ascending, at uneven distances.
     pub(crate) t: Vec<f64>,
-    /// l = rt - r - x0
+    /// l = rt - r - x0, in σ.
     pub(crate) l: Vec<f64>,
-    /// x0'
+    /// x0', in kσ/Γ.
     pub(crate) velocity: Vec<f64>,
 }
 

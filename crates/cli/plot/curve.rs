@@ -42,6 +42,11 @@ impl Pen {
         Self { colour, mark: Mark::Line { width, dashes } }
     }
 
+    /// Of what is too small to be told apart.
+    pub(super) const fn thin(colour: &'static str) -> Self {
+        Self::line(colour, 1.6, "")
+    }
+
     pub(super) const fn small_dots(colour: &'static str, radius: f64) -> Self {
         Self { colour, mark: Mark::Dots { radius } }
     }

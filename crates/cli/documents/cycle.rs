@@ -17,13 +17,13 @@ pub(crate) struct CycleDocument {
     pub(crate) software: Software,
     /// What was asked for.
     pub(crate) parameters: CycleParameters,
-    /// T
+    /// T, in Γ/k.
     pub(crate) period: f64,
-    /// rT, that of the surface left behind.
+    /// rT, that of the surface left behind, in σ.
     pub(crate) wavelength: f64,
-    /// Of l, that is of x0 less its steady advance.
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
     pub(crate) amplitude_x0: f64,
-    /// Of the surface far behind the tip, (35).
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
     pub(crate) amplitude_u: f64,
     /// Maxima of l in one period.
     pub(crate) slips: usize,
@@ -36,7 +36,7 @@ pub(crate) struct CycleDocument {
     pub(crate) floquet_error: f64,
     /// Whether every small deviation but a shift in time dies out.
     pub(crate) stable: bool,
-    /// Estimate of the largest residual of (18) at any time.
+    /// Estimate of the largest residual of (18) at any time, in kσ/Γ.
     pub(crate) residual: f64,
     /// One period, as it was solved for.
     pub(crate) history: History,
@@ -54,7 +54,7 @@ pub(crate) struct CycleParameters {
     /// Footprint, α and r.
     #[serde(flatten)]
     pub(crate) model: ModelParameters,
-    /// Largest residual of (18) asked for.
+    /// Largest residual of (18) asked for, in kσ/Γ.
     pub(crate) tolerance: f64,
 }
 
@@ -79,6 +79,6 @@ pub(crate) struct CycleWork {
     pub(crate) steps: usize,
     /// Newton iterations, on all meshes.
     pub(crate) newton_iterations: usize,
-    /// The one field that differs from run to run.
+    /// Time that it took, in seconds: the one field that differs from run to run.
     pub(crate) seconds: f64,
 }

@@ -139,7 +139,6 @@ fn negative_numbers_are_values() {
         ("--kick -1e-3", "/parameters/kick", json!(-1e-3)),
         ("--kick=-1E-3", "/parameters/kick", json!(-1e-3)),
         ("--start-position -3.5", "/parameters/start_position", json!(-3.5)),
-        ("--noise -1e-6", "/parameters/noise/amplitude", json!(-1e-6)),
         ("--pulse=-2,30,1", "/parameters/pulses/0/amplitude", json!(-2.0)),
         ("--pulse -2e-1,30,1", "/parameters/pulses/0/amplitude", json!(-0.2)),
         ("--pulse 1,20,1 --pulse -2,-30,1", "/parameters/pulses/1/time", json!(-30.0)),

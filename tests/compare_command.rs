@@ -150,6 +150,7 @@ fn unusable_options_are_refused_by_name() {
         ("--spacing NaN", ["--spacing NaN", "above 0"]),
         ("--spacing 1e-9", ["--spacing 1e-9", "memory"]),
         ("--step -1", ["--step -1", "above 0"]),
+        ("--step 100", ["--step 100", "at most"]),
         ("--grid-tolerance 0", ["--grid-tolerance 0", "above 0"]),
         ("--grid-until 3", ["--grid-until 3", "--until"]),
         ("--grid-until 37", ["--grid-until 37", "--until"]),

@@ -26,7 +26,7 @@ fn close(found: f64, wanted: f64, bound: f64) {
 #[test]
 fn a_cycle_is_that_of_the_library() {
     let folder = Folder::new("cycle_library");
-    let document = folder.prints_json("cycle --alpha 1.4 --r 1 --points 8");
+    let document = folder.prints_json("cycle --alpha 1.4 --r 1");
     let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.4, 1.0).unwrap();
     let known = cycle(&model, DEFAULT_TOLERANCE).unwrap();
     close(number(&document["period"]), known.period(), 0.0);
@@ -35,11 +35,30 @@ fn a_cycle_is_that_of_the_library() {
     close(number(&document["floquet"][1]["re"]), known.multipliers()[1].re, 0.0);
     assert_eq!(document["stable"], known.is_stable());
     let (t, l) = (numbers(&document["profile"]["t"]), numbers(&document["profile"]["l"]));
-    assert_eq!((t.len(), l.len()), (9, 9));
-    close(l[0], l[8], 1e-12);
-    close(t[8], known.period(), 1e-12);
+    assert_eq!(t.len(), l.len());
+    assert!(t.is_sorted_by(|a, b| a < b));
+    close(l[0], l[l.len() - 1], 1e-12);
+    close(t[t.len() - 1], known.period(), 1e-12);
     assert!(l.iter().all(|l| *l <= known.extremes().1 + 1e-12));
     assert!(number(&document["floquet_error"]) < 1e-8);
+}
+
+/// Relaxation: T = 166, but the slip at 206 r lasts a few thousandths of it.
+#[test]
+fn the_profile_of_a_cycle_shows_its_fastest_slip() {
+    let folder = Folder::new("cycle_profile");
+    let largest = |options: &str| {
+        let document = folder.prints_json(&format!("cycle --alpha 2 --r 1 {options}"));
+        let velocity = numbers(&document["profile"]["velocity"]);
+        (velocity.len(), velocity.into_iter().fold(0.0, f64::max))
+    };
+    let (_, fine) = largest("--points 200000");
+    close(fine, 206.204, 1e-2);
+    for options in ["", "--points 1 --tolerance 1e-4"] {
+        let (rows, found) = largest(options);
+        assert!(rows < 2000, "{rows} rows");
+        close(found, fine, 0.01 * fine);
+    }
 }
 
 #[test]
@@ -122,7 +141,8 @@ fn pictures_and_tables_of_a_cycle_are_made() {
     let folder = Folder::new("cycle_files");
     folder.prints("cycle --alpha 1.9 --r 1 --points 50 -o cycle.csv --plot cycle.svg");
     let table = String::from_utf8(folder.read("cycle.csv")).unwrap();
-    assert_eq!(table.lines().count(), 52);
+    // No fewer intervals than asked for, and two in each of some 150 steps.
+    assert!((52..400).contains(&table.lines().count()), "{} lines", table.lines().count());
     let picture = String::from_utf8(folder.read("cycle.svg")).unwrap();
     assert!(picture.starts_with("<svg") && picture.contains("u far behind the tip"));
     let output = folder.stickslip("cycle --alpha 1.2 --r 1 -o cycle.npz");

@@ -104,6 +104,38 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     assert_eq!(offered, tested);
 }
 
+/// Paths of all properties that nothing is said about.
+fn unexplained(schema: &Value, path: &str) -> Vec<String> {
+    let below = |(name, value): (String, &Value)| unexplained(value, &format!("{path}/{name}"));
+    match schema {
+        Value::Object(entries) => {
+            let properties = entries.get("properties").and_then(Value::as_object);
+            let silent = properties.into_iter().flatten().filter(|(_, property)| {
+                !["description", "const"].iter().any(|word| property.get(word).is_some())
+            });
+            let here = silent.map(|(name, _)| format!("{path}/{name}"));
+            here.chain(entries.iter().flat_map(|(name, v)| below((name.clone(), v)))).collect()
+        }
+        Value::Array(values) => {
+            values.iter().enumerate().flat_map(|(i, v)| below((i.to_string(), v))).collect()
+        }
+        _ => vec![],
+    }
+}
+
+#[test]
+fn every_field_of_every_document_is_explained() {
+    let folder = Folder::new("explained");
+    let runs = ["run", "run-lines", "checkpoint", "surface", "verify", "figure", "reproduction"];
+    for name in runs.into_iter().chain(OTHERS.map(|o| o.0)) {
+        let schema = folder.prints_json(&format!("schema {name}"));
+        let silent = unexplained(&schema, name);
+        assert!(silent.is_empty(), "{silent:#?}");
+    }
+    let bare = json!({"properties": {"period": {"type": "number"}}});
+    assert_eq!(unexplained(&bare, "bare"), ["bare/period"]);
+}
+
 /// A schema that accepts anything would pass the tests above.
 #[test]
 fn the_schemas_refuse_what_is_no_document() {

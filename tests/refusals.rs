@@ -48,7 +48,7 @@ fn parameters_out_of_range_are_refused() {
 #[test]
 fn options_of_a_run_out_of_range_are_refused() {
     let folder = Folder::new("options");
-    let cases: [(&str, &[&str]); 40] = [
+    let cases: [(&str, &[&str]); 41] = [
         ("", &["--until"]),
         ("--until 10", &["--until 10", "starts at t = 16.03", "after"]),
         ("--until -5", &["--until -5", "starts at"]),
@@ -75,6 +75,7 @@ fn options_of_a_run_out_of_range_are_refused() {
         ("--until 60 --sample-at nan", &["--sample-at NaN", "to 60"]),
         ("--until 60 --sample-at 20,", &["--sample-at"]),
         ("--until 60 --sample-at 20 --sample-every 1", &["--sample-at", "--sample-every"]),
+        ("--until 60 --noise -1", &["--noise -1", "amplitude 0 or above"]),
         ("--until 60 --noise nan", &["--noise NaN", "finite"]),
         ("--until 60 --noise 1 --noise-spacing 0", &["--noise-spacing 0", "above 0"]),
         ("--until 60 --noise 1 --noise-spacing -1", &["--noise-spacing -1", "above 0"]),
@@ -92,6 +93,40 @@ fn options_of_a_run_out_of_range_are_refused() {
     ];
     for (options, words) in cases {
         folder.refuses(&format!("run --alpha 1.2 --r 1 {options}"), words);
+    }
+}
+
+#[test]
+fn forces_that_nothing_feels_are_warned_of() {
+    let folder = Folder::new("idle");
+    folder.write("late.csv", "t,force\n70,0\n72,1\n75,0\n");
+    folder.write("early.csv", "t,force\n1,0\n2,1\n3,0\n");
+    let warned = |line: &str| said(&folder.stickslip(&format!("{line} -o out.json")));
+    let run = "run --alpha 0.9 --r 1 --until 40";
+    let compare = "compare --alpha 0.9 --r 1 --until 40";
+    let response = "response --alpha 0.9 --r 1 --until 40";
+    for (line, words) in [
+        (&format!("{run} --pulse 1,60,0.5"), ["--pulse 1,60,0.5 has no", "--until above 60"]),
+        (&format!("{compare} --pulse 1,60,0.5"), ["--pulse 1,60,0.5 has no", "--until above 60"]),
+        (&format!("{response} --pulse 1,60,0.5"), ["--pulse 1,60,0.5 has no", "--until above 60"]),
+        (
+            &format!("{run} --pulse 1,20,1 --pulse=-2,5,1"),
+            ["--pulse -2,5,1 has no", "start at t = 15.7"],
+        ),
+        (&format!("{run} --force-file late.csv"), ["--force-file late.csv", "--until above 70"]),
+        (&format!("{run} --force-file early.csv"), ["--force-file early.csv", "start at t = 15.7"]),
+    ] {
+        let said = warned(line);
+        assert!(words.iter().all(|word| said.contains(word)), "{line}\n{said}");
+        assert_eq!(said.matches("has no effect").count(), 1, "{line}\n{said}");
+    }
+    // Of these at least a tail is felt, or an echo.
+    for line in [
+        &format!("{run} --pulse 1,44,0.5"),
+        &format!("{run} --pulse 1,12,0.5"),
+        &format!("{response} --pulse 1,5,0.5"),
+    ] {
+        assert!(!warned(line).contains("no effect"), "{line}");
     }
 }
 

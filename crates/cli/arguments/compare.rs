@@ -69,7 +69,7 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) grid_tolerance: Option<f64>,
 
-    /// Steps of this length throughout instead; the paper has about 0.04.
+    /// Steps of this length throughout instead, at most that of the run; the paper has about 0.04.
     #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) step: Option<f64>,
 

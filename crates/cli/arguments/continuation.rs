@@ -67,7 +67,7 @@ pub(crate) struct ContinueArguments {
     pub(crate) output: PathBuf,
 
     /// Draw amplitude and period over what varies, stable cycles solid and unstable ones dashed, to this .svg
-    /// or .png.
+    /// or .png; by their logarithm where they become large.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

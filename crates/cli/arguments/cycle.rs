@@ -37,7 +37,8 @@ pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) start: CycleStart,
 
-    /// Intervals of the profile, even over the period.
+    /// Intervals of the profile, about, and not fewer. They are uneven in time: each step of the cycle's mesh, short
+    /// where the motion is fast, is divided evenly, in two at least.
     #[arg(long, value_name = "N", default_value_t = 400, help_heading = "Output")]
     pub(crate) points: usize,
 

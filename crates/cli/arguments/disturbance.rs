@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DisturbanceArguments {
-    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them.
+    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them; A is 0 or
+    /// above.
     #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) noise: Option<f64>,
 
@@ -36,7 +37,8 @@ pub(crate) struct DisturbanceArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 
-    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable.
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable. One that nothing feels, as it comes
+    /// before the start or after the end, is warned of.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 

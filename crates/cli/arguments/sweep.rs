@@ -129,7 +129,7 @@ pub(crate) struct SweepArguments {
     pub(crate) output: PathBuf,
 
     /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
-    /// .svg or .png.
+    /// .svg or .png. What has neither, such as steady and trapped tips, is marked at the foot.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -7,7 +7,7 @@ mod pace;
 
 use super::figure::Figure;
 use super::run;
-use super::run::disturbance::Disturbance;
+use super::run::disturbance::{Disturbance, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::documents::{
     CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, Software,
@@ -68,6 +68,7 @@ impl Asked {
     fn of(arguments: &CompareArguments) -> Result<Self, Failure> {
         let disturbance = Disturbance::of(&arguments.disturbance)?;
         let scenario = closed::scenario(arguments, &disturbance)?;
+        warn_of_idle(&arguments.disturbance, &disturbance, (scenario.start_time(), scenario.until));
         let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
@@ -75,6 +76,13 @@ impl Asked {
             return Err(Failure::input(
                 format!("--grid-until {}", Typed(grid_until)),
                 format!("must lie between the start at t = {start} and --until"),
+            ));
+        }
+        let (longest, step) = (grid_until - start, arguments.step.unwrap_or(0.0));
+        if step > longest {
+            return Err(Failure::input(
+                format!("--step {}", Typed(step)),
+                format!("is longer than the run of the grid: at most {} will do", Typed(longest)),
             ));
         }
         let time_limit = arguments.time_limit;

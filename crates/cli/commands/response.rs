@@ -3,6 +3,7 @@
 use super::figure::Figure;
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
+use super::run::disturbance::warn_of_idle_pulses;
 use super::run::limits::within_range;
 use super::run::parse_pulses;
 use super::run::samples::times;
@@ -70,6 +71,8 @@ impl Asked {
                 format!("the samples start at t = {}: it must be after that", Typed(start));
             return Err(Failure::input(format!("--until {}", Typed(until)), message));
         }
+        // A pulse before the samples is felt in them.
+        warn_of_idle_pulses(&arguments.pulse, &pulses, (f64::NEG_INFINITY, until));
         let times = times(&arguments.sampling, (start, until), "the response")?;
         let origin = pulses.iter().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
         Ok(Self { model, pulses, times, origin })

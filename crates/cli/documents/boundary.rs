@@ -57,6 +57,7 @@ pub(crate) struct BoundaryParameters {
     pub(crate) r_range: [f64; 2],
     /// Number of r.
     pub(crate) points: usize,
+    /// How that range is divided.
     pub(crate) spacing: SpacingName,
 }
 
@@ -64,12 +65,13 @@ pub(crate) struct BoundaryParameters {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OnsetColumns {
+    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
     pub(crate) criticality: Vec<Option<CriticalityName>>,
-    /// d(a²)/dα, a half the peak-to-peak of l.
+    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
     pub(crate) amplitude_squared_slope: Vec<Option<f64>>,
-    /// dT/dα along the branch.
+    /// dT/dα along the branch, in Γ/k.
     pub(crate) period_slope: Vec<Option<f64>>,
-    /// First Lyapunov coefficient.
+    /// First Lyapunov coefficient, in k/(Γσ²).
     pub(crate) lyapunov: Vec<Option<f64>>,
 }
 
@@ -77,11 +79,11 @@ pub(crate) struct OnsetColumns {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BranchDocument {
-    /// Ω, ascending.
+    /// Ω, ascending, in 1/σ.
     #[serde(rename = "Omega")]
     pub(crate) wave_number: Vec<f64>,
-    /// (42)
+    /// r, dimensionless, (42).
     pub(crate) r: Vec<f64>,
-    /// (43)
+    /// α, dimensionless, (43).
     pub(crate) alpha: Vec<f64>,
 }

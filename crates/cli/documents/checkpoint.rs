@@ -22,13 +22,13 @@ pub(crate) struct CheckpointHead {
     pub(crate) software: Software,
     /// What was asked for.
     pub(crate) order: Order,
-    /// Time reached.
+    /// Time reached, in Γ/k.
     pub(crate) t: f64,
     /// Samples taken.
     pub(crate) samples: u64,
     /// What is written of the output (`.jsonl`), or kept for it beside the checkpoint.
     pub(crate) written: Mark,
-    /// Spent on the integration.
+    /// Spent on the integration, in seconds.
     pub(crate) seconds: f64,
     /// Words of the state.
     pub(crate) words: u64,
@@ -52,7 +52,7 @@ pub(crate) struct Order {
     pub(crate) plot: Option<PathBuf>,
     /// Whether the run is repeated to verify it.
     pub(crate) verify: bool,
-    /// Time between two checkpoints, if any are made.
+    /// Time between two checkpoints, in Γ/k, if any are made.
     pub(crate) checkpoint_every: Option<f64>,
 }
 
@@ -61,7 +61,16 @@ pub(crate) struct Order {
 #[serde(untagged, deny_unknown_fields)]
 pub(crate) enum Times {
     /// start, start + every, … `intervals` times, and not beyond end.
-    Every { start: f64, every: f64, end: f64, intervals: u64 },
+    Every {
+        /// The first, in Γ/k.
+        start: f64,
+        /// From one to the next, in Γ/k.
+        every: f64,
+        /// None is beyond this time, in Γ/k.
+        end: f64,
+        /// Samples but the first.
+        intervals: u64,
+    },
     /// As given.
     At(Vec<f64>),
 }

@@ -17,9 +17,9 @@ pub(crate) struct CompareDocument {
     pub(crate) software: Software,
     /// What was asked for.
     pub(crate) parameters: CompareParameters,
-    /// Times of the motions below.
+    /// Times of the motions below, in Γ/k.
     pub(crate) t: Vec<f64>,
-    /// Positions of the surfaces below, which are those at the last time.
+    /// Positions of the surfaces below, which are those at the last time, in σ.
     pub(crate) x: Vec<f64>,
     /// The closed delay equation.
     pub(crate) closed: ClosedDocument,
@@ -44,9 +44,9 @@ pub(crate) struct CompareParameters {
     pub(crate) model: ModelParameters,
     /// Initial state.
     pub(crate) start: StartName,
-    /// X: position of the tip at the start.
+    /// X: position of the tip at the start, in σ.
     pub(crate) start_position: f64,
-    /// D: the tip starts at X - D.
+    /// D: the tip starts at X - D, in σ.
     pub(crate) kick: f64,
     /// Noise added to the initial surface.
     pub(crate) noise: Option<NoiseParameters>,
@@ -56,21 +56,21 @@ pub(crate) struct CompareParameters {
     pub(crate) pulses: Vec<PulseParameters>,
     /// Tabulated external force.
     pub(crate) force: Option<ForceTable>,
-    /// Time at which the closed equation ends.
+    /// Time at which the closed equation ends, in Γ/k.
     pub(crate) until: f64,
-    /// Error asked of the closed equation.
+    /// Error asked of the closed equation, in σ.
     pub(crate) tolerance: f64,
     /// Memory asked for.
     pub(crate) memory: MemoryName,
     /// Discretisation.
     pub(crate) grid: GridName,
-    /// Δx
+    /// Δx, in σ.
     pub(crate) spacing: f64,
-    /// Local error allowed in a step; null where all steps have one length.
+    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null where all steps have one length.
     pub(crate) grid_tolerance: Option<f64>,
-    /// That length.
+    /// That length, in Γ/k; null where steps are adaptive.
     pub(crate) step: Option<f64>,
-    /// Time at which the grid ends.
+    /// Time at which the grid ends, in Γ/k.
     pub(crate) grid_until: f64,
 }
 
@@ -78,9 +78,9 @@ pub(crate) struct CompareParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ClosedDocument {
-    /// At the times `t`.
+    /// x0 at the times `t`, in σ.
     pub(crate) x0: Vec<f64>,
-    /// At the positions `x`, at the last time.
+    /// u at the positions `x`, at the last time, in kσ²/a.
     pub(crate) u: Vec<f64>,
     /// What it took, from its start to `until`.
     pub(crate) work: ClosedWork,
@@ -96,8 +96,9 @@ pub(crate) struct ClosedWork {
     pub(crate) steps: u64,
     /// Steps repeated with a smaller length.
     pub(crate) rejected: u64,
+    /// Newton iterations in all steps.
     pub(crate) newton_iterations: u64,
-    /// Shortest time of several repetitions.
+    /// Shortest time of several repetitions, in seconds.
     pub(crate) seconds: f64,
 }
 
@@ -105,9 +106,9 @@ pub(crate) struct ClosedWork {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GridDocument {
-    /// At the times `t`.
+    /// x0 at the times `t`, in σ.
     pub(crate) x0: Vec<f64>,
-    /// At the positions `x`, at the last time.
+    /// u at the positions `x`, at the last time, in kσ²/a.
     pub(crate) u: Vec<f64>,
     /// What it took, from its start to `grid_until`.
     pub(crate) work: GridWork,
@@ -125,7 +126,7 @@ pub(crate) struct GridWork {
     pub(crate) right_hand_sides: u64,
     /// Evaluations of the right-hand side of (11), summed over the cells.
     pub(crate) cells_updated: u64,
-    /// Shortest time of as many repetitions as half a second allows, at least one.
+    /// Shortest time of as many repetitions as half a second allows, at least one, in seconds.
     pub(crate) seconds: f64,
 }
 
@@ -133,8 +134,8 @@ pub(crate) struct GridWork {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DifferenceDocument {
-    /// Over the times `t`.
+    /// In x0, over the times `t`, in σ.
     pub(crate) x0: f64,
-    /// Over the positions `x`, at the last time.
+    /// In u, over the positions `x` at the last time, in kσ²/a.
     pub(crate) u: f64,
 }

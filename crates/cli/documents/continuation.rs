@@ -46,10 +46,13 @@ pub(crate) struct ContinueParameters {
     pub(crate) to: Option<f64>,
     /// Whether the branches of twice the period were followed.
     pub(crate) switch: bool,
+    /// The period, in Γ/k, beyond which a branch is not followed.
     pub(crate) longest_period: f64,
+    /// Longest step from one cycle to the next, in relative changes of parameter, period and l.
     pub(crate) longest_step: f64,
+    /// Number of cycles with which a branch ends at the latest.
     pub(crate) most_points: usize,
-    /// Largest residual of (18).
+    /// Largest residual of (18), in kσ/Γ.
     pub(crate) tolerance: f64,
 }
 
@@ -59,17 +62,22 @@ pub(crate) struct ContinueParameters {
 pub(crate) struct CycleBranch {
     /// Index in `special` of the period doubling that it began at; null for the first branch.
     pub(crate) from: Option<usize>,
+    /// α of each cycle, dimensionless (13).
     pub(crate) alpha: Vec<f64>,
+    /// r of each cycle, dimensionless (12).
     pub(crate) r: Vec<f64>,
+    /// T of each cycle, in Γ/k.
     pub(crate) period: Vec<f64>,
-    /// Of l, that is of x0 less its steady advance.
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
     pub(crate) amplitude_x0: Vec<f64>,
-    /// Of the surface far behind the tip, (35).
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
     pub(crate) amplitude_u: Vec<f64>,
+    /// Whether every small deviation from the cycle but a shift in time dies out.
     pub(crate) stable: Vec<bool>,
-    /// Real and imaginary part of the largest Floquet multiplier but that of a shift in time; 0 where all are
+    /// Real part of the largest Floquet multiplier but that of a shift in time, dimensionless; 0 where all are
     /// below 1e-6.
     pub(crate) multiplier_re: Vec<f64>,
+    /// Its imaginary part.
     pub(crate) multiplier_im: Vec<f64>,
     /// Why it ends where it does.
     pub(crate) end: EndName,
@@ -103,10 +111,13 @@ pub(crate) struct SpecialDocument {
     pub(crate) kind: SpecialName,
     /// Index in `branches`.
     pub(crate) branch: usize,
+    /// α there, dimensionless (13).
     pub(crate) alpha: f64,
+    /// r there, dimensionless (12).
     pub(crate) r: f64,
+    /// T of the cycle there, in Γ/k; at a Hopf point that of the oscillation that is born.
     pub(crate) period: f64,
-    /// Of the cycle there; 0 at a Hopf point.
+    /// Half peak-to-peak of l of the cycle there, in σ; 0 at a Hopf point.
     pub(crate) amplitude_x0: f64,
 }
 

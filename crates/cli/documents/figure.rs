@@ -17,10 +17,13 @@ pub(crate) struct FigureDocument {
     pub(crate) software: Software,
     /// Of its files.
     pub(crate) name: String,
+    /// Above all panels.
     pub(crate) title: String,
+    /// What was drawn.
     pub(crate) parameters: FigureParameters,
     /// What differs from the paper's figure, and why.
     pub(crate) remarks: Vec<String>,
+    /// From top to bottom.
     pub(crate) panels: Vec<PanelDocument>,
 }
 
@@ -40,12 +43,17 @@ pub(crate) struct FigureParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelDocument {
+    /// Above the axes; may be empty.
     pub(crate) heading: String,
+    /// Of the abscissas, with their unit if they have one.
     pub(crate) x_label: String,
+    /// Of the ordinates, with their units if they have any.
     pub(crate) y_label: String,
+    /// In the order in which they are drawn.
     pub(crate) curves: Vec<CurveDocument>,
+    /// Fills the axes, if there is one.
     pub(crate) map: Option<MapDocument>,
-    /// First and last y shown; null where they are fitted to the curves.
+    /// First and last y shown, in the unit of `y_label`; null where they are fitted to the curves.
     pub(crate) y_range: Option<[f64; 2]>,
 }
 
@@ -70,9 +78,11 @@ pub(crate) enum StyleName {
 pub(crate) struct CurveDocument {
     /// In the legend; null if it has none.
     pub(crate) name: Option<String>,
+    /// How it is drawn.
     pub(crate) style: StyleName,
+    /// Abscissas, in the unit of `x_label`.
     pub(crate) x: Vec<f64>,
-    /// null where there is no value.
+    /// Ordinates, in the unit of `y_label`; null where there is no value.
     pub(crate) y: Vec<Option<f64>>,
 }
 
@@ -90,10 +100,14 @@ pub(crate) enum ColoursName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MapDocument {
+    /// Positions of the columns, in the unit of `x_label`.
     pub(crate) x: Vec<f64>,
+    /// Positions of the rows, in the unit of `y_label`.
     pub(crate) y: Vec<f64>,
-    /// A row for each y.
+    /// Values, in the unit of `z_label`: a row for each y.
     pub(crate) z: Vec<Vec<f64>>,
+    /// Of the values, with their unit.
     pub(crate) z_label: String,
+    /// How values are coloured.
     pub(crate) colours: ColoursName,
 }

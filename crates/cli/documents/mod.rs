@@ -68,7 +68,9 @@ pub(crate) const FORMAT_VERSION: u32 = 1;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Software {
+    /// "stickslip"
     pub(crate) name: String,
+    /// Of the program, as `stickslip --version` says.
     pub(crate) version: String,
 }
 

@@ -39,7 +39,7 @@ pub(crate) struct LayerDocument {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GaussianDocument {
-    /// a
+    /// a, dimensionless.
     pub(crate) amplitude: f64,
     /// c, in σ
     pub(crate) center: f64,
@@ -115,7 +115,7 @@ pub(crate) struct ModelParameters {
     pub(crate) tip: TipDocument,
     /// Dimensionless indentation rate α (13).
     pub(crate) alpha: f64,
-    /// D, where α was given as αc(r) + D.
+    /// D, where α was given as αc(r) + D; dimensionless.
     pub(crate) alpha_above: Option<f64>,
     /// Dimensionless support velocity r (12).
     pub(crate) r: f64,

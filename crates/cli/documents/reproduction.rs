@@ -16,6 +16,7 @@ pub(crate) struct ReproductionDocument {
     pub(crate) software: Software,
     /// What the numbers depend on besides what each entry says: nothing.
     pub(crate) parameters: ReproductionParameters,
+    /// One row for each printed number.
     pub(crate) numbers: Vec<NumberDocument>,
 }
 
@@ -40,10 +41,11 @@ pub(crate) struct NumberDocument {
     pub(crate) place: String,
     /// As printed.
     pub(crate) printed: String,
-    /// Its value.
+    /// Its value, in the dimensionless units of the paper.
     pub(crate) value: f64,
     /// Half a unit of its last digit; 1e-9 for whole numbers, which are exact, 0.005 for exponents.
     pub(crate) precision: f64,
+    /// Our number for it, in the same unit.
     pub(crate) ours: f64,
     /// ours/value - 1; null where the printed value is 0.
     pub(crate) relative_difference: Option<f64>,

@@ -22,13 +22,13 @@ pub(crate) struct ResponseDocument {
     pub(crate) steady_state: SteadyState,
     /// Terms of (A.9) by falling Re λ.
     pub(crate) modes: Vec<ModeDocument>,
-    /// Time t0 that the residues refer to, the center of the last pulse: from `valid_from` on,
+    /// Time t0, in Γ/k, that the residues refer to, the center of the last pulse: from `valid_from` on,
     /// l(t) - l0 = Σ residue e^{λ(t-t0)}.
     pub(crate) origin: f64,
-    /// Time from which on, after the last pulse, the modes left out are estimated to add less than
+    /// Time, in Γ/k, from which on, after the last pulse, the modes left out are estimated to add less than
     /// `valid_to` of the leading mode. While a pulse lasts the sum is off by up to a half of the whole.
     pub(crate) valid_from: f64,
-    /// 1e-6
+    /// 1e-6, a ratio.
     pub(crate) valid_to: f64,
     /// That no mode right of the last is missing.
     pub(crate) certificate: CertificateDocument,
@@ -52,9 +52,9 @@ pub(crate) struct ResponseParameters {
     pub(crate) pulses: Vec<PulseParameters>,
     /// Least number of modes.
     pub(crate) modes: usize,
-    /// The samples begin where a run from this position would.
+    /// The samples begin where a run from this position, in σ, would.
     pub(crate) start_position: f64,
-    /// Time of the last sample.
+    /// Time of the last sample, in Γ/k.
     pub(crate) until: f64,
 }
 
@@ -62,7 +62,9 @@ pub(crate) struct ResponseParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ModeDocument {
+    /// λ, in k/Γ.
     pub(crate) lambda: ComplexDocument,
+    /// Its residue, in σ.
     pub(crate) residue: ComplexDocument,
 }
 
@@ -70,9 +72,10 @@ pub(crate) struct ModeDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResponseSamples {
+    /// Times, in Γ/k.
     pub(crate) t: Vec<f64>,
-    /// l = rt - r - x0; null where it has grown beyond all numbers.
+    /// l = rt - r - x0, in σ; null where it has grown beyond all numbers.
     pub(crate) l: Vec<Option<f64>>,
-    /// l - l0, with all its digits where that is small.
+    /// l - l0, in σ, with all its digits where that is small.
     pub(crate) deviation: Vec<Option<f64>>,
 }

@@ -49,9 +49,9 @@ pub(crate) struct RunParameters {
     pub(crate) model: ModelParameters,
     /// Initial state.
     pub(crate) start: StartName,
-    /// X: position of the tip at the start.
+    /// X: position of the tip at the start, in σ.
     pub(crate) start_position: f64,
-    /// D: the tip starts at X - D.
+    /// D: the tip starts at X - D, in σ.
     pub(crate) kick: f64,
     /// Noise added to the initial surface.
     pub(crate) noise: Option<NoiseParameters>,
@@ -61,9 +61,9 @@ pub(crate) struct RunParameters {
     pub(crate) pulses: Vec<PulseParameters>,
     /// Tabulated external force.
     pub(crate) force: Option<ForceTable>,
-    /// Time at which the run was to end.
+    /// Time at which the run was to end, in Γ/k.
     pub(crate) until: f64,
-    /// Error of l asked for.
+    /// Error of l asked for, in σ.
     pub(crate) tolerance: f64,
     /// Memory asked for.
     pub(crate) memory: MemoryName,
@@ -73,9 +73,11 @@ pub(crate) struct RunParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseParameters {
+    /// Largest height, 0 or above, in kσ²/a.
     pub(crate) amplitude: f64,
-    /// Distance of the grid points.
+    /// Distance of the grid points, in σ.
     pub(crate) spacing: f64,
+    /// Of the random numbers.
     pub(crate) seed: u64,
 }
 
@@ -83,7 +85,9 @@ pub(crate) struct NoiseParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Profile {
+    /// Positions, ascending, in σ.
     pub(crate) x: Vec<f64>,
+    /// Heights there, in kσ²/a.
     pub(crate) u: Vec<f64>,
 }
 
@@ -91,8 +95,11 @@ pub(crate) struct Profile {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PulseParameters {
+    /// Largest force, in kσ.
     pub(crate) amplitude: f64,
+    /// When it is largest, in Γ/k.
     pub(crate) time: f64,
+    /// Standard deviation in time, in Γ/k.
     pub(crate) width: f64,
 }
 
@@ -100,7 +107,9 @@ pub(crate) struct PulseParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceTable {
+    /// Times, ascending, in Γ/k.
     pub(crate) t: Vec<f64>,
+    /// Forces then, in kσ.
     pub(crate) force: Vec<f64>,
 }
 
@@ -108,11 +117,11 @@ pub(crate) struct ForceTable {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SteadyState {
-    /// l0 = α f(0)/r.
+    /// l0 = α f(0)/r, in σ.
     pub(crate) l: f64,
-    /// r + l0, the distance by which the tip lags behind the support.
+    /// r + l0, the distance by which the tip lags behind the support, in σ.
     pub(crate) lag: f64,
-    /// Height far behind the tip, (25); null where ∫f is not finite.
+    /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
     pub(crate) surface_behind: Option<f64>,
 }
 
@@ -120,11 +129,13 @@ pub(crate) struct SteadyState {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Samples {
+    /// Times, in Γ/k.
     pub(crate) t: Vec<f64>,
-    /// l = rt - r - x0
+    /// l = rt - r - x0, in σ.
     pub(crate) l: Vec<f64>,
+    /// Position of the tip, in σ.
     pub(crate) x0: Vec<f64>,
-    /// x0', the derivative of the dense history: one order less accurate than x0.
+    /// x0', in kσ/Γ, the derivative of the dense history: one order less accurate than x0.
     pub(crate) velocity: Vec<f64>,
 }
 
@@ -137,15 +148,15 @@ pub(crate) struct Samples {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct History {
-    /// Collocation nodes (Radau IIA).
+    /// Collocation nodes (Radau IIA), as parts of a step.
     pub(crate) nodes: Vec<f64>,
-    /// Quadrature weights of the nodes.
+    /// Quadrature weights of the nodes, as parts of a step.
     pub(crate) weights: Vec<f64>,
-    /// Start of each step, and the end of the last.
+    /// Start of each step, and the end of the last, in Γ/k.
     pub(crate) t: Vec<f64>,
-    /// rt - x0 at the start of each step.
+    /// rt - x0 at the start of each step, in σ.
     pub(crate) extension: Vec<f64>,
-    /// x0 less its value at the start of the step, at the nodes.
+    /// x0 less its value at the start of the step, at the nodes, in σ.
     pub(crate) displacement: Vec<Vec<f64>>,
 }
 
@@ -189,13 +200,14 @@ impl std::fmt::Display for RegimeName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OscillationDocument {
+    /// T, in Γ/k.
     pub(crate) period: f64,
-    /// r times the period.
+    /// r times the period, in σ.
     pub(crate) wavelength: f64,
-    /// Of l, that is of x0 less its steady advance.
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
     pub(crate) amplitude_x0: f64,
-    /// Of the surface left behind, (35); null where less than one wavelength lies out of reach of the
-    /// tip, or f never fades.
+    /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
+    /// of reach of the tip, or f never fades.
     pub(crate) amplitude_u: Option<f64>,
     /// Maxima of l in one period.
     pub(crate) slips: usize,
@@ -215,7 +227,8 @@ pub(crate) struct WorkDocument {
     pub(crate) steps: u64,
     /// Steps repeated with a smaller length.
     pub(crate) rejected: u64,
+    /// Newton iterations in all steps.
     pub(crate) newton_iterations: u64,
-    /// Time of the integration alone: the one field that differs from run to run.
+    /// Time of the integration alone, in seconds: the one field that differs from run to run.
     pub(crate) seconds: f64,
 }

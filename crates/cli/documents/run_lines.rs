@@ -54,11 +54,13 @@ impl RunHead {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SampleLine {
+    /// Time, in Γ/k.
     pub(crate) t: f64,
-    /// l = rt - r - x0
+    /// l = rt - r - x0, in σ.
     pub(crate) l: f64,
+    /// Position of the tip, in σ.
     pub(crate) x0: f64,
-    /// x0', one order less accurate than x0.
+    /// x0', in kσ/Γ, one order less accurate than x0.
     pub(crate) velocity: f64,
 }
 
@@ -66,7 +68,7 @@ pub(crate) struct SampleLine {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunEnd {
-    /// Time reached.
+    /// Time reached, in Γ/k.
     pub(crate) end: f64,
     /// The kind of motion at the end of the run.
     pub(crate) regime: RegimeName,

@@ -52,7 +52,7 @@ pub(crate) struct StabilityParameters {
     pub(crate) at_critical_point: bool,
     /// Number of roots asked for; null where a bound was.
     pub(crate) roots: Option<usize>,
-    /// Bound of Re λ asked for; null where a number was.
+    /// Bound of Re λ asked for, in k/Γ; null where a number was.
     pub(crate) re_above: Option<f64>,
 }
 
@@ -60,7 +60,9 @@ pub(crate) struct StabilityParameters {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ComplexDocument {
+    /// Real part, in the unit of the number.
     pub(crate) re: f64,
+    /// Imaginary part, in the same unit.
     pub(crate) im: f64,
 }
 
@@ -74,9 +76,9 @@ pub(crate) struct CriticalDocument {
     pub(crate) r: f64,
     /// Frequency ω in time, in k/Γ.
     pub(crate) omega: f64,
-    /// 2π/ω
+    /// 2π/ω, in Γ/k.
     pub(crate) period: f64,
-    /// 2πr/ω
+    /// 2πr/ω, in σ.
     pub(crate) wavelength: f64,
 }
 
@@ -86,7 +88,7 @@ pub(crate) struct CriticalDocument {
 pub(crate) struct TrappingDocument {
     /// The smallest α at which there is such a motion at this r; null if there is none at any α.
     pub(crate) alpha: Option<f64>,
-    /// The two p at the α and r of `parameters`, the repelling one first; null below the threshold.
+    /// The two p at the α and r of `parameters`, in 1/σ, the repelling one first; null below the threshold.
     pub(crate) creep_rates: Option<[f64; 2]>,
 }
 
@@ -95,8 +97,11 @@ pub(crate) struct TrappingDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CertificateDocument {
+    /// Left edge, in k/Γ.
     pub(crate) re_min: f64,
+    /// Right edge, in k/Γ.
     pub(crate) re_max: f64,
+    /// Upper edge, and the lower one with its sign changed, in k/Γ.
     pub(crate) im_max: f64,
     /// By the argument principle.
     pub(crate) counted: usize,
@@ -106,7 +111,7 @@ pub(crate) struct CertificateDocument {
     pub(crate) complete: bool,
     /// Largest residual of a listed root, relative to the terms of the equation.
     pub(crate) largest_residual: f64,
-    /// Estimate of the largest error of a listed λ.
+    /// Estimate of the largest error of a listed λ, in k/Γ.
     pub(crate) largest_error: f64,
 }
 
@@ -124,16 +129,17 @@ pub(crate) enum CriticalityName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OnsetDocument {
+    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
     pub(crate) criticality: CriticalityName,
-    /// d(a²)/dα, a half the peak-to-peak of l.
+    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
     pub(crate) amplitude_squared_slope: f64,
-    /// dT/dα along the branch.
+    /// dT/dα along the branch, in Γ/k.
     pub(crate) period_slope: f64,
-    /// dω/dα along the branch.
+    /// dω/dα along the branch, in k/Γ.
     pub(crate) omega_slope: f64,
-    /// d(Re λ)/dα of the critical pair.
+    /// d(Re λ)/dα of the critical pair, in k/Γ.
     pub(crate) growth_slope: f64,
-    /// First Lyapunov coefficient: A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
+    /// First Lyapunov coefficient, in k/(Γσ²): A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
     pub(crate) lyapunov: f64,
 }
 

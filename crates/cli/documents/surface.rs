@@ -44,7 +44,7 @@ pub(crate) struct SurfaceParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AcrossParameters {
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)); null where the tip has its own f(x,y).
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
     pub(crate) width_y: Option<f64>,
     /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring (52);
     /// null where no k' is certain to do.
@@ -55,10 +55,13 @@ pub(crate) struct AcrossParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SurfaceImage {
+    /// Time, in Γ/k.
     pub(crate) t: f64,
+    /// Positions along the way of the tip, in σ.
     pub(crate) x: Vec<f64>,
+    /// Positions across it, in σ.
     pub(crate) y: Vec<f64>,
-    /// A row for each y.
+    /// Heights, in kσ²/a: a row for each y.
     pub(crate) u: Vec<Vec<f64>>,
 }
 
@@ -66,7 +69,10 @@ pub(crate) struct SurfaceImage {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SurfaceCurve {
+    /// Time, in Γ/k.
     pub(crate) t: f64,
+    /// Positions, in σ.
     pub(crate) x: Vec<f64>,
+    /// Heights there, in kσ²/a.
     pub(crate) u: Vec<f64>,
 }

@@ -84,9 +84,9 @@ pub(crate) struct SweepPoint {
     pub(crate) index: usize,
     /// Side lobes, where they were given.
     pub(crate) beta: Option<f64>,
-    /// r
+    /// r, dimensionless.
     pub(crate) r: f64,
-    /// α; null where αc(r) + D could not be found.
+    /// α, dimensionless; null where αc(r) + D could not be found.
     pub(crate) alpha: Option<f64>,
     /// αc(r), if there is one.
     pub(crate) critical_alpha: Option<f64>,

@@ -16,9 +16,9 @@ pub(crate) struct UnitsDocument {
     pub(crate) software: Software,
     /// What was given.
     pub(crate) parameters: UnitsParameters,
-    /// α = Γ N a/(σ² k²), (13).
+    /// α = Γ N a/(σ² k²), dimensionless, (13).
     pub(crate) alpha: f64,
-    /// r = Γ v0/(kσ), (12).
+    /// r = Γ v0/(kσ), dimensionless, (12).
     pub(crate) r: f64,
     /// All six quantities.
     pub(crate) physical: PhysicalDocument,
@@ -56,11 +56,11 @@ pub(crate) struct UnitsParameters {
     pub(crate) slope_force: Option<f64>,
     /// v0 in m/s.
     pub(crate) velocity: Option<f64>,
-    /// α
+    /// α, dimensionless.
     pub(crate) alpha: Option<f64>,
-    /// D, where α was given as αc(r) + D.
+    /// D, where α was given as αc(r) + D; dimensionless.
     pub(crate) alpha_above: Option<f64>,
-    /// r
+    /// r, dimensionless.
     pub(crate) r: Option<f64>,
 }
 
@@ -110,7 +110,7 @@ pub(crate) struct ScalesDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CriticalUnits {
-    /// αc(r).
+    /// αc(r), dimensionless.
     pub(crate) alpha: Option<f64>,
     /// N in m/s above which there is stick-slip.
     pub(crate) indentation_rate: Option<f64>,
@@ -118,7 +118,7 @@ pub(crate) struct CriticalUnits {
     pub(crate) period: Option<f64>,
     /// Wavelength at that N, in m.
     pub(crate) wavelength: Option<f64>,
-    /// rc(α), the largest.
+    /// rc(α), the largest, dimensionless.
     pub(crate) r: Option<f64>,
     /// v0 in m/s below which there is stick-slip.
     pub(crate) velocity: Option<f64>,

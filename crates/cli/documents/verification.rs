@@ -34,7 +34,7 @@ pub(crate) struct VerificationDocument {
     pub(crate) kept: bool,
     /// Memory of the repetition.
     pub(crate) memory: String,
-    /// Its tolerance.
+    /// Its tolerance, in σ.
     pub(crate) tolerance: f64,
     /// In l, over all of the run: ten tolerances are allowed. Of a run without its history, in l and x0 of its
     /// samples.
@@ -42,7 +42,7 @@ pub(crate) struct VerificationDocument {
     /// In the surface at the end; null for a run without its history. Allowed is what an allowed error of x0
     /// does to it.
     pub(crate) u: Option<LargestDifferenceDocument>,
-    /// The first time at which l differs by more than is allowed; null where it never does.
+    /// The first time, in Γ/k, at which l differs by more than is allowed; null where it never does.
     pub(crate) trusted_until: Option<f64>,
     /// What a small error of the start is amplified by, at most, in the course of the run.
     pub(crate) amplification: f64,
@@ -55,9 +55,11 @@ pub(crate) struct VerificationDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LargestDifferenceDocument {
+    /// The difference: of l in σ, of u in kσ²/a.
     pub(crate) largest: f64,
-    /// Time (of l) or position (of u).
+    /// Time (of l, in Γ/k) or position (of u, in σ).
     pub(crate) at: f64,
+    /// What is allowed there, in the unit of the difference.
     pub(crate) allowed: f64,
 }
 
@@ -67,7 +69,7 @@ pub(crate) struct LargestDifferenceDocument {
 pub(crate) struct LinesDocument {
     /// Samples compared: all that there were.
     pub(crate) samples: u64,
-    /// Time of the last of them.
+    /// Time of the last of them, in Γ/k.
     pub(crate) verified_until: f64,
     /// How the run ended.
     pub(crate) ending: EndingName,

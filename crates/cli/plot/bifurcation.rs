@@ -3,9 +3,9 @@
 use super::axis::Axis;
 use super::curve::{Curve, Pen};
 use super::panel::Panel;
-use super::phases_over::scaled;
+use super::phases_over::{WIDE, scaled};
 use super::sheet::sheet;
-use super::style::{BLACK, LOW, PALETTE};
+use super::style::{BLACK, GREY, LOW, PALETTE};
 
 /// Branches and special points.
 #[derive(Debug, Clone)]
@@ -45,9 +45,19 @@ const MARKS: [Pen; 5] = [
     Pen::dots(PALETTE[4]),
 ];
 
+/// A branch over less than this part of the abscissas shows as a dot, if at all, and has no name of its own.
+const SHORT: f64 = 0.01;
+
 /// Amplitude and period over the parameter, stable parts solid and unstable ones dashed. An SVG document.
 pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
     let (figure, period_label) = with_scaled_periods(figure);
+    let (figure, amplitude_label) = with_scaled_amplitudes(&figure);
+    let short = short_branches(&figure.branches);
+    let short_name = match short.iter().filter(|short| **short).count() {
+        1 => "a branch too short to see".to_owned(),
+        n => format!("{n} branches too short to see"),
+    };
+    let first_short = short.iter().position(|short| *short);
     let pieces: Vec<(usize, BranchCurve)> = figure
         .branches
         .iter()
@@ -62,8 +72,18 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
         let curves = pieces.iter().enumerate().map(|(n, (i, piece))| Curve {
             x: &piece.parameter,
             y: ordinate(piece),
-            pen: if piece.stable[0] { Pen::numbered(*i) } else { Pen::numbered(*i).dashed() },
-            label: label(&pieces, n),
+            pen: match (short[*i], piece.stable[0]) {
+                (true, _) => Pen::thin(GREY),
+                (false, true) => Pen::numbered(*i),
+                (false, false) => Pen::numbered(*i).dashed(),
+            },
+            label: match short[*i] {
+                false => label(&pieces, n),
+                true => {
+                    let is_first = Some(*i) == first_short && (n == 0 || pieces[n - 1].0 != *i);
+                    is_first.then(|| short_name.clone())
+                }
+            },
         });
         let marks = marks.0.iter().enumerate().map(|(n, mark)| Curve {
             x: &mark.parameter,
@@ -78,10 +98,39 @@ pub(crate) fn bifurcations(figure: &BifurcationFigure) -> String {
         Panel { x: Axis::new(fitted.x.low - pad, fitted.x.high + pad, 9.0), ..fitted }
     };
     let panels = [
-        panel(|p| &p.amplitude, |m| &m.amplitude, "amplitude of x₀ (σ)", 1.3 * LOW),
+        panel(|p| &p.amplitude, |m| &m.amplitude, &amplitude_label, 1.3 * LOW),
         panel(|p| &p.period, |m| &m.period, &period_label, 1.3 * LOW),
     ];
     sheet(figure.title, &panels)
+}
+
+/// Of each branch, whether it is short beside the range of all of them; the first never is.
+fn short_branches(branches: &[BranchCurve]) -> Vec<bool> {
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+    };
+    let (low, high) = range(&mut branches.iter().flat_map(|b| b.parameter.iter().copied()));
+    let is_short = |(i, branch): (usize, &BranchCurve)| {
+        let (from, to) = range(&mut branch.parameter.iter().copied());
+        i > 0 && to - from < SHORT * (high - low)
+    };
+    branches.iter().enumerate().map(is_short).collect()
+}
+
+/// Amplitudes by their logarithm where they leave the size of the tip, σ, far behind, as towards trapping: towards
+/// onset they go to 0 on any scale. 0, at onset itself, is then drawn as the smallest of the others.
+fn with_scaled_amplitudes<'a>(figure: &BifurcationFigure<'a>) -> (BifurcationFigure<'a>, String) {
+    let (mut figure, label) = (figure.clone(), "amplitude of x₀ (σ)");
+    let of_branches = figure.branches.iter_mut().flat_map(|branch| branch.amplitude.iter_mut());
+    let of_marks = figure.special.iter_mut().map(|mark| &mut mark.amplitude);
+    let all: Vec<&mut f64> = of_branches.chain(of_marks).collect();
+    let above_0 = all.iter().map(|a| **a).filter(|a| *a > 0.0);
+    let (low, high) = above_0.fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(a), h.max(a)));
+    if high <= WIDE * low.max(1.0) {
+        return (figure, label.to_owned());
+    }
+    all.into_iter().for_each(|amplitude| *amplitude = amplitude.max(low).log10());
+    (figure, format!("log₁₀ {label}"))
 }
 
 /// Periods by their logarithm where they span much, as towards trapping; and the label of their axis.
@@ -187,26 +236,54 @@ impl Marks {
 mod tests {
     use super::*;
 
-    fn drawn(periods: [f64; 3]) -> String {
-        let branch = BranchCurve {
-            parameter: vec![1.0, 1.5, 2.0],
-            amplitude: vec![0.1, 1.0, 2.0],
-            period: periods.to_vec(),
+    fn branch(parameter: [f64; 3], amplitude: [f64; 3], period: [f64; 3]) -> BranchCurve {
+        BranchCurve {
+            parameter: parameter.to_vec(),
+            amplitude: amplitude.to_vec(),
+            period: period.to_vec(),
             stable: vec![true; 3],
-        };
-        let mark = SpecialMark { parameter: 1.0, amplitude: 0.0, period: periods[0], name: "Hopf" };
-        let (title, label) = ("test", "alpha");
-        bifurcations(&BifurcationFigure {
-            title,
-            label,
-            branches: vec![branch],
-            special: vec![mark],
-        })
+        }
+    }
+
+    fn figure(branches: Vec<BranchCurve>) -> BifurcationFigure<'static> {
+        let period = branches[0].period[0];
+        let special = vec![SpecialMark { parameter: 1.0, amplitude: 0.0, period, name: "Hopf" }];
+        BifurcationFigure { title: "test", label: "alpha", branches, special }
+    }
+
+    fn drawn(amplitudes: [f64; 3], periods: [f64; 3]) -> String {
+        bifurcations(&figure(vec![branch([1.0, 1.5, 2.0], amplitudes, periods)]))
     }
 
     #[test]
     fn periods_that_span_much_are_drawn_by_their_logarithm() {
-        assert!(!drawn([6.0, 8.0, 20.0]).contains("log₁₀ period"));
-        assert!(drawn([6.0, 8.0, 300.0]).contains("log₁₀ period"));
+        let amplitudes = [0.1, 1.0, 2.0];
+        assert!(!drawn(amplitudes, [6.0, 8.0, 20.0]).contains("log₁₀ period"));
+        assert!(drawn(amplitudes, [6.0, 8.0, 300.0]).contains("log₁₀ period"));
+    }
+
+    #[test]
+    fn amplitudes_far_above_the_size_of_the_tip_are_drawn_by_their_logarithm() {
+        let periods = [6.0, 8.0, 20.0];
+        assert!(!drawn([0.001, 1.0, 20.0], periods).contains("log₁₀ amplitude"));
+        assert!(drawn([0.001, 1.0, 200.0], periods).contains("log₁₀ amplitude"));
+    }
+
+    #[test]
+    fn on_a_logarithmic_axis_onset_is_where_its_branch_begins() {
+        let whole = figure(vec![branch([1.0, 1.5, 2.0], [0.01, 1.0, 200.0], [6.0, 8.0, 20.0])]);
+        let (scaled, _) = with_scaled_amplitudes(&whole);
+        assert!((scaled.special[0].amplitude + 2.0).abs() < 1e-12);
+        assert!((scaled.branches[0].amplitude[1]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn branches_too_short_to_see_share_one_name() {
+        let long = branch([1.0, 1.5, 2.0], [0.1, 1.0, 2.0], [6.0, 8.0, 20.0]);
+        let short = branch([1.7, 1.701, 1.702], [1.0, 1.1, 1.2], [9.0, 9.1, 9.2]);
+        let picture = bifurcations(&figure(vec![long.clone(), short.clone(), long, short]));
+        assert!(picture.contains("2 branches too short to see"));
+        assert!(picture.contains("stable, branch 2"));
+        assert!(!picture.contains("branch 1<") && !picture.contains("branch 3<"));
     }
 }

@@ -42,6 +42,11 @@ impl Pen {
         Self { colour, mark: Mark::Line { width, dashes } }
     }
 
+    /// Of what is too small to be told apart.
+    pub(super) const fn thin(colour: &'static str) -> Self {
+        Self::line(colour, 1.6, "")
+    }
+
     pub(super) const fn small_dots(colour: &'static str, radius: f64) -> Self {
         Self { colour, mark: Mark::Dots { radius } }
     }
@@ -50,8 +55,12 @@ impl Pen {
         Self::small_dots(colour, 5.0)
     }
 
+    pub(super) const fn small_triangles(colour: &'static str, radius: f64) -> Self {
+        Self { colour, mark: Mark::Triangles { radius } }
+    }
+
     pub(super) const fn triangles(colour: &'static str) -> Self {
-        Self { colour, mark: Mark::Triangles { radius: 6.0 } }
+        Self::small_triangles(colour, 6.0)
     }
 
     /// The same, dashed if it draws a line.

@@ -21,6 +21,8 @@ pub(super) const TITLE_SIZE: u32 = 18;
 
 pub(super) const BLUE: &str = "#0072B2";
 pub(super) const VERMILLION: &str = "#D55E00";
+/// Of marks: darker than the grid.
+pub(super) const GREY: &str = "#7F7F7F";
 pub(super) const BLACK: &str = "#000000";
 pub(super) const GRID: &str = "#E4E4E4";
 

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 /// White noise on a grid, made smooth by a cubic spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
-    /// Heights are uniform in [-amplitude, amplitude].
+    /// Heights are uniform in [-amplitude, amplitude]; 0 or above.
     pub amplitude: f64,
     /// Distance of the grid points. White noise has no limit as it goes to 0: it is part of the start.
     pub spacing: f64,

@@ -47,12 +47,12 @@ pub(super) fn amplitudes(
     found: &Onset,
     steady: &[f64],
 ) -> PanelDocument {
-    let mut panel = panel(heading, (x_label, "amplitude²"));
+    let mut panel = panel(heading, (x_label, "amplitude² ((kσ²/a)², σ²)"));
     let zeros = vec![0.0; steady.len()];
     let all_x: Vec<f64> = steady.iter().chain(&found.distance).copied().collect();
     let columns = [
-        (&found.u_squared, StyleName::Dots, StyleName::Line, "u(x, ·)"),
-        (&found.x0_squared, StyleName::Triangles, StyleName::Dashed, "x₀(t)"),
+        (&found.u_squared, StyleName::Dots, StyleName::Line, "u(x, ·), in (kσ²/a)²"),
+        (&found.x0_squared, StyleName::Triangles, StyleName::Dashed, "x₀(t), in σ²"),
     ];
     let far = found.distance[found.distance.len() - 1];
     for (values, marks, line, name) in columns {

@@ -1,7 +1,7 @@
 //! What the tip meets beside its own groove, read and judged.
 
 use crate::arguments::DisturbanceArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::input::{Columns, read_columns, read_profile};
 use std::path::Path;
 use stickslip_tip::{Force, ForceError, Noise, Pulse};
@@ -35,6 +35,45 @@ impl Disturbance {
         });
         Ok(Self { noise, profile, pulses, table, force })
     }
+}
+
+/// exp(-9²/2) = 3e-18: a force of the size of the others is below round-off so many widths from its centre.
+const WIDTHS_FELT: f64 = 9.0;
+
+/// Says of each force that ends before the motion begins, or begins after it has ended, that nothing feels it. No
+/// refusal: the same forces may be given to runs of several lengths.
+pub(crate) fn warn_of_idle(
+    arguments: &DisturbanceArguments,
+    disturbance: &Disturbance,
+    span: (f64, f64),
+) {
+    warn_of_idle_pulses(&arguments.pulse, &disturbance.pulses, span);
+    let ends = disturbance.table.as_ref().and_then(|(t, _)| Some((*t.first()?, *t.last()?)));
+    if let (Some(path), Some(ends)) = (&arguments.force_file, ends) {
+        warn(&format!("--force-file {}", path.display()), ends, ends, span);
+    }
+}
+
+/// The same of pulses alone, as they were typed and as they were read.
+pub(crate) fn warn_of_idle_pulses(texts: &[String], pulses: &[Pulse], span: (f64, f64)) {
+    for (text, pulse) in texts.iter().zip(pulses) {
+        let half = WIDTHS_FELT * pulse.width;
+        let ends = (pulse.time - half, pulse.time + half);
+        warn(&format!("--pulse {text}"), ends, (pulse.time, pulse.time), span);
+    }
+}
+
+/// A force that is felt from one of `ends` to the other, and what is needed to reach it: a run over `core`.
+fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, f64)) {
+    let advice = if ends.0 >= until {
+        let (until, after) = (Typed(until), Typed(core.0));
+        format!("it comes after the end at t = {until}: an --until above {after} would reach it")
+    } else if ends.1 <= start {
+        format!("it is over before the start at t = {}: a time after that would do", Typed(start))
+    } else {
+        return;
+    };
+    eprintln!("stickslip: {option} has no effect: {advice}");
 }
 
 fn explain(error: &ForceError, arguments: &DisturbanceArguments) -> Failure {

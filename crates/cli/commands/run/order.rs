@@ -2,7 +2,7 @@
 
 use super::super::model::model;
 use super::checkpoint;
-use super::disturbance::Disturbance;
+use super::disturbance::{Disturbance, warn_of_idle};
 use super::limits::within_range;
 use super::parameters;
 use crate::arguments::{
@@ -25,6 +25,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
         .validate()
         .map_err(|error| explain(&error, &arguments.start, &arguments.disturbance))?;
     let span = (scenario.start_time(), scenario.until);
+    warn_of_idle(&arguments.disturbance, &disturbance, span);
     let are_kept = format != RunFormat::Jsonl;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;
     let Disturbance { pulses, table, .. } = disturbance;

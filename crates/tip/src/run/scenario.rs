@@ -88,9 +88,9 @@ pub enum RunError {
         /// As asked.
         tolerance: f64,
     },
-    /// Noise that is not finite, of no spacing, or on too many points.
+    /// Noise that is negative or not finite, of no spacing, or on too many points.
     #[error(
-        "noise of amplitude {:?} on a spacing of {:?}: both must be finite, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
+        "noise of amplitude {:?} on a spacing of {:?}: both must be finite, the amplitude 0 or above, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
         noise.amplitude, noise.spacing
     )]
     Noise {
@@ -216,7 +216,7 @@ impl Scenario {
             let (from, to) = self.noise_range();
             let points = (to - from) / noise.spacing;
             let fits = noise.spacing > 0.0 && points <= MOST_NOISE_POINTS;
-            if !(noise.amplitude.is_finite() && fits) {
+            if !(noise.amplitude.is_finite() && noise.amplitude >= 0.0 && fits) {
                 return Err(RunError::Noise { noise, points });
             }
         }

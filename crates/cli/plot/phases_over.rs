@@ -110,6 +110,10 @@ fn panel<'a>(clouds: &'a [Cloud], labels: (&'a str, &'a str), x: &[f64]) -> Pane
         label: Some(cloud.name()),
     };
     let mut panel = Panel::fitted(labels, clouds.iter().map(curve).collect(), LOW, 1.0);
+    if !clouds.iter().any(|cloud| cloud.has_values) {
+        // The foot is 0, and no value is below it.
+        panel.y = Axis::new(-FOOT, 1.0, LOW / 65.0);
+    }
     // All that was asked for, and dots at the ends whole.
     let (low, high) = x
         .iter()
@@ -156,5 +160,9 @@ mod tests {
     #[test]
     fn a_row_without_any_value_is_drawn() {
         assert!(foot(&[f64::NAN]).abs() < 1e-300 && foot(&[2.0]) < 2.0 && foot(&[]).is_finite());
+        let (kind, has_values, x, y) = (Phase::Steady, false, vec![1.0, 2.0], vec![0.0; 2]);
+        let clouds = [Cloud { kind, has_values, x, y }];
+        let panel = panel(&clouds, ("", ""), &[1.0, 2.0]);
+        assert!(panel.y.low < 0.0 && panel.y.high > -5.0 * panel.y.low);
     }
 }

@@ -18,16 +18,7 @@ impl Picture {
         let rows = averaged(rows);
         let (width, height) = (rows.first().map_or(0, Vec::len), rows.len());
         let pixels: Vec<u8> = rows.iter().rev().flatten().flat_map(|z| colour(*z)).collect();
-        let failed = |error: png::EncodingError| PlotError::Png(error.to_string());
-        let mut bytes = vec![];
-        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        let mut encoder = png::Encoder::new(&mut bytes, side(width), side(height));
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header().map_err(failed)?;
-        writer.write_image_data(&pixels).map_err(failed)?;
-        writer.finish().map_err(failed)?;
-        Ok(Self(bytes))
+        Ok(Self(png_file((width, height), png::ColorType::Rgb, &pixels)?))
     }
 
     /// As a data URL.
@@ -43,6 +34,25 @@ impl Picture {
         }
         url
     }
+}
+
+/// A PNG file of so many columns and rows. Compressed fast: a picture is up to twice as large, and takes half the time.
+pub(super) fn png_file(
+    (width, height): (usize, usize),
+    colours: png::ColorType,
+    pixels: &[u8],
+) -> Result<Vec<u8>, PlotError> {
+    let failed = |error: png::EncodingError| PlotError::Png(error.to_string());
+    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let mut bytes = vec![];
+    let mut encoder = png::Encoder::new(&mut bytes, side(width), side(height));
+    encoder.set_color(colours);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(pixels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
 }
 
 /// Blocks of rows and columns averaged, so many that no more than [`MOST`] are left.

@@ -2,6 +2,7 @@
 
 use super::error::PlotError;
 use super::font;
+use super::picture::png_file;
 use resvg::tiny_skia::{FilterQuality, Pixmap, PixmapPaint, Transform};
 use resvg::usvg::{Group, Image, ImageKind, Node, Options, Tree};
 
@@ -18,7 +19,8 @@ pub(super) fn raster(svg: &str) -> Result<Vec<u8>, PlotError> {
     let mut picture = Pixmap::new(width, height).ok_or(PlotError::Size(width, height))?;
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut picture.as_mut());
     draw_images(tree.root(), &mut picture);
-    picture.encode_png().map_err(|e| PlotError::Png(e.to_string()))
+    let size = (picture.width() as usize, picture.height() as usize);
+    png_file(size, png::ColorType::Rgba, &picture.take_demultiplied())
 }
 
 /// Draws the pictures within the SVG. resvg would do it with decoders of four formats; ours is PNG, and

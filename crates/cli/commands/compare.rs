@@ -7,7 +7,7 @@ mod pace;
 
 use super::figure::Figure;
 use super::run;
-use super::run::disturbance::{Disturbance, warn_of_idle};
+use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::documents::{
     CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, Software,
@@ -28,11 +28,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
         &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
-        &[
-            ("--tip-file", arguments.model.tip.tip_file.as_deref()),
-            ("--initial-surface", arguments.disturbance.initial_surface.as_deref()),
-            ("--force-file", arguments.disturbance.force_file.as_deref()),
-        ],
+        &files_read(&arguments.model, &arguments.disturbance),
     )?;
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;

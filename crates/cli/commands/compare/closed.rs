@@ -7,7 +7,7 @@ use crate::commands::model::model;
 use crate::commands::progress::Progress;
 use crate::commands::run::disturbance::Disturbance;
 use crate::commands::run::limits::within_range;
-use crate::commands::run::parameters::{memory, start};
+use crate::commands::run::parameters::memory;
 use crate::commands::run::{explain, option_at_fault};
 use crate::documents::{ClosedDocument, ClosedWork};
 use crate::failure::Failure;
@@ -33,18 +33,11 @@ pub(super) fn scenario(
     arguments: &CompareArguments,
     disturbance: &Disturbance,
 ) -> Result<Scenario, Failure> {
-    let Disturbance { noise, profile, force, .. } = disturbance;
     let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = Scenario {
-        start: start(arguments.start.start),
-        start_position: arguments.start.start_position,
-        kick: arguments.start.kick,
-        noise: *noise,
-        profile: profile.clone(),
-        force: force.clone(),
         tolerance: arguments.tolerance,
         memory: memory(arguments.memory),
-        ..Scenario::new(model(&arguments.model)?, arguments.until)
+        ..disturbance.scenario(&arguments.start, model(&arguments.model)?, arguments.until)
     };
     within_range(&arguments.model, &scenario)?;
     scenario.validate().map_err(explained)?;

@@ -1,10 +1,12 @@
 //! What the tip meets beside its own groove, read and judged.
 
-use crate::arguments::DisturbanceArguments;
+use super::parameters;
+use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments};
 use crate::failure::{Failure, Typed};
+use crate::files::apart::Named;
 use crate::files::input::{Columns, read_columns, read_profile};
 use std::path::Path;
-use stickslip_tip::{Force, ForceError, Noise, Pulse};
+use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
 const DEFAULT_SEED: u64 = 1;
@@ -35,6 +37,31 @@ impl Disturbance {
         });
         Ok(Self { noise, profile, pulses, table, force })
     }
+
+    /// A run that starts as asked and meets all this, at the tolerance and with the memory of `Scenario::new`.
+    pub(crate) fn scenario(&self, start: &StartArguments, model: Model, until: f64) -> Scenario {
+        Scenario {
+            start: parameters::start(start.start),
+            start_position: start.start_position,
+            kick: start.kick,
+            noise: self.noise,
+            profile: self.profile.clone(),
+            force: self.force.clone(),
+            ..Scenario::new(model, until)
+        }
+    }
+}
+
+/// The files that such a run reads, which none may be written over.
+pub(crate) fn files_read<'a>(
+    model: &'a ModelArguments,
+    disturbance: &'a DisturbanceArguments,
+) -> [Named<'a>; 3] {
+    [
+        ("--tip-file", model.tip.tip_file.as_deref()),
+        ("--initial-surface", disturbance.initial_surface.as_deref()),
+        ("--force-file", disturbance.force_file.as_deref()),
+    ]
 }
 
 /// exp(-9²/2) = 3e-18: a force of the size of the others is below round-off so many widths from its centre.

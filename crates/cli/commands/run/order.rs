@@ -2,7 +2,7 @@
 
 use super::super::model::model;
 use super::checkpoint;
-use super::disturbance::{Disturbance, warn_of_idle};
+use super::disturbance::{Disturbance, files_read, warn_of_idle};
 use super::limits::within_range;
 use super::parameters;
 use crate::arguments::{
@@ -72,12 +72,7 @@ fn files(arguments: &RunArguments) -> Result<(), Failure> {
         ("--plot", arguments.plot.as_deref()),
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
-    let read = [
-        ("--tip-file", arguments.model.tip.tip_file.as_deref()),
-        ("--initial-surface", arguments.disturbance.initial_surface.as_deref()),
-        ("--force-file", arguments.disturbance.force_file.as_deref()),
-    ];
-    apart(&written, &read)?;
+    apart(&written, &files_read(&arguments.model, &arguments.disturbance))?;
     let is_text = |path: &Path| resting_place(path).to_str().is_some();
     let odd = written
         .into_iter()
@@ -110,17 +105,10 @@ fn scenario(arguments: &RunArguments, disturbance: &Disturbance) -> Result<Scena
     let until = arguments.until.ok_or_else(|| {
         Failure::input("--until", "the end of the run is missing: give --until T")
     })?;
-    let Disturbance { noise, profile, force, .. } = disturbance;
     Ok(Scenario {
-        start: parameters::start(arguments.start.start),
-        start_position: arguments.start.start_position,
-        kick: arguments.start.kick,
-        noise: *noise,
-        profile: profile.clone(),
-        force: force.clone(),
         tolerance: arguments.tolerance,
         memory: parameters::memory(arguments.memory),
-        ..Scenario::new(model(&arguments.model)?, until)
+        ..disturbance.scenario(&arguments.start, model(&arguments.model)?, until)
     })
 }
 

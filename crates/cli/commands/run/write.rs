@@ -44,7 +44,8 @@ pub(super) fn all(
     figure: Option<Figure>,
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
-    let said = summary(&end, &scenario.model);
+    // Nobody reads it beside a document on standard output.
+    let said = (order.output != Path::new("-")).then(|| summary(&end, &scenario.model));
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let (mut failure, mut verified) = (None, String::new());
@@ -75,7 +76,7 @@ pub(super) fn all(
             };
         }
     }
-    if order.output != Path::new("-") {
+    if let Some(said) = said {
         eprintln!("{said}{verified}");
     }
     let interrupted = travelled.signal.map(Failure::Interrupted);

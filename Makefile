@@ -25,7 +25,7 @@ test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
 survive: ## the long tests: 200 kills, ten million time units in four pieces, a history that outgrows memory
-	$(CARGO) test --release --locked --test killed_runs --test long_runs -- --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 
 check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) fmt --all --check
@@ -55,7 +55,7 @@ peers: ## race other programs on one problem at matched error: data/peers.json, 
 
 fuzz: ## millions of mutated files and command lines, 100,000 random motions; CASES and MOTIONS set how many
 	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked --bin stickslip fuzz -- --nocapture
-	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test properties
+	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test science properties
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked

@@ -18,7 +18,7 @@ use stickslip_tip::{InitialSurface, MemoryChoice, RunError, Scenario, TOLERANCES
 use thiserror::Error;
 
 /// What is promised of l is so many tolerances: the errors of steps add up, and slips amplify them. It is
-/// what the test-suite holds every memory to (tests/tolerance_ladder.rs).
+/// what the test-suite holds every memory to (tests/science/tolerance_ladder.rs).
 pub const TOLERANCES_ALLOWED: f64 = 10.0;
 
 /// The second run's tolerance is so many times smaller, where f64 allows that.

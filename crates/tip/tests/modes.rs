@@ -1,7 +1,7 @@
 //! Is the sum of exponentials as good as it says, and its state all of the past?
 //!
 //! The fit is judged by f' itself on a finer grid than its own; the state by `direct`, the definition, on
-//! random paths; whole runs by `direct` as well, to the tolerance, tests/memories_agree.rs at the root
+//! random paths; whole runs by `direct` as well, to the tolerance, tests/science/memories_agree.rs at the root
 //! holding the same for every memory.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]

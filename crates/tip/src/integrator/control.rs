@@ -4,7 +4,7 @@ use crate::collocation::{RADAU, STAGES};
 use crate::state::{Damaged, Reader, State};
 
 /// The largest error allowed within one step, as a fraction of the tolerance. The rest is for what
-/// steps add up to and for what the motion amplifies; tests/tolerance_ladder.rs holds the balance.
+/// steps add up to and for what the motion amplifies; tests/science/tolerance_ladder.rs holds the balance.
 const SHARE_OF_A_STEP: f64 = 0.05;
 
 /// A step is planned to displace the tip by at most this much over the band limit of f, 1.5 widths of

@@ -1,0 +1,77 @@
+//! Numbers at the edges of floating point, in every option that takes one: each is taken or refused, with
+//! a message that a person can read and the option that is at fault. No oracle: the contract of the
+//! command line alone.
+
+use crate::folder::{Folder, said};
+
+const EXTREMES: [&str; 8] = ["1e300", "-1e300", "1e-300", "-1e-300", "1e17", "NaN", "inf", "0"];
+
+/// Command lines with a gap for the extreme. What they say otherwise is admissible.
+const LINES: [&str; 22] = [
+    "run --r 1 --until 18 --alpha _",
+    "run --alpha 1 --until 18 --r _",
+    "run --r 1 --until 18 --alpha-above _",
+    "run --alpha 1 --r 1 --until _",
+    "run --alpha 1 --r 1 --until 18 --beta _",
+    "run --alpha 1 --r 1 --until 18 --tolerance _",
+    "run --alpha 1 --r 1 --until 18 --noise 1e-3 --noise-spacing _",
+    "stability --r 1 --alpha _",
+    "stability --alpha 1 --r _",
+    "stability --r _",
+    "stability --r 1 --alpha 1 --beta _",
+    "stability --r 1 --alpha 1 --width _",
+    "stability --solve-for r --alpha _",
+    "stability --r 1 --alpha 1 --re-above _",
+    "boundary --r-range _,1e300",
+    "response --r 1 --until 18 --pulse 1,17,1 --alpha _",
+    "response --alpha 1 --until 18 --pulse 1,17,1 --r _",
+    "compare --alpha 1 --r 1 --until 18 --spacing _",
+    "compare --alpha 1 --r 1 --until 18 --step _",
+    "compare --alpha 1 --r 1 --until 18 --width _",
+    "units --damping 1 --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity _",
+    "units --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity 1 --damping _",
+];
+
+/// Digits in a row in the message.
+fn longest_number(message: &str) -> usize {
+    let runs = message.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    runs.map(str::len).max().unwrap_or(0)
+}
+
+#[test]
+fn extreme_numbers_are_taken_or_refused_in_few_digits() {
+    let folder = Folder::new("extremes");
+    for line in LINES {
+        for extreme in EXTREMES {
+            let line = line.replace('_', extreme);
+            let output = folder.stickslip(&line);
+            let said = said(&output);
+            let status = output.status.code();
+            assert!(matches!(status, Some(0..=2)), "{line}: {status:?}\n{said}");
+            assert!(longest_number(&said) <= 22, "{line}\n{said}");
+            assert!(status == Some(0) || output.stdout.is_empty(), "{line}");
+        }
+    }
+}
+
+#[test]
+fn the_option_at_fault_is_named() {
+    let folder = Folder::new("extremes-named");
+    for (line, option) in [
+        ("run --alpha 1 --r 1 --until 30 --beta -1e80", "--beta -1e80"),
+        ("run --alpha 1 --r 1 --until 30 --beta -1e300", "--beta -1e300"),
+        ("run --alpha 1 --r 1 --until 30 --width 1e308", "--width 1e308"),
+        ("run --alpha 1 --r 1e-300 --until 30", "--r 1e-300"),
+        ("run --alpha 1e300 --r 1 --until 30", "--alpha 1e300"),
+        ("response --alpha 1e300 --r 1 --pulse 1,1,1 --until 30", "--alpha 1e300"),
+        ("stability --alpha 1e-300 --r 1", "--alpha 1e-300"),
+        ("stability --alpha 1 --r 1e300", "--r 1e300"),
+        ("stability --alpha 1e300 --r 1 --re-above -1", "--alpha 1e300"),
+        (
+            "units --damping 1e300 --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity 1",
+            "the quantities",
+        ),
+    ] {
+        folder.refuses(line, &[option]);
+    }
+}

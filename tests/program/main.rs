@@ -1,0 +1,28 @@
+//! The program as a user drives it.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[path = "../support/acceptance.rs"]
+mod acceptance;
+#[path = "../support/folder.rs"]
+mod folder;
+#[path = "../support/runs.rs"]
+mod runs;
+
+mod checkpoints;
+mod command_line;
+mod compare_command;
+mod cycle_commands;
+mod documents;
+#[cfg(unix)]
+mod experiment;
+mod extreme_numbers;
+mod figures;
+mod image_files;
+mod refusals;
+mod resume;
+mod stability_commands;
+mod supply_chain;
+mod sweep;
+mod verification;
+mod verified_lines;

@@ -1,0 +1,21 @@
+//! What the libraries compute, judged by closed forms, references and each other.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[path = "../support/acceptance.rs"]
+mod acceptance;
+
+mod closed_forms;
+mod continuation;
+mod convergence;
+mod corrections;
+mod cycles;
+mod grids_converge;
+mod memories_agree;
+mod properties;
+mod regimes;
+mod scaling_laws;
+mod stability_against_runs;
+mod surfaces;
+mod three_dimensions;
+mod tolerance_ladder;

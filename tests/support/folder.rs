@@ -1,0 +1,126 @@
+//! The program as a user drives it: command lines, each in a folder with its files.
+
+#![allow(dead_code, unreachable_pub, reason = "each test binary uses its own part")]
+
+use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Bad input is found out within this time.
+const REFUSAL: Duration = Duration::from_secs(1);
+/// No command line of these tests takes longer.
+const LONGEST: Duration = Duration::from_secs(10);
+
+/// A folder under the target directory, empty at first.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        if path.exists() {
+            fs::remove_dir_all(&path).unwrap();
+        }
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        fs::write(self.path(name), contents).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap()
+    }
+
+    pub fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&self.read(name)).unwrap()
+    }
+
+    /// Names of all files, sorted.
+    pub fn names(&self) -> Vec<String> {
+        let name = |entry: fs::DirEntry| entry.file_name().into_string().unwrap();
+        let mut names: Vec<_> = fs::read_dir(&self.0).unwrap().map(|e| name(e.unwrap())).collect();
+        names.sort();
+        names
+    }
+
+    /// `stickslip` with the words of `line`, its working directory here.
+    pub fn stickslip(&self, line: &str) -> Output {
+        self.stickslip_reading(line, "")
+    }
+
+    /// The same, given `input` on its standard input.
+    pub fn stickslip_reading(&self, line: &str, input: impl Into<Vec<u8>>) -> Output {
+        let mut command = cargo_bin_cmd!("stickslip");
+        command.current_dir(&self.0).args(line.split_whitespace());
+        command.write_stdin(input).timeout(LONGEST).output().unwrap()
+    }
+
+    /// A command for those tests that watch the program while it runs.
+    pub fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(cargo_bin!("stickslip"));
+        command.current_dir(&self.0).args(line.split_whitespace());
+        command
+    }
+
+    /// What `stickslip` prints, once it has ended well.
+    pub fn prints(&self, line: &str) -> Vec<u8> {
+        let output = self.stickslip(line);
+        let said = said(&output);
+        assert!(output.status.success(), "{line}\n{said}");
+        output.stdout
+    }
+
+    /// As JSON.
+    pub fn prints_json(&self, line: &str) -> Value {
+        serde_json::from_slice(&self.prints(line)).unwrap()
+    }
+
+    /// Unusable input: status 2, a message with all of `words`, nothing on standard output, at once.
+    pub fn refuses(&self, line: &str, words: &[&str]) {
+        let started = Instant::now();
+        let output = self.stickslip(line);
+        let took = started.elapsed();
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}\n{said}");
+        assert!(output.stdout.is_empty(), "{line}\nwrote to standard output");
+        assert!(took < REFUSAL, "{line}\ntook {took:?}");
+        for word in words {
+            assert!(said.contains(word), "{line}\nsaid nothing of {word:?}:\n{said}");
+        }
+    }
+}
+
+/// Waits until a process listens for SIGINT, as it does once its work begins; where the system does not tell, for
+/// half a second.
+pub fn wait_until_it_listens(child: &mut Child) {
+    const SIGINT: u64 = 1 << 1;
+    let started = Instant::now();
+    let caught = |status: &str| {
+        let line = status.lines().find_map(|line| line.strip_prefix("SigCgt:"))?;
+        u64::from_str_radix(line.trim(), 16).ok()
+    };
+    while child.try_wait().unwrap().is_none() && started.elapsed() < LONGEST {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id()));
+        match status.ok().as_deref().and_then(caught) {
+            Some(signals) if signals & SIGINT != 0 => return,
+            Some(_) => sleep(Duration::from_millis(5)),
+            None => return sleep(Duration::from_millis(500)),
+        }
+    }
+}
+
+/// Standard error, on which no panic is ever seen.
+pub fn said(output: &Output) -> String {
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}

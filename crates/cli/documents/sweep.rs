@@ -18,6 +18,10 @@ pub(crate) struct SweepDocument {
     pub(crate) parameters: SweepParameters,
     /// The points, by rising index.
     pub(crate) points: Vec<SweepPoint>,
+    /// CRC-32 (IEEE) of the JSON `[parameters,points]`, without spaces and with the shortest digits: tells `merge`
+    /// whether anything was changed.
+    #[serde(default)]
+    pub(crate) crc32: Option<u32>,
 }
 
 impl SweepDocument {

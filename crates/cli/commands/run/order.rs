@@ -10,8 +10,9 @@ use crate::arguments::{
 };
 use crate::documents::{Order, Times};
 use crate::failure::{Failure, Typed};
-use crate::files::apart::{apart, resting_place};
+use crate::files::apart::apart;
 use crate::files::output::OutputFormat;
+use crate::files::place::resolved;
 use std::path::Path;
 use stickslip_tip::{RunError, Scenario};
 
@@ -32,10 +33,10 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let order = Order {
         samples: Times::asked(&arguments.sampling, span, "the run", are_kept)?,
         parameters: parameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
-        output: resting_place(&arguments.output),
+        output: resolved(&arguments.output),
         format,
         history: arguments.history == HistoryName::All,
-        plot: arguments.plot.as_deref().map(resting_place),
+        plot: arguments.plot.as_deref().map(resolved),
         verify: arguments.verify,
         checkpoint_every: arguments.checkpoint.is_some().then_some(every),
     };
@@ -73,7 +74,7 @@ fn files(arguments: &RunArguments) -> Result<(), Failure> {
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
     apart(&written, &files_read(&arguments.model, &arguments.disturbance))?;
-    let is_text = |path: &Path| resting_place(path).to_str().is_some();
+    let is_text = |path: &Path| resolved(path).to_str().is_some();
     let odd = written
         .into_iter()
         .find_map(|(option, path)| Some((option, path?)).filter(|n| !is_text(n.1)));

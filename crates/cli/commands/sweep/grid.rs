@@ -85,7 +85,7 @@ impl Grid {
 
     /// The indices of this part of the points.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
-        let shard = self.parameters.shard.unwrap_or(ShardDocument { index: 1, of: 1 });
+        let shard = self.parameters.part();
         (shard.index - 1..self.parameters.points()).step_by(shard.of)
     }
 
@@ -106,6 +106,16 @@ impl Grid {
 }
 
 impl SweepParameters {
+    fn part(&self) -> ShardDocument {
+        self.shard.unwrap_or(ShardDocument { index: 1, of: 1 })
+    }
+
+    /// Whether the point of this index is one of this part.
+    pub(super) fn has(&self, index: usize) -> bool {
+        let shard = self.part();
+        index < self.points() && index % shard.of == shard.index - 1
+    }
+
     /// Points of the whole grid.
     pub(super) fn points(&self) -> usize {
         let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);

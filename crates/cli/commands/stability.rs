@@ -13,7 +13,7 @@ use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
-use stickslip_tip::stability::{
+use stickslip_stability::{
     Critical, Spectrum, StabilityError, creep_rates, critical, critical_r, leading_roots, onset_at,
     roots, trapping_alpha, unstable_count,
 };

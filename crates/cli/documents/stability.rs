@@ -4,7 +4,7 @@ use super::{ModelParameters, Software};
 use crate::arguments::SolveFor;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::stability::{Certificate, Critical, Criticality, Onset};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

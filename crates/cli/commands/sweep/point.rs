@@ -3,7 +3,7 @@
 use super::grid::{Alpha, Place};
 use crate::documents::{RegimeName, SourceName, SweepPoint};
 use stickslip_cycles::{Cycle, Motion, motion};
-use stickslip_outcome::Outcome;
+use stickslip_outcome::{Outcome, classify};
 use stickslip_stability::critical;
 use stickslip_tip::Model;
 
@@ -40,7 +40,10 @@ pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
             (point.regime, point.source) = (Some(RegimeName::Steady), Some(SourceName::Stability));
         }
         Ok(Motion::Cycle(cycle)) => point.is_periodic(&cycle),
-        Ok(Motion::Run(outcome)) => point.ended(outcome),
+        Ok(Motion::Run(tried)) => {
+            let (trajectory, scenario) = (&tried.run.trajectory, &tried.scenario);
+            point.ended(classify(trajectory, &scenario.model, scenario.tolerance));
+        }
         Err(error) => point.error = Some(error),
     }
     point

@@ -1,9 +1,9 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
-use super::{CycleError, Tried};
 use super::embedding::Embedding;
 use super::mesh::{equidistributed, longest_displacement};
 use super::orbit::{Orbit, even_mesh};
+use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use stickslip_stability::{Criticality, Onset};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};

@@ -2,9 +2,9 @@
 
 use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
-use crate::documents::{FigureDocument, PanelDocument, StyleName};
 use crate::failure::Failure;
 use std::ops::ControlFlow;
+use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
 use stickslip_tip::cycle::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_tip::{Regime, Scenario, Trajectory};
 

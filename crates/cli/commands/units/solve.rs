@@ -1,8 +1,8 @@
 //! From what is given to all six quantities.
 
 use crate::arguments::{ModelArguments, UnitsArguments};
-use crate::documents::UnitsParameters;
 use crate::failure::{Failure, Typed};
+use stickslip_documents::UnitsParameters;
 use stickslip_tip::units::{Physical, Unit};
 use stickslip_tip::{TipFunction, stability};
 

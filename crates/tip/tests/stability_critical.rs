@@ -7,7 +7,7 @@ mod stability_tables;
 
 use stability_tables::records;
 use stickslip_tip::stability::{
-    Boundary, StabilityError, creep_rates, critical, critical_r, trapping_alpha, unstable_count,
+    Boundary, StabilityError, creep, critical, critical_r, trapping_alpha, unstable_count,
 };
 use stickslip_tip::{Gaussian, Model, TipFunction};
 
@@ -162,14 +162,41 @@ fn trapping_thresholds_have_the_reference_digits() {
 fn creep_rates_solve_their_equation_above_the_threshold_only() {
     for tip in [triple(1.0, 1.0), triple(0.0, 2.0), TipFunction::Bessel] {
         let threshold = trapping_alpha(&tip, 0.7).unwrap();
-        let rates = |alpha| creep_rates(&Model::new(tip.clone(), alpha, 0.7).unwrap());
-        assert_eq!(rates(0.999 * threshold), None);
-        let (slow, fast) = rates(1.3 * threshold).unwrap();
+        let at = |alpha| creep(&Model::new(tip.clone(), alpha, 0.7).unwrap()).unwrap();
+        assert!(at(0.999 * threshold).rates().is_empty());
+        let found = at(1.3 * threshold);
+        let [slow, fast] = found.rates()[..] else { panic!("{found:?}") };
         assert!(0.0 < slow && slow < fast);
+        assert_eq!(found.attracting(), Some(fast));
+        assert!(found.certificate.is_complete());
         for p in [slow, fast] {
             assert_close(0.7 / (1.3 * threshold), push(&tip, p), 1e-7);
         }
     }
+}
+
+/// Only the two beside the greatest maximum of Q were looked at.
+#[test]
+fn of_a_footprint_of_several_peaks_all_rates_are_found() {
+    let peaks = |a: f64, c: f64, w: f64| {
+        let at = |amplitude, center, width| Gaussian { amplitude, center, width };
+        TipFunction::gaussian_sum(vec![at(1.0, 0.0, 1.0), at(a, c, w), at(a, -c, w)]).unwrap()
+    };
+    let tip = peaks(1.2, 1.7, 0.55);
+    let found = creep(&Model::new(tip.clone(), 50.0, 1.0).unwrap()).unwrap();
+    let rates = found.rates();
+    assert_eq!(rates.len(), 4, "{found:?}");
+    for (rate, known) in rates.iter().zip([0.0208, 0.9596, 4.6785, 20.058]) {
+        assert!((rate - known).abs() < 1e-3, "{rate} {known}");
+        assert_close(1.0 / 50.0, push(&tip, *rate), 1e-4);
+    }
+    assert_eq!(found.attracting(), Some(rates[3]));
+    // Here a complex pair lies right of both real rates: no creep lasts.
+    let found = creep(&Model::new(peaks(0.45, 1.6, 0.57), 4.7399, 1.0).unwrap()).unwrap();
+    assert_eq!(found.rates().len(), 2);
+    assert_eq!(found.attracting(), None);
+    assert!(found.roots[0].im > 0.0 && found.roots[0].re > found.rates()[1]);
+    assert!(found.certificate.is_complete());
 }
 
 /// p ∫_0^∞ e^{-ps}(-f'(s))ds by Simpson's rule.

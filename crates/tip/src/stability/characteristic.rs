@@ -1,4 +1,5 @@
-//! The characteristic function h(Λ) = rΛ + 1 + (α/r) G(Λ) of (30), and where it cannot vanish.
+//! The characteristic function h(Λ) = rΛ + 1 + (α/r) G(Λ) of (30), that of creep, 1 + (α/r) G(p), in which the
+//! drag of the tip is nothing, and where they cannot vanish.
 
 use super::StabilityError;
 use super::transform::{CurvatureTransform, Scaled};
@@ -20,7 +21,10 @@ const ROUNDOFF_EXPONENT: f64 = 24.0;
 #[derive(Debug, Clone)]
 pub(super) struct Characteristic {
     transform: CurvatureTransform,
+    /// λ = rΛ; 1 for creep, whose roots are not times.
     pub(super) r: f64,
+    /// The coefficient of Λ: r, or 0 for creep.
+    drag: f64,
     /// α/r
     pub(super) ratio: f64,
     /// A length of the order of the tip's width.
@@ -41,7 +45,17 @@ struct Bounds {
 }
 
 impl Characteristic {
+    /// That of small deviations from steady motion.
     pub(super) fn new(model: &Model) -> Self {
+        Self::with_drag(model, model.r(), model.r())
+    }
+
+    /// That of the logarithmic creep of a trapped tip, whose roots are its rates p.
+    pub(super) fn of_creep(model: &Model) -> Self {
+        Self::with_drag(model, 0.0, 1.0)
+    }
+
+    fn with_drag(model: &Model, drag: f64, r: f64) -> Self {
         let tip = model.tip();
         let transform = CurvatureTransform::new(tip);
         let length = tip.reach().unwrap_or(9.0) / 9.0;
@@ -52,7 +66,8 @@ impl Characteristic {
         };
         Self {
             transform,
-            r: model.r(),
+            r,
+            drag,
             ratio: model.alpha() / model.r(),
             length,
             leftmost,
@@ -79,14 +94,14 @@ impl Characteristic {
     /// h and h'.
     pub(super) fn at(&self, lambda: Complex64) -> Scaled {
         if self.ratio <= 0.0 {
-            let derivative = Complex64::new(self.r, 0.0);
-            return Scaled { value: lambda * self.r + 1.0, derivative, log_scale: 0.0 };
+            let derivative = Complex64::new(self.drag, 0.0);
+            return Scaled { value: lambda * self.drag + 1.0, derivative, log_scale: 0.0 };
         }
         let g = self.transform.at(lambda);
         let down = (-g.log_scale).exp();
         Scaled {
-            value: (lambda * self.r + 1.0) * down + g.value * self.ratio,
-            derivative: self.r * down + g.derivative * self.ratio,
+            value: (lambda * self.drag + 1.0) * down + g.value * self.ratio,
+            derivative: self.drag * down + g.derivative * self.ratio,
             log_scale: g.log_scale,
         }
     }
@@ -114,25 +129,31 @@ impl Characteristic {
 
     /// Σ|terms| of h, those of G each by itself: they may cancel.
     fn size_of_terms(&self, lambda: Complex64, h: &Scaled) -> f64 {
-        let linear = (self.r * lambda.norm() + 1.0) * (-h.log_scale).exp();
+        let linear = (self.drag * lambda.norm() + 1.0) * (-h.log_scale).exp();
         let transform = self.ratio * self.transform.size(lambda, h.log_scale);
         (linear + transform).max(f64::MIN_POSITIVE)
     }
 
-    /// Zeros of rΛ + 1 + (α/r) f''(0)/Λ, on or above the real axis: those of h far from 0, where
-    /// G(Λ) = f''(0)/Λ + O(Λ^{-3}).
+    /// Zeros of rΛ + 1 + (α/r) f''(0)/Λ, or for creep of 1 + (α/r) f''(0)/p, on or above the real axis: those
+    /// of h far from 0, where G(Λ) = f''(0)/Λ + O(Λ^{-3}).
     pub(super) fn algebraic_roots(&self) -> Vec<Complex64> {
-        let squared = 1.0 - 4.0 * self.r * self.ratio * self.bounds.peak;
+        if self.drag <= 0.0 {
+            return vec![Complex64::new(-self.ratio * self.bounds.peak, 0.0)];
+        }
+        let squared = 1.0 - 4.0 * self.drag * self.ratio * self.bounds.peak;
         let root = Complex64::new(squared, 0.0).sqrt();
-        let zeros = [root, -root].map(|root| (root - 1.0) / (2.0 * self.r));
+        let zeros = [root, -root].map(|root| (root - 1.0) / (2.0 * self.drag));
         zeros.into_iter().filter(|z| z.im >= 0.0).collect()
     }
 
     /// R such that h has no zero with Re Λ ≥ 0 and |Λ| ≥ R: there |rΛ + 1| ≥ r|Λ|, and |G| is below
-    /// ∫|f''| and below (|f''(0)| + ∫|f'''|)/|Λ|.
+    /// ∫|f''| and below (|f''(0)| + ∫|f'''|)/|Λ|. For creep what is left of h is 1.
     pub(super) fn right_bound(&self) -> f64 {
         let Bounds { area, variation, .. } = self.bounds;
-        (self.ratio * area / self.r).min((self.ratio * variation / self.r).sqrt())
+        if self.drag <= 0.0 {
+            return if self.ratio * area < 1.0 { 0.0 } else { self.ratio * variation };
+        }
+        (self.ratio * area / self.drag).min((self.ratio * variation / self.drag).sqrt())
     }
 
     /// T such that h has no zero with `left` ≤ Re Λ and |Im Λ| ≥ T.
@@ -151,7 +172,8 @@ impl Characteristic {
                 })
                 .sum();
             let e = (left * left + top * top) * two_sided;
-            self.r * top > self.ratio * (e + area.min(variation / top))
+            let linear = if self.drag > 0.0 { self.drag * top } else { 1.0 };
+            linear > self.ratio * (e + area.min(variation / top))
         };
         let mut top = (1.05 * self.right_bound()).max(1.0 / self.length);
         if left < 0.0 && self.ratio > 0.0 {

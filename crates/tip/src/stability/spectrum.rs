@@ -135,7 +135,7 @@ impl HalfPlane {
         Region { re_min: r * self.left, re_max: r * self.right, im_max: r * self.top }
     }
 
-    fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
+    pub(super) fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
         let certified = |upper: &[Complex64]| {
             let roots = with_conjugates(upper, h.r);
             let certificate = Certificate::of(h, self.region(h.r), self.count, &roots);

@@ -5,13 +5,14 @@
 
 use super::StabilityError;
 use super::transform::CurvatureTransform;
-use crate::{Model, TipFunction};
+use crate::TipFunction;
 use num_complex::Complex64;
 
 /// Samples of ln p in the search for the largest Q.
 const SAMPLES: u32 = 400;
 
-/// The smallest α at which the tip can be trapped: r / max_p Q(p).
+/// The smallest α at which there is a creep x0 ~ (1/p) ln t: r / max_p Q(p). On a footprint of several peaks it
+/// may not attract there: [`super::Creep::attracting`].
 ///
 /// # Errors
 /// `r` not a positive finite number, or Q nowhere positive.
@@ -19,36 +20,17 @@ pub fn trapping_alpha(tip: &TipFunction, r: f64) -> Result<f64, StabilityError> 
     if !(r.is_finite() && r > 0.0) {
         return Err(StabilityError::R(r));
     }
-    let (_, largest) = Creep::new(tip).largest().ok_or(StabilityError::NoTrapping)?;
+    let (_, largest) = Push::new(tip).largest().ok_or(StabilityError::NoTrapping)?;
     Ok(r / largest)
 }
 
-/// The two p, ascending, with which x0 ~ (1/p) ln t solves (10) for large t; `None` below the threshold
-/// [`trapping_alpha`].
-///
-/// Of the two, the larger p (the slower creep) is the one that attracts. Where Q has several maxima
-/// these are the two around the highest.
-#[must_use]
-pub fn creep_rates(model: &Model) -> Option<(f64, f64)> {
-    let creep = Creep::new(model.tip());
-    let (p, largest) = creep.largest()?;
-    if model.alpha() * largest < model.r() {
-        return None;
-    }
-    let wanted = model.r() / model.alpha();
-    // Q ≤ p f(0)-like for small p and falls like 1/p for large p: doubling finds the far sides.
-    let below = creep.first_below(wanted, p, 0.5)?;
-    let above = creep.first_below(wanted, p, 2.0)?;
-    Some((creep.level(wanted, below, p), creep.level(wanted, above, p)))
-}
-
-struct Creep {
+struct Push {
     transform: CurvatureTransform,
     slowest: f64,
     fastest: f64,
 }
 
-impl Creep {
+impl Push {
     fn new(tip: &TipFunction) -> Self {
         let reach = tip.reach().unwrap_or(10.0);
         let transform = CurvatureTransform::new(tip);
@@ -77,23 +59,5 @@ impl Creep {
         }
         let q = self.q(lo).0;
         (q > 0.0).then_some((lo, q))
-    }
-
-    /// The first p·factorⁿ at which Q is below `wanted`.
-    fn first_below(&self, wanted: f64, p: f64, factor: f64) -> Option<f64> {
-        (1..2000).map(|n| p * factor.powi(n)).find(|p| self.q(*p).0 < wanted)
-    }
-
-    /// The p between `below` and `above` at which Q = `wanted`, by bisection to round-off.
-    fn level(&self, wanted: f64, below: f64, above: f64) -> f64 {
-        let (mut below, mut above) = (below, above);
-        for _ in 0..200 {
-            let middle = 0.5 * (below + above);
-            if (middle - below).abs() <= f64::EPSILON * middle {
-                break;
-            }
-            if self.q(middle).0 < wanted { below = middle } else { above = middle }
-        }
-        0.5 * (below + above)
     }
 }

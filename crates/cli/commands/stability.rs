@@ -13,7 +13,7 @@ use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
     StabilityParameters, TrappingDocument,
 };
-use stickslip_tip::stability::{
+use stickslip_stability::{
     Critical, Spectrum, StabilityError, creep, critical, critical_r, leading_roots, onset_at,
     roots, trapping_alpha, unstable_count,
 };

@@ -3,7 +3,7 @@
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::stability::{Certificate, Critical, Criticality, Onset};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

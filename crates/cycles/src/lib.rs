@@ -39,7 +39,7 @@ pub use embedding::Parameter;
 pub use ended::{Ended, Tried};
 pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
-pub use search::{Motion, cycle, cycle_near, cycle_within, motion, small_cycle};
+pub use search::{Settled, cycle, cycle_near, cycle_within, settle, small_cycle};
 
 use num_complex::Complex;
 use ripple::Ripple;

@@ -11,9 +11,9 @@ use stickslip_tip::{Model, Trajectory};
 /// Halves of a cycle that differ by less, in σ, are the same.
 const REPEATS_WITHIN: f64 = 1e-7;
 
-/// What a tip comes to when steady motion is disturbed a little.
+/// What a search for the motion that attracts a tip set going from beside steady motion came to.
 #[derive(Debug, Clone)]
-pub enum Motion {
+pub enum Settled {
     /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
     Steady,
     /// A stable cycle.
@@ -26,18 +26,18 @@ pub enum Motion {
 ///
 /// # Errors
 /// A tolerance out of range, or a run that fails.
-pub fn motion(model: &Model, tolerance: f64) -> Result<Motion, CycleError> {
+pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
     judge(tolerance)?;
     let critical = match critical(model.tip(), model.r()) {
         Ok(critical) if model.alpha() > critical.alpha => critical,
-        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Motion::Steady),
+        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Settled::Steady),
         Err(error) => return Err(error.into()),
     };
     let Search { stable, ended, .. } = Search::above_onset(model, critical, tolerance)?;
     Ok(match (stable, ended) {
-        (Some(cycle), _) => Motion::Cycle(Box::new(cycle)),
-        (None, Some(run)) => Motion::Run(Box::new(run)),
-        (None, None) => Motion::Steady,
+        (Some(cycle), _) => Settled::Cycle(Box::new(cycle)),
+        (None, Some(run)) => Settled::Run(Box::new(run)),
+        (None, None) => Settled::Steady,
     })
 }
 

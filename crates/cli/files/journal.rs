@@ -4,21 +4,10 @@
 use super::beside;
 use super::replace::Looks;
 use crc32fast::Hasher;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
-
-/// What a journal held at some time.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Mark {
-    /// Its length.
-    pub(crate) bytes: u64,
-    /// Their CRC-32 (IEEE).
-    pub(crate) crc32: u32,
-}
+use stickslip_documents::Mark;
 
 /// A growing file, locked.
 #[derive(Debug)]

@@ -2,10 +2,11 @@
 //! order.
 
 use super::beside;
-use super::journal::{Journal, Mark};
+use super::journal::Journal;
 use super::replace::Looks;
 use std::io::{self, Read, Write};
 use std::path::Path;
+use stickslip_documents::Mark;
 
 /// How such a file begins.
 const MAGIC: &[u8] = b"stickslip/journal ";

@@ -1,7 +1,7 @@
 //! Output that grows line by line while the work goes on.
 
 use super::beside;
-use super::journal::{Journal, Mark};
+use super::journal::Journal;
 use super::place::{Place, Target, place, refused};
 use super::replace::{Looks, sync_folder};
 use crate::failure::Failure;
@@ -10,6 +10,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use stickslip_documents::Mark;
 
 /// Lines on their way out. A file grows as `FILE.part` and gets its name when it is complete: nobody takes a
 /// half for the whole, and what was there before stays until then.

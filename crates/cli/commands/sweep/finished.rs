@@ -2,7 +2,6 @@
 //! line a point, each with its checksum. A kill at any moment costs the points under way and at most the line
 //! being written; damage costs the lines that it touches.
 
-use crate::documents::{Software, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use crate::files::beside;
 use crate::files::place::IN_USE;
@@ -12,6 +11,7 @@ use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use stickslip_documents::{Software, SweepParameters, SweepPoint};
 
 /// What has been finished so far, and where it is kept, if it is.
 #[derive(Debug)]

@@ -2,10 +2,10 @@
 
 use crate::arguments::{Range, SweepArguments, TipArguments};
 use crate::commands::model::tip;
-use crate::documents::{ShardDocument, SweepParameters};
 use crate::failure::{Failure, Typed};
+use stickslip_cycles::TOLERANCES;
+use stickslip_documents::{ShardDocument, SweepParameters};
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::TOLERANCES;
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;
@@ -102,24 +102,6 @@ impl Grid {
             r: r[at],
             alpha: given.or(above).unwrap_or(Alpha::Given(0.0)),
         }
-    }
-}
-
-impl SweepParameters {
-    fn part(&self) -> ShardDocument {
-        self.shard.unwrap_or(ShardDocument { index: 1, of: 1 })
-    }
-
-    /// Whether the point of this index is one of this part.
-    pub(super) fn has(&self, index: usize) -> bool {
-        let shard = self.part();
-        index < self.points() && index % shard.of == shard.index - 1
-    }
-
-    /// Points of the whole grid.
-    pub(super) fn points(&self) -> usize {
-        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
-        self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas)
     }
 }
 

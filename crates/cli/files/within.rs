@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// The path as it is seen from a folder, links resolved; as it is where it leads outside.
 pub(crate) fn seen_from(folder: &Path, path: &Path) -> PathBuf {
+    if path == Path::new("-") {
+        return path.into();
+    }
     let path = resolved(path);
     match folder.canonicalize() {
         Ok(folder) => path.strip_prefix(folder).map(Path::to_path_buf).unwrap_or(path),

@@ -53,6 +53,16 @@ pub enum CycleError {
         /// As asked.
         r: f64,
     },
+    /// The eigenvalues of the monodromy matrix cannot be had.
+    #[error(
+        "the cycle at alpha = {alpha:?}, r = {r:?} is beyond what its Floquet multipliers can be computed for"
+    )]
+    Multipliers {
+        /// As asked.
+        alpha: f64,
+        /// As asked.
+        r: f64,
+    },
     /// The tip steps back farther than the past can be told by exponentials.
     #[error("the tip steps back by {retreat:.3}, more than the {most:.3} that cycles allow for")]
     Retreat {

@@ -12,7 +12,6 @@ use super::step::LinearStep;
 use crate::collocation::{STAGES, Stages};
 use crate::memory::Fit;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
-use num_complex::Complex;
 
 /// A linear functional of what a branch of cycles is followed by: the largest l, the period and the
 /// parameter.
@@ -201,16 +200,4 @@ impl Phase {
         let value = equation.r - extension - equation.alpha * groove;
         Self { value, by_state, by_parameter }
     }
-}
-
-/// Eigenvalues of the monodromy matrix by falling modulus: the Floquet multipliers.
-pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<Complex<f64>> {
-    let found = monodromy.clone().complex_eigenvalues();
-    let mut found: Vec<_> = found.iter().map(|m| Complex::new(m.re, m.im)).collect();
-    // Of a pair, the one with the positive imaginary part first.
-    found.sort_by(|a, b| {
-        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
-        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
-    });
-    found
 }

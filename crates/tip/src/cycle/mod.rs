@@ -23,6 +23,7 @@ mod embedding;
 mod error;
 mod linearisation;
 mod mesh;
+mod multipliers;
 mod orbit;
 mod past;
 mod ripple;
@@ -41,6 +42,7 @@ pub use search::{Motion, cycle, cycle_near, motion};
 
 use crate::outcome::latest_extrema;
 use crate::{Model, Trajectory};
+use multipliers::multipliers;
 use num_complex::Complex;
 use ripple::Ripple;
 use solve::Closed;
@@ -74,7 +76,8 @@ impl Cycle {
         }
         let (alpha, r) = (closed.equation.alpha, closed.equation.r);
         let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
-        let multipliers = linearisation::multipliers(&closed.linearisation.monodromy());
+        let multipliers = multipliers(closed.linearisation.monodromy());
+        let multipliers = multipliers.ok_or(CycleError::Multipliers { alpha, r })?;
         let motion = closed.orbit.trajectory(r);
         let extrema = latest_extrema(&motion);
         let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);

@@ -4,8 +4,8 @@
 use crate::tips::tips;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
-use stickslip_tip::cycle::{DEFAULT_TOLERANCE, cycle};
-use stickslip_tip::stability::critical;
+use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
+use stickslip_stability::critical;
 use stickslip_tip::{Model, Regime, Scenario, run};
 
 /// Of these α/αc, one each.
@@ -53,7 +53,7 @@ fn a_cycle_is_found_wherever_a_run_settles_on_one() {
     assert!(panics.is_empty() && missed.is_empty() && wrong.is_empty());
 }
 
-type Found = Result<Result<stickslip_tip::cycle::Cycle, stickslip_tip::cycle::CycleError>, ()>;
+type Found = Result<Result<stickslip_cycles::Cycle, stickslip_tip::cycle::CycleError>, ()>;
 
 fn judge(count: &mut Count, model: &Model, found: Found) -> String {
     match found {

@@ -13,8 +13,8 @@ use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
 use std::f64::consts::PI;
+use stickslip_stability::{Boundary, Branch, Critical, StabilityError, onset_at};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{Boundary, Branch, Critical, StabilityError, onset_at};
 
 const MOST_POINTS: usize = 100_000;
 

@@ -17,7 +17,7 @@ use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
-use stickslip_tip::stability::{Response, ResponseMode, response as respond};
+use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::{Model, Pulse, Scenario, TipFunction};
 
 /// What the modes left out may add, relative to the leading one, where the sum counts as valid.

@@ -13,9 +13,9 @@ use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::output::{Output, OutputFormat};
 use solve::Given;
+use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{StabilityError, critical, critical_r, unstable_count};
-use stickslip_tip::units::Physical;
+use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;

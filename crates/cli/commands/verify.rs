@@ -16,10 +16,10 @@ use crate::files::lines::{Written, open};
 use crate::files::output::Output;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use stickslip_surface::{
+use stickslip_tip::{Scenario, Trajectory};
+use stickslip_verify::{
     Difference, Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
 };
-use stickslip_tip::{Scenario, Trajectory};
 
 /// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
 const ROUNDINGS: f64 = 16.0;
@@ -131,7 +131,7 @@ pub(super) fn of_history(
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
     let found =
-        repeated(|observe| stickslip_surface::verify(scenario, memory, trajectory, observe))?;
+        repeated(|observe| stickslip_verify::verify(scenario, memory, trajectory, observe))?;
     Ok(document(&found))
 }
 

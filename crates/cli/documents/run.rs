@@ -4,7 +4,7 @@ use super::{ModelParameters, Software, VerificationDocument};
 use crate::arguments::{MemoryName, StartName};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::Regime;
+use stickslip_outcome::Regime;
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

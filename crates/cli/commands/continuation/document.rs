@@ -6,8 +6,8 @@ use crate::documents::{
     ContinueDocument, ContinueParameters, CycleBranch, EndName, FORMAT_VERSION, ModelParameters,
     Software, SpecialDocument, SpecialName, TipDocument,
 };
-use stickslip_tip::cycle::{End, Point, Special, SpecialKind};
-use stickslip_tip::stability::trapping_alpha;
+use stickslip_cycles::{End, Point, Special, SpecialKind};
+use stickslip_stability::trapping_alpha;
 
 pub(super) fn of(
     arguments: &ContinueArguments,

@@ -6,7 +6,7 @@ use crate::commands::run::document::trajectory_of;
 use crate::documents::CycleDocument;
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
-use stickslip_tip::cycle::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
+use stickslip_cycles::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
 use stickslip_tip::{Model, Trajectory};
 
 /// Parameters, and the motion to start from if there is one.

@@ -8,9 +8,8 @@ use crate::documents::{
 };
 use crate::failure::Failure;
 use stickslip_surface::{Ripple, Surface, ripple_behind};
-use stickslip_tip::{
-    InitialSurface, Model, Oscillation, Scenario, Step, Trajectory, nodes_and_weights,
-};
+use stickslip_tip::motion::Oscillation;
+use stickslip_tip::{InitialSurface, Model, Scenario, Step, Trajectory, nodes_and_weights};
 
 /// What became of the run.
 pub(super) fn end(

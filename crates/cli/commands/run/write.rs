@@ -12,8 +12,8 @@ use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::plot;
 use std::path::Path;
+use stickslip_stability::unstable_count;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::stability::unstable_count;
 use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
 
 /// What the run is written to.

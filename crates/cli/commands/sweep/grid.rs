@@ -4,8 +4,8 @@ use crate::arguments::{Range, SweepArguments, TipArguments};
 use crate::commands::model::tip;
 use crate::documents::{ShardDocument, SweepParameters};
 use crate::failure::{Failure, Typed};
+use stickslip_cycles::TOLERANCES;
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::TOLERANCES;
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;

@@ -2,9 +2,10 @@
 
 use super::grid::{Alpha, Place};
 use crate::documents::{RegimeName, SourceName, SweepPoint};
-use stickslip_tip::cycle::{Cycle, Motion, motion};
-use stickslip_tip::stability::critical;
-use stickslip_tip::{Model, Outcome};
+use stickslip_cycles::{Cycle, Motion, motion};
+use stickslip_outcome::Outcome;
+use stickslip_stability::critical;
+use stickslip_tip::Model;
 
 pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
     let critical = critical(place.tip, place.r);

@@ -10,8 +10,8 @@ use std::cell::RefCell;
 use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
-use stickslip_surface::{ComparedSamples, Sample, verify_samples};
 use stickslip_tip::{MemoryChoice, Running, Scenario};
+use stickslip_verify::{ComparedSamples, Sample, verify_samples};
 
 /// Line of the first sample.
 const FIRST: u64 = 2;

@@ -1,7 +1,7 @@
 //! How many growth exponents may be asked for, and what is said about those that come.
 
-use crate::documents::ComplexDocument;
 use crate::failure::{Failure, Typed};
+use stickslip_documents::ComplexDocument;
 use stickslip_stability::{Certificate, Spectrum, StabilityError};
 use stickslip_tip::{Model, TipFunction};
 

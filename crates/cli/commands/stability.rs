@@ -3,16 +3,16 @@
 use super::figure::Figure;
 use super::model::{model, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
-use crate::arguments::{ModelArguments, SolveFor, StabilityArguments};
-use crate::documents::{
-    FORMAT_VERSION, ModelParameters, OnsetDocument, Software, StabilityDocument,
-    StabilityParameters, TrappingDocument,
-};
+use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
+use stickslip_documents::{
+    FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
+    StabilityParameters, TrappingDocument,
+};
 use stickslip_stability::{
     Critical, Spectrum, StabilityError, creep, critical, critical_r, leading_roots, onset_at,
     roots, trapping_alpha, unstable_count,

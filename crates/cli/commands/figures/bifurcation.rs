@@ -2,10 +2,10 @@
 
 use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
-use crate::documents::{FigureDocument, PanelDocument, StyleName};
 use crate::failure::Failure;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
+use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
 use stickslip_outcome::{Regime, classify};
 use stickslip_tip::{Scenario, Trajectory};
 

@@ -2,8 +2,8 @@
 
 use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::documents::{FigureDocument, StyleName};
 use crate::failure::Failure;
+use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_stability::{Boundary, onset_at};
 
 /// log₁₀ of the r shown.

@@ -1,12 +1,12 @@
 //! Checkpoints: written so that a kill at any moment leaves the last good one.
 
 use super::record::Record;
-use crate::documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use crate::failure::{Failure, Typed};
 use crate::files::output::replace;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use stickslip_documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
 

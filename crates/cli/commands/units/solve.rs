@@ -1,8 +1,8 @@
 //! From what is given to all six quantities.
 
 use crate::arguments::{ModelArguments, UnitsArguments};
-use crate::documents::UnitsParameters;
 use crate::failure::{Failure, Typed};
+use stickslip_documents::UnitsParameters;
 use stickslip_stability as stability;
 use stickslip_tip::TipFunction;
 use stickslip_units::{Physical, Unit};

@@ -1,92 +1,103 @@
 //! `stickslip/continue`.
 
-use super::{ModelParameters, Software};
-use crate::arguments::OverName;
+use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
 
 /// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
 /// peak-to-peak.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ContinueDocument {
+pub struct ContinueDocument {
     /// "stickslip/continue"
-    pub(crate) format: String,
+    pub format: String,
     /// 1
-    pub(crate) format_version: u32,
+    pub format_version: u32,
     /// The program that wrote it.
-    pub(crate) software: Software,
+    pub software: Software,
     /// What was asked for; α and r are those of the first cycle.
-    pub(crate) parameters: ContinueParameters,
+    pub parameters: ContinueParameters,
     /// The first, and with --switch those of twice its period, of four times, ….
-    pub(crate) branches: Vec<CycleBranch>,
+    pub branches: Vec<CycleBranch>,
     /// Where something happens to the cycles of a branch, in order of the branches.
-    pub(crate) special: Vec<SpecialDocument>,
+    pub special: Vec<SpecialDocument>,
     /// The value of what varies at which the tip can be trapped for ever; null if there is none.
-    pub(crate) trapping: Option<f64>,
+    pub trapping: Option<f64>,
     /// Whether a signal stopped it.
-    pub(crate) interrupted: bool,
+    pub interrupted: bool,
     /// What could not be followed; empty if all was.
-    pub(crate) remarks: Vec<String>,
+    pub remarks: Vec<String>,
 }
 
 impl ContinueDocument {
-    pub(crate) const FORMAT: &'static str = "stickslip/continue";
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/continue";
 }
 
 /// What was asked for.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct ContinueParameters {
+pub struct ContinueParameters {
     /// Footprint, α and r.
     #[serde(flatten)]
-    pub(crate) model: ModelParameters,
+    pub model: ModelParameters,
     /// What varies.
-    pub(crate) over: OverName,
+    pub over: OverName,
     /// Its last value, if any.
-    pub(crate) to: Option<f64>,
+    pub to: Option<f64>,
     /// Whether the branches of twice the period were followed.
-    pub(crate) switch: bool,
+    pub switch: bool,
     /// The period, in Γ/k, beyond which a branch is not followed.
-    pub(crate) longest_period: f64,
+    pub longest_period: f64,
     /// Longest step from one cycle to the next, in relative changes of parameter, period and l.
-    pub(crate) longest_step: f64,
+    pub longest_step: f64,
     /// Number of cycles with which a branch ends at the latest.
-    pub(crate) most_points: usize,
+    pub most_points: usize,
     /// Largest residual of (18), in kσ/Γ.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
+}
+
+/// What varies along a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OverName {
+    /// α at fixed r.
+    Alpha,
+    /// r at fixed α.
+    R,
 }
 
 /// Cycles in the order in which they were found; columns of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CycleBranch {
+pub struct CycleBranch {
     /// Index in `special` of the period doubling that it began at; null for the first branch.
-    pub(crate) from: Option<usize>,
+    pub from: Option<usize>,
     /// α of each cycle, dimensionless (13).
-    pub(crate) alpha: Vec<f64>,
+    pub alpha: Vec<f64>,
     /// r of each cycle, dimensionless (12).
-    pub(crate) r: Vec<f64>,
+    pub r: Vec<f64>,
     /// T of each cycle, in Γ/k.
-    pub(crate) period: Vec<f64>,
+    pub period: Vec<f64>,
     /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
-    pub(crate) amplitude_x0: Vec<f64>,
+    pub amplitude_x0: Vec<f64>,
     /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
-    pub(crate) amplitude_u: Vec<f64>,
+    pub amplitude_u: Vec<f64>,
     /// Whether every small deviation from the cycle but a shift in time dies out.
-    pub(crate) stable: Vec<bool>,
+    pub stable: Vec<bool>,
     /// Real part of the largest Floquet multiplier but that of a shift in time, dimensionless; 0 where all are
     /// below 1e-6.
-    pub(crate) multiplier_re: Vec<f64>,
+    pub multiplier_re: Vec<f64>,
     /// Its imaginary part.
-    pub(crate) multiplier_im: Vec<f64>,
+    pub multiplier_im: Vec<f64>,
     /// Why it ends where it does.
-    pub(crate) end: EndName,
+    pub end: EndName,
 }
 
 /// Why a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum EndName {
+pub enum EndName {
     /// What varies has its last value.
     Reached,
     /// The period exceeds the longest one.
@@ -106,25 +117,25 @@ pub(crate) enum EndName {
 /// A point where something happens to the cycles of a branch.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SpecialDocument {
+pub struct SpecialDocument {
     /// What.
-    pub(crate) kind: SpecialName,
+    pub kind: SpecialName,
     /// Index in `branches`.
-    pub(crate) branch: usize,
+    pub branch: usize,
     /// α there, dimensionless (13).
-    pub(crate) alpha: f64,
+    pub alpha: f64,
     /// r there, dimensionless (12).
-    pub(crate) r: f64,
+    pub r: f64,
     /// T of the cycle there, in Γ/k; at a Hopf point that of the oscillation that is born.
-    pub(crate) period: f64,
+    pub period: f64,
     /// Half peak-to-peak of l of the cycle there, in σ; 0 at a Hopf point.
-    pub(crate) amplitude_x0: f64,
+    pub amplitude_x0: f64,
 }
 
 /// Kinds of special points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum SpecialName {
+pub enum SpecialName {
     /// The cycle vanishes into steady motion.
     Hopf,
     /// The branch turns back.
@@ -137,4 +148,74 @@ pub(crate) enum SpecialName {
     BranchPoint,
     /// A complex pair crosses the unit circle: a torus is born.
     Torus,
+}
+
+impl CycleBranch {
+    /// A branch, and the index in `special` of the period doubling that it began at.
+    pub fn of(branch: &Branch, from: Option<usize>) -> Self {
+        let points = &branch.points;
+        let column = |of: fn(&Point) -> f64| points.iter().map(of).collect();
+        Self {
+            from,
+            alpha: column(|p| p.alpha),
+            r: column(|p| p.r),
+            period: column(|p| p.period),
+            amplitude_x0: column(|p| p.amplitude_x0),
+            amplitude_u: column(|p| p.amplitude_u),
+            stable: points.iter().map(|p| p.stable).collect(),
+            multiplier_re: column(|p| p.leading.re),
+            multiplier_im: column(|p| p.leading.im),
+            end: branch.end.into(),
+        }
+    }
+}
+
+impl SpecialDocument {
+    /// A point of the branch with this index.
+    pub fn of(branch: usize, special: &Special) -> Self {
+        Self {
+            kind: special.kind.into(),
+            branch,
+            alpha: special.alpha,
+            r: special.r,
+            period: special.period,
+            amplitude_x0: special.cycle.as_ref().map_or(0.0, |cycle| cycle.amplitude_x0()),
+        }
+    }
+}
+
+impl From<OverName> for Parameter {
+    fn from(name: OverName) -> Self {
+        match name {
+            OverName::Alpha => Self::Alpha,
+            OverName::R => Self::R,
+        }
+    }
+}
+
+impl From<End> for EndName {
+    fn from(end: End) -> Self {
+        match end {
+            End::Reached => Self::Reached,
+            End::LongPeriod => Self::LongPeriod,
+            End::Steady => Self::Steady,
+            End::Halved => Self::Halved,
+            End::ManyPoints => Self::ManyPoints,
+            End::Lost => Self::Lost,
+            End::Interrupted => Self::Interrupted,
+        }
+    }
+}
+
+impl From<SpecialKind> for SpecialName {
+    fn from(kind: SpecialKind) -> Self {
+        match kind {
+            SpecialKind::Hopf => Self::Hopf,
+            SpecialKind::Fold => Self::Fold,
+            SpecialKind::PeriodDoubling => Self::PeriodDoubling,
+            SpecialKind::PeriodHalving => Self::PeriodHalving,
+            SpecialKind::BranchPoint => Self::BranchPoint,
+            SpecialKind::Torus => Self::Torus,
+        }
+    }
 }

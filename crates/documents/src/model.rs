@@ -1,5 +1,6 @@
 //! The model in a document.
 
+use crate::Unusable;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError};
@@ -7,7 +8,7 @@ use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipF
 /// The footprint f(x), x in units of σ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
-pub(crate) enum TipDocument {
+pub enum TipDocument {
     /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
     Gaussians {
         /// Its terms.
@@ -26,25 +27,25 @@ pub(crate) enum TipDocument {
 /// exp(-y²/(2v²)) for d = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct LayerDocument {
+pub struct LayerDocument {
     /// d, in σ
-    pub(crate) center_y: f64,
+    pub center_y: f64,
     /// v, in σ
-    pub(crate) width_y: f64,
+    pub width_y: f64,
     /// g
-    pub(crate) gaussians: Vec<GaussianDocument>,
+    pub gaussians: Vec<GaussianDocument>,
 }
 
 /// a exp(-(x-c)²/(2w²)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct GaussianDocument {
+pub struct GaussianDocument {
     /// a, dimensionless.
-    pub(crate) amplitude: f64,
+    pub amplitude: f64,
     /// c, in σ
-    pub(crate) center: f64,
+    pub center: f64,
     /// w, in σ
-    pub(crate) width: f64,
+    pub width: f64,
 }
 
 impl From<&GaussianDocument> for Gaussian {
@@ -88,7 +89,10 @@ fn layer_document(layer: &Layer) -> LayerDocument {
 
 impl TipDocument {
     /// The tip again.
-    pub(crate) fn tip(&self) -> Result<TipFunction, TipFunctionError> {
+    ///
+    /// # Errors
+    /// There is no such tip, such as one without width.
+    pub fn tip(&self) -> Result<TipFunction, TipFunctionError> {
         match self {
             Self::Bessel {} => Ok(TipFunction::Bessel),
             Self::Gaussians { gaussians } => sum_of(gaussians),
@@ -110,25 +114,29 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
 
 /// Footprint, α and r.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct ModelParameters {
+pub struct ModelParameters {
     /// Footprint f.
-    pub(crate) tip: TipDocument,
+    pub tip: TipDocument,
     /// Dimensionless indentation rate α (13).
-    pub(crate) alpha: f64,
+    pub alpha: f64,
     /// D, where α was given as αc(r) + D; dimensionless.
-    pub(crate) alpha_above: Option<f64>,
+    pub alpha_above: Option<f64>,
     /// Dimensionless support velocity r (12).
-    pub(crate) r: f64,
+    pub r: f64,
 }
 
 impl ModelParameters {
-    pub(crate) fn of(model: &Model, alpha_above: Option<f64>) -> Self {
+    /// Those of a model, and D where its α was given as αc(r) + D.
+    pub fn of(model: &Model, alpha_above: Option<f64>) -> Self {
         Self { tip: model.tip().into(), alpha: model.alpha(), alpha_above, r: model.r() }
     }
 
     /// The model again.
-    pub(crate) fn model(&self) -> Result<Model, String> {
-        let tip = self.tip.tip().map_err(|error| error.to_string())?;
-        Model::new(tip, self.alpha, self.r).map_err(|error| error.to_string())
+    ///
+    /// # Errors
+    /// No model has such a tip, α or r.
+    pub fn model(&self) -> Result<Model, Unusable> {
+        let tip = self.tip.tip().map_err(Unusable::new)?;
+        Model::new(tip, self.alpha, self.r).map_err(Unusable::new)
     }
 }

@@ -1,78 +1,79 @@
 //! `stickslip/surface`.
 
-use super::{ModelParameters, Software};
+use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Surfaces reconstructed from a run. Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SurfaceDocument {
+pub struct SurfaceDocument {
     /// "stickslip/surface"
-    pub(crate) format: String,
+    pub format: String,
     /// 1
-    pub(crate) format_version: u32,
+    pub format_version: u32,
     /// The program that wrote it.
-    pub(crate) software: Software,
+    pub software: Software,
     /// Of the run that they come from.
-    pub(crate) parameters: SurfaceParameters,
+    pub parameters: SurfaceParameters,
     /// One curve per time; none where images were asked for.
-    pub(crate) surfaces: Vec<SurfaceCurve>,
+    pub surfaces: Vec<SurfaceCurve>,
     /// One image per time, in three dimensions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(crate) images: Vec<SurfaceImage>,
+    pub images: Vec<SurfaceImage>,
 }
 
 impl SurfaceDocument {
-    pub(crate) const FORMAT: &'static str = "stickslip/surface";
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/surface";
 }
 
 /// What was reconstructed.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct SurfaceParameters {
+pub struct SurfaceParameters {
     /// Footprint, α and r of the run.
     #[serde(flatten)]
-    pub(crate) model: ModelParameters,
+    pub model: ModelParameters,
     /// Whether the initial surface was left out, (35).
-    pub(crate) far_behind: bool,
+    pub far_behind: bool,
     /// Of images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) across: Option<AcrossParameters>,
+    pub across: Option<AcrossParameters>,
 }
 
 /// What images depend on besides the run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct AcrossParameters {
+pub struct AcrossParameters {
     /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
-    pub(crate) width_y: Option<f64>,
+    pub width_y: Option<f64>,
     /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring (52);
     /// null where no k' is certain to do.
-    pub(crate) transverse_stiffness_needed: Option<f64>,
+    pub transverse_stiffness_needed: Option<f64>,
 }
 
 /// u(x,y,t) at one t.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SurfaceImage {
+pub struct SurfaceImage {
     /// Time, in Γ/k.
-    pub(crate) t: f64,
+    pub t: f64,
     /// Positions along the way of the tip, in σ.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Positions across it, in σ.
-    pub(crate) y: Vec<f64>,
+    pub y: Vec<f64>,
     /// Heights, in kσ²/a: a row for each y.
-    pub(crate) u: Vec<Vec<f64>>,
+    pub u: Vec<Vec<f64>>,
 }
 
 /// u(x,t) at one t.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SurfaceCurve {
+pub struct SurfaceCurve {
     /// Time, in Γ/k.
-    pub(crate) t: f64,
+    pub t: f64,
     /// Positions, in σ.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Heights there, in kσ²/a.
-    pub(crate) u: Vec<f64>,
+    pub u: Vec<f64>,
 }

@@ -1,7 +1,6 @@
 //! `stickslip/stability`.
 
-use super::{ModelParameters, Software};
-use crate::arguments::SolveFor;
+use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{Certificate, Critical, Criticality, Onset};
@@ -9,122 +8,133 @@ use stickslip_stability::{Certificate, Critical, Criticality, Onset};
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StabilityDocument {
+pub struct StabilityDocument {
     /// "stickslip/stability"
-    pub(crate) format: String,
+    pub format: String,
     /// 1
-    pub(crate) format_version: u32,
+    pub format_version: u32,
     /// The program that wrote it.
-    pub(crate) software: Software,
+    pub software: Software,
     /// What was asked for.
-    pub(crate) parameters: StabilityParameters,
+    pub parameters: StabilityParameters,
     /// Where the first root reaches the imaginary axis; null where none does, see `remarks`.
-    pub(crate) critical: Option<CriticalDocument>,
+    pub critical: Option<CriticalDocument>,
     /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the
     /// critical point itself, false.
-    pub(crate) stable: bool,
+    pub stable: bool,
     /// The logarithmic creep of a tip that never gets free.
-    pub(crate) trapping: TrappingDocument,
+    pub trapping: TrappingDocument,
     /// Growth exponents λ at the α and r of `parameters`, by falling real part, the one above the real
     /// axis first of each pair.
-    pub(crate) roots: Vec<ComplexDocument>,
+    pub roots: Vec<ComplexDocument>,
     /// That none is missing.
-    pub(crate) certificate: CertificateDocument,
+    pub certificate: CertificateDocument,
     /// What is born at the critical point; null where the leading order says nothing, see `remarks`.
-    pub(crate) onset: Option<OnsetDocument>,
+    pub onset: Option<OnsetDocument>,
     /// Why something is null, short or inexact; empty if nothing is.
-    pub(crate) remarks: Vec<String>,
+    pub remarks: Vec<String>,
 }
 
 impl StabilityDocument {
-    pub(crate) const FORMAT: &'static str = "stickslip/stability";
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/stability";
 }
 
 /// The point whose growth exponents are listed, and what was asked.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct StabilityParameters {
+pub struct StabilityParameters {
     /// Footprint, α and r.
     #[serde(flatten)]
-    pub(crate) model: ModelParameters,
+    pub model: ModelParameters,
     /// Which of α and r the critical point was solved for, at the given value of the other.
-    pub(crate) solve_for: SolveFor,
+    pub solve_for: SolveFor,
     /// Whether α and r are those of the critical point, for want of one of them.
-    pub(crate) at_critical_point: bool,
+    pub at_critical_point: bool,
     /// Number of roots asked for; null where a bound was.
-    pub(crate) roots: Option<usize>,
+    pub roots: Option<usize>,
     /// Bound of Re λ asked for, in k/Γ; null where a number was.
-    pub(crate) re_above: Option<f64>,
+    pub re_above: Option<f64>,
+}
+
+/// Which of α and r is varied to find a critical point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolveFor {
+    /// αc at the r of --r.
+    Alpha,
+    /// rc at the α of --alpha.
+    R,
 }
 
 /// A complex number.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ComplexDocument {
+pub struct ComplexDocument {
     /// Real part, in the unit of the number.
-    pub(crate) re: f64,
+    pub re: f64,
     /// Imaginary part, in the same unit.
-    pub(crate) im: f64,
+    pub im: f64,
 }
 
 /// A point of the stability boundary with the oscillation that is born there.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CriticalDocument {
+pub struct CriticalDocument {
     /// αc, (43).
-    pub(crate) alpha: f64,
+    pub alpha: f64,
     /// rc, (42).
-    pub(crate) r: f64,
+    pub r: f64,
     /// Frequency ω in time, in k/Γ.
-    pub(crate) omega: f64,
+    pub omega: f64,
     /// 2π/ω, in Γ/k.
-    pub(crate) period: f64,
+    pub period: f64,
     /// 2πr/ω, in σ.
-    pub(crate) wavelength: f64,
+    pub wavelength: f64,
 }
 
 /// The motion x0 ~ (1/p) ln t for ever.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct TrappingDocument {
+pub struct TrappingDocument {
     /// The smallest α at which there is such a motion at this r; null if there is none at any α.
-    pub(crate) alpha: Option<f64>,
+    pub alpha: Option<f64>,
     /// All such p at the α and r of `parameters`, in 1/σ, ascending; null where there is none.
-    pub(crate) creep_rates: Option<Vec<f64>>,
+    pub creep_rates: Option<Vec<f64>>,
     /// The one of them that a trapped tip comes to; null where there is none, or where a complex root lies
     /// right of them all: there every stick ends in a slip.
-    pub(crate) attracting: Option<f64>,
+    pub attracting: Option<f64>,
     /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null where they
     /// could not be had, see `remarks`.
-    pub(crate) creep_roots: Option<Vec<ComplexDocument>>,
+    pub creep_roots: Option<Vec<ComplexDocument>>,
 }
 
 /// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, outside of which no root has a real part
 /// above re_min, and how many roots it holds.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CertificateDocument {
+pub struct CertificateDocument {
     /// Left edge, in k/Γ.
-    pub(crate) re_min: f64,
+    pub re_min: f64,
     /// Right edge, in k/Γ.
-    pub(crate) re_max: f64,
+    pub re_max: f64,
     /// Upper edge, and the lower one with its sign changed, in k/Γ.
-    pub(crate) im_max: f64,
+    pub im_max: f64,
     /// By the argument principle.
-    pub(crate) counted: usize,
+    pub counted: usize,
     /// Different ones among those listed that solve the equation.
-    pub(crate) found: usize,
+    pub found: usize,
     /// Whether the two agree, and every listed root solves the equation.
-    pub(crate) complete: bool,
+    pub complete: bool,
     /// Largest residual of a listed root, relative to the terms of the equation.
-    pub(crate) largest_residual: f64,
+    pub largest_residual: f64,
     /// Estimate of the largest error of a listed λ, in k/Γ.
-    pub(crate) largest_error: f64,
+    pub largest_error: f64,
 }
 
 /// On which side of the boundary the small oscillation exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum CriticalityName {
+pub enum CriticalityName {
     /// Stable and small, above the critical α.
     Supercritical,
     /// Unstable, below it.
@@ -134,19 +144,19 @@ pub(crate) enum CriticalityName {
 /// The small oscillation near the critical point, to leading order in α - αc.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OnsetDocument {
+pub struct OnsetDocument {
     /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
-    pub(crate) criticality: CriticalityName,
+    pub criticality: CriticalityName,
     /// d(a²)/dα, a half the peak-to-peak of l, in σ².
-    pub(crate) amplitude_squared_slope: f64,
+    pub amplitude_squared_slope: f64,
     /// dT/dα along the branch, in Γ/k.
-    pub(crate) period_slope: f64,
+    pub period_slope: f64,
     /// dω/dα along the branch, in k/Γ.
-    pub(crate) omega_slope: f64,
+    pub omega_slope: f64,
     /// d(Re λ)/dα of the critical pair, in k/Γ.
-    pub(crate) growth_slope: f64,
+    pub growth_slope: f64,
     /// First Lyapunov coefficient, in k/(Γσ²): A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
-    pub(crate) lyapunov: f64,
+    pub lyapunov: f64,
 }
 
 impl From<&Critical> for CriticalDocument {

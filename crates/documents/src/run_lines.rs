@@ -1,6 +1,6 @@
 //! `stickslip/run-lines`.
 
-use super::{
+use crate::{
     FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, Software, SteadyState,
     WorkDocument,
 };
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// sample, the last says what became of it. Without a last line the run did not come to an end.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
-pub(crate) enum RunLine {
+pub enum RunLine {
     /// The first line.
     Head(Box<RunHead>),
     /// A sample.
@@ -23,23 +23,25 @@ pub(crate) enum RunLine {
 /// What is run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RunHead {
+pub struct RunHead {
     /// "stickslip/run-lines"
-    pub(crate) format: String,
+    pub format: String,
     /// 1
-    pub(crate) format_version: u32,
+    pub format_version: u32,
     /// The program that wrote it.
-    pub(crate) software: Software,
+    pub software: Software,
     /// Everything that defines the run.
-    pub(crate) parameters: RunParameters,
+    pub parameters: RunParameters,
     /// The steady motion at these parameters, whether or not it is stable.
-    pub(crate) steady_state: SteadyState,
+    pub steady_state: SteadyState,
 }
 
 impl RunHead {
-    pub(crate) const FORMAT: &'static str = "stickslip/run-lines";
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/run-lines";
 
-    pub(crate) fn new(parameters: RunParameters, steady_state: SteadyState) -> Self {
+    /// The first line of a run with these parameters.
+    pub fn new(parameters: RunParameters, steady_state: SteadyState) -> Self {
         Self {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
@@ -53,29 +55,29 @@ impl RunHead {
 /// l, x0 and x0' at one time.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SampleLine {
+pub struct SampleLine {
     /// Time, in Γ/k.
-    pub(crate) t: f64,
+    pub t: f64,
     /// l = rt - r - x0, in σ.
-    pub(crate) l: f64,
+    pub l: f64,
     /// Position of the tip, in σ.
-    pub(crate) x0: f64,
+    pub x0: f64,
     /// x0', in kσ/Γ, one order less accurate than x0.
-    pub(crate) velocity: f64,
+    pub velocity: f64,
 }
 
 /// What became of the run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RunEnd {
+pub struct RunEnd {
     /// Time reached, in Γ/k.
-    pub(crate) end: f64,
+    pub end: f64,
     /// The kind of motion at the end of the run.
-    pub(crate) regime: RegimeName,
+    pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
-    pub(crate) oscillation: Option<OscillationDocument>,
+    pub oscillation: Option<OscillationDocument>,
     /// Whether a signal stopped the run before `until`.
-    pub(crate) interrupted: bool,
+    pub interrupted: bool,
     /// What it took.
-    pub(crate) work: WorkDocument,
+    pub work: WorkDocument,
 }

@@ -4,9 +4,10 @@
 use crate::tips::tips;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
-use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
+use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle};
 use stickslip_stability::critical;
-use stickslip_tip::{Model, Regime, Scenario, run};
+use stickslip_tip::motion::{Oscillation, latest_extrema};
+use stickslip_tip::{Model, Scenario, run};
 
 /// Of these α/αc, one each.
 const ABOVE: [f64; 4] = [1.003, 1.03, 1.1, 1.4];
@@ -53,7 +54,7 @@ fn a_cycle_is_found_wherever_a_run_settles_on_one() {
     assert!(panics.is_empty() && missed.is_empty() && wrong.is_empty());
 }
 
-type Found = Result<Result<stickslip_cycles::Cycle, stickslip_tip::cycle::CycleError>, ()>;
+type Found = Result<Result<Cycle, CycleError>, ()>;
 
 fn judge(count: &mut Count, model: &Model, found: Found) -> String {
     match found {
@@ -79,12 +80,11 @@ fn judge(count: &mut Count, model: &Model, found: Found) -> String {
             scenario.kick = 0.3;
             scenario.tolerance = 1e-7;
             let ended = run(&scenario);
-            let outcome = ended.as_ref().map(|run| run.outcome);
-            let settles = outcome.is_ok_and(|o| o.regime == Regime::StickSlip);
-            let said = format!("{error} [a run: {}]", match &outcome {
-                Ok(outcome) => format!("{outcome:?}"),
-                Err(error) => error.to_string(),
-            });
+            let repeats = |motion| Oscillation::of(motion, &latest_extrema(motion));
+            let settles = ended.as_ref().ok().and_then(|run| repeats(&run.trajectory));
+            let ended = ended.map_or_else(|error| error.to_string(), |_| format!("{settles:?}"));
+            let said = format!("{error} [a run: {ended}]");
+            let settles = settles.is_some_and(|motion| motion.drift < 1e-6);
             if settles {
                 count.missed.push(said.clone());
                 return format!("MISSED {said}");

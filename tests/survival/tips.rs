@@ -4,6 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha20Rng;
 use stickslip_tip::{Gaussian, TipFunction};
 
+#[allow(dead_code, reason = "printed")]
 /// How one was made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Kind {

@@ -12,7 +12,7 @@ mod modes;
 pub use auto::{Auto, CROSSOVER_NODES, CROSSOVER_STEPS};
 pub use direct::Direct;
 pub use fft::Fft;
-pub use modes::{Certificate, Fit, FitError, Modes, Term, accuracy_needed};
+pub use modes::{Fit, FitCertificate, FitError, Modes, Term, accuracy_needed};
 
 use crate::TipFunction;
 use crate::collocation::Stages;

@@ -2,7 +2,8 @@
 
 mod saved;
 
-use super::fit::{Fit, Term};
+use super::fit::Fit;
+use super::term::Term;
 use crate::collocation::{STAGES, Stages};
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.

@@ -6,11 +6,13 @@ mod certificate;
 mod fit;
 mod past;
 mod pencil;
+mod term;
 mod weights;
 
 pub use accuracy::accuracy_needed;
-pub use certificate::Certificate;
-pub use fit::{Fit, FitError, Term};
+pub use certificate::FitCertificate;
+pub use fit::{Fit, FitError};
+pub use term::Term;
 
 use super::{Fft, Memory};
 use crate::TipFunction;
@@ -216,7 +218,7 @@ impl Memory for Modes {
     }
 
     fn note(&self) -> Option<String> {
-        let Certificate { slope, area, .. } = self.fit.certificate();
+        let FitCertificate { slope, area, .. } = self.fit.certificate();
         let fit = format!(
             "{} exponentials fit f' to {slope:.1e}, and the force on a tip of velocity v to {area:.1e} alpha/v",
             self.fit.terms().len()

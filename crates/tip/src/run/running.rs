@@ -1,16 +1,17 @@
 //! A run under way: step by step, in bounded memory, to be saved and taken up again at any step.
 
 use super::{RunError, Scenario};
-use crate::integrator::{Integrator, Work};
+use crate::integrator::{IntegrationError, Integrator, Work};
+use crate::memory::{MemoryReport, Policy};
 use crate::outcome::{Classifier, Outcome};
-use crate::state::{Damaged, State};
+use crate::state::{Damaged, Saved, State};
 use crate::{InitialSurface, Step, Trajectory};
 
 /// A tip on its way through a scenario. It keeps no history but the steps at the end that its
 /// [`Outcome`] is read from.
 pub struct Running<'a> {
     scenario: &'a Scenario,
-    integrator: Integrator<'a>,
+    integrator: Integrator<'a, Policy>,
     classifier: Classifier,
 }
 
@@ -74,6 +75,9 @@ impl<'a> Running<'a> {
             return Ok(None);
         }
         let step = self.integrator.step(self.scenario.until)?;
+        if let Some(kept) = self.integrator.memory().forgotten() {
+            return Err(IntegrationError::Forgotten { t: self.t(), kept }.into());
+        }
         self.classifier.observe(&step);
         Ok(Some(step))
     }
@@ -112,12 +116,18 @@ impl<'a> Running<'a> {
     /// Name of the memory in use.
     #[must_use]
     pub fn memory(&self) -> &'static str {
-        self.integrator.memory().name()
+        self.memory_report().name()
     }
 
     /// Why that one.
     #[must_use]
     pub fn memory_reason(&self) -> String {
-        self.scenario.memory.reason(self.integrator.memory())
+        self.memory_report().reason()
+    }
+
+    /// Which memory is in use, why, and how it fared.
+    #[must_use]
+    pub fn memory_report(&self) -> MemoryReport {
+        self.integrator.memory().report()
     }
 }

@@ -94,7 +94,7 @@ impl Policy {
     pub fn report(&self) -> MemoryReport {
         let sum = match &self.now {
             Now::Direct => Sum::Direct,
-            Now::Fft(_, why) => Sum::Fft { instead_of_modes: why.clone() },
+            Now::Fft(_, why) => Sum::Fft { instead_of_modes: *why },
             Now::Modes(modes, retreats) => Sum::Modes {
                 terms: modes.fit().terms().len(),
                 certificate: modes.fit().certificate(),

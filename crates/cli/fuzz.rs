@@ -9,17 +9,18 @@
 use crate::arguments::{Cli, Command, ModelArguments};
 use crate::commands::sweep::{diagram, merge};
 use crate::commands::{model, run};
-use crate::documents::{RunDocument, SweepDocument};
-use crate::files::input::{parse_document, parse_profile, parse_tip};
+use crate::files::input::{parse_profile, parse_tip};
 use crate::files::lines::Lines;
 use clap::Parser;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::path::Path;
 use std::time::{Duration, Instant};
+use stickslip_documents::{RunDocument, SweepDocument};
+use stickslip_outcome::Watched;
 use stickslip_surface::Surface;
-use stickslip_tip::units::Unit;
-use stickslip_tip::{Force, InitialSurface, Running};
+use stickslip_tip::{Force, InitialSurface};
+use stickslip_units::Unit;
 
 /// Cases of each target where the environment sets no other number: some seconds in all.
 const CASES: u32 = 2000;
@@ -172,7 +173,7 @@ fn any_columns_are_taken_or_refused() {
 }
 
 fn parse_run(text: &str) -> Result<RunDocument, String> {
-    parse_document(text, RunDocument::FORMAT)
+    stickslip_documents::read(text, RunDocument::FORMAT).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -182,8 +183,8 @@ fn any_run_document_is_taken_or_refused() {
         let again = serde_json::to_string(&document).unwrap();
         assert_eq!(serde_json::to_string(&parse_run(&again).unwrap()).unwrap(), again);
         let Ok(model) = document.parameters.model.model() else { return false };
-        let Ok(trajectory) = run::document::trajectory(&document) else { return false };
-        let scenario = run::parameters::scenario(&document.parameters);
+        let Ok(trajectory) = document.trajectory() else { return false };
+        let scenario = document.parameters.scenario();
         let Some(Ok(initial)) = scenario.ok().map(|s| s.initial_surface()) else { return false };
         let surface = Surface::new(&model, &initial, &trajectory);
         surface.heights(trajectory.end(), &[trajectory.x0(trajectory.end())]).unwrap();
@@ -196,7 +197,7 @@ fn any_lines_are_taken_or_refused() {
     fuzz("lines", |text| {
         let mut lines = Lines::new(text.as_bytes());
         let Ok(head) = lines.head() else { return false };
-        let Ok(scenario) = run::parameters::scenario(&head.parameters) else { return false };
+        let Ok(scenario) = head.parameters.scenario() else { return false };
         let Ok(extent) = lines.survey(&(scenario.start_time()..=scenario.until)) else {
             return false;
         };
@@ -232,9 +233,9 @@ fn any_checkpoint_is_taken_or_refused() {
         assert!(run::checkpoint::parse(text.as_bytes()).is_err());
         let Some(bytes) = checkpoint(text) else { return false };
         let Ok((head, state)) = run::checkpoint::parse(&bytes) else { return false };
-        let Ok(scenario) = run::parameters::scenario(&head.order.parameters) else { return false };
+        let Ok(scenario) = head.order.parameters.scenario() else { return false };
         let Ok(surface) = scenario.initial_surface() else { return false };
-        let Ok(mut running) = Running::resumed(&scenario, &surface, &state) else { return false };
+        let Ok(mut running) = Watched::resumed(&scenario, &surface, &state) else { return false };
         // Numbers without sense may not be told from others, but they do no harm.
         for _ in 0..3 {
             if !running.step().is_ok_and(|step| step.is_some()) {
@@ -249,7 +250,7 @@ fn any_checkpoint_is_taken_or_refused() {
 #[test]
 fn any_sweep_is_taken_or_refused() {
     fuzz("sweep", |text| {
-        let sweep: Result<SweepDocument, String> = parse_document(text, SweepDocument::FORMAT);
+        let sweep = stickslip_documents::read::<SweepDocument>(text, SweepDocument::FORMAT);
         let Ok(sweep) = sweep else { return false };
         let is_whole = merge::complete(&sweep.parameters, &sweep.points).is_ok();
         if is_whole && diagram::judge(&sweep.parameters).is_ok() {

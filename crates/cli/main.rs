@@ -6,7 +6,6 @@
 
 mod arguments;
 mod commands;
-mod documents;
 mod failure;
 mod files;
 #[cfg(test)]

@@ -7,13 +7,13 @@ use crate::folder::{Folder, said};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use stickslip_surface::{TOLERANCES_ALLOWED, Verification, verify};
+use stickslip_stability::{critical, leading_roots};
 use stickslip_tip::memory::{Fit, Policy, Term, accuracy_needed};
-use stickslip_tip::stability::{critical, leading_roots};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction,
     Trajectory, run,
 };
+use stickslip_verify::{TOLERANCES_ALLOWED, Verification, verify};
 
 fn triple(beta: f64, alpha: f64, r: f64) -> Model {
     Model::new(TipFunction::triple_gaussian(beta, 1.0).unwrap(), alpha, r).unwrap()
@@ -134,14 +134,8 @@ fn with_fit(scenario: &Scenario, fit: Fit) -> Trajectory {
     let model = &scenario.model;
     let memory = Policy::with_fit(model.tip().clone(), Arc::new(fit)).unwrap();
     let start = (scenario.start_time(), model.steady_lag() + scenario.kick);
-    let mut integrator = Integrator::new(
-        model,
-        &surface,
-        &scenario.force,
-        memory,
-        start,
-        scenario.tolerance,
-    );
+    let mut integrator =
+        Integrator::new(model, &surface, &scenario.force, memory, start, scenario.tolerance);
     let mut steps = vec![];
     // A damaged memory may make motions without end.
     while integrator.t() < scenario.until && steps.len() < 600 {

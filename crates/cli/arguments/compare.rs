@@ -1,23 +1,10 @@
 //! `stickslip compare`.
 
-use super::{DisturbanceArguments, MemoryName, ModelArguments, SamplingArguments, StartArguments};
-use clap::{Args, ValueEnum};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::named::named;
+use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
+use clap::Args;
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum GridName {
-    /// The paper's: heights on a uniform grid, all of them advanced at every stage; order 2.
-    Uniform,
-    /// The same heights, but only those within reach of the tip are touched; order 2.
-    Windowed,
-    /// A lattice that writes and reads with narrower Gaussians: exact to round-off in space.
-    Spectral,
-    /// Samples read by a regularised sinc: exact to round-off in space, another way.
-    Sinc,
-}
+use stickslip_documents::{GridName, MemoryName};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
 #[derive(Debug, Args)]
@@ -37,7 +24,13 @@ pub(crate) struct CompareArguments {
     pub(crate) disturbance: DisturbanceArguments,
 
     /// How the closed equation remembers the past.
-    #[arg(long, value_enum, default_value = "auto", help_heading = "Closed equation")]
+    #[arg(
+        long,
+        value_parser = named::<MemoryName>(),
+        value_name = "MEMORY",
+        default_value = "auto",
+        help_heading = "Closed equation"
+    )]
     pub(crate) memory: MemoryName,
 
     /// Error of x0(t) asked of the closed equation, in σ; from 1e-13 to 1e-2.
@@ -51,7 +44,13 @@ pub(crate) struct CompareArguments {
     pub(crate) tolerance: f64,
 
     /// Which discretisation of (10), (11).
-    #[arg(long, value_enum, default_value = "spectral", help_heading = "Grid")]
+    #[arg(
+        long,
+        value_parser = named::<GridName>(),
+        value_name = "GRID",
+        default_value = "spectral",
+        help_heading = "Grid"
+    )]
     pub(crate) grid: GridName,
 
     /// Δx, in σ [default: the widest exact to round-off for spectral and sinc, 0.01 tip widths for

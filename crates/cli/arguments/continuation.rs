@@ -1,19 +1,10 @@
 //! `stickslip continue`.
 
 use super::CycleStart;
-use clap::{Args, ValueEnum};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::named::named;
+use clap::Args;
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum OverName {
-    /// α at fixed r.
-    Alpha,
-    /// r at fixed α.
-    R,
-}
+use stickslip_documents::OverName;
 
 /// A branch of cycles in α or r, stable or not, with the points where something happens to it.
 ///
@@ -27,7 +18,7 @@ pub(crate) struct ContinueArguments {
     pub(crate) start: CycleStart,
 
     /// What varies.
-    #[arg(long, value_enum, value_name = "NAME", help_heading = "Branch")]
+    #[arg(long, value_parser = named::<OverName>(), value_name = "NAME", help_heading = "Branch")]
     pub(crate) over: OverName,
 
     /// Its last value [default: none, the branch ends otherwise].

@@ -7,6 +7,7 @@ mod cycle;
 mod disturbance;
 mod figures;
 mod model;
+mod named;
 mod response;
 mod run;
 mod sampling;
@@ -18,24 +19,25 @@ mod units;
 mod verify;
 
 pub(crate) use boundary::BoundaryArguments;
-pub(crate) use compare::{CompareArguments, GridName};
-pub(crate) use continuation::{ContinueArguments, OverName};
+pub(crate) use compare::CompareArguments;
+pub(crate) use continuation::ContinueArguments;
 pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use response::ResponseArguments;
-pub(crate) use run::{HistoryName, MemoryName, RunArguments, RunFormat};
+pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
-pub(crate) use stability::{SolveFor, StabilityArguments};
-pub(crate) use start::{StartArguments, StartName};
+pub(crate) use stability::StabilityArguments;
+pub(crate) use start::StartArguments;
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
-use crate::documents::SchemaName;
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use stickslip_documents::SCHEMAS;
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
 ///
@@ -88,6 +90,6 @@ pub(crate) enum Command {
 #[command(after_help = "Example:\n  stickslip schema run > run.schema.json")]
 pub(crate) struct SchemaArguments {
     /// Kind of document.
-    #[arg(value_enum)]
-    pub(crate) name: SchemaName,
+    #[arg(value_parser = PossibleValuesParser::new(SCHEMAS.map(|(name, _)| name)))]
+    pub(crate) name: String,
 }

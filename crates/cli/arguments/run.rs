@@ -1,39 +1,10 @@
 //! `stickslip run`.
 
+use super::named::named;
 use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
 use clap::{Args, ValueEnum};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum MemoryName {
-    /// The cheapest: direct while few points lie within reach of the tip, then modes, or fft where no
-    /// exponentials fit.
-    Auto,
-    /// A sum over the history within reach: the definition, slow for long histories.
-    Direct,
-    /// FFT convolution with the residence density: the same cost for any history.
-    Fft,
-    /// A sum of few exponentials, for tip functions that fade: a step costs the same for ever, and less
-    /// than with fft.
-    Modes,
-}
-
-/// What a run is written as.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum RunFormat {
-    /// One document with everything.
-    Json,
-    /// The samples.
-    Csv,
-    /// Samples and history as NumPy arrays.
-    Npz,
-    /// JSON Lines: what is run, a line for each sample as the run passes it, what became of it.
-    Jsonl,
-}
+use stickslip_documents::{MemoryName, RunFormat};
 
 /// Which part of the dense history a document holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -63,7 +34,13 @@ pub(crate) struct RunArguments {
     pub(crate) disturbance: DisturbanceArguments,
 
     /// How the past is remembered. All memories give the same motion to the tolerance.
-    #[arg(long, value_enum, default_value = "auto", help_heading = "Accuracy")]
+    #[arg(
+        long,
+        value_parser = named::<MemoryName>(),
+        value_name = "MEMORY",
+        default_value = "auto",
+        help_heading = "Accuracy"
+    )]
     pub(crate) memory: MemoryName,
 
     /// Error of l(t) and x0(t) asked for, in σ; from 1e-13 to 1e-2.
@@ -87,7 +64,7 @@ pub(crate) struct RunArguments {
 
     /// What is written, whatever the name of the file [default: by its extension; json on standard
     /// output].
-    #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
+    #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
 
     /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.

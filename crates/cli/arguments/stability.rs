@@ -1,19 +1,10 @@
 //! `stickslip stability`.
 
 use super::ModelArguments;
-use clap::{Args, ValueEnum};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::named::named;
+use clap::Args;
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum SolveFor {
-    /// αc at the r of --r.
-    Alpha,
-    /// rc at the α of --alpha.
-    R,
-}
+use stickslip_documents::SolveFor;
 
 /// Where steady motion loses its stability, and all growth exponents.
 ///
@@ -26,7 +17,7 @@ pub(crate) struct StabilityArguments {
     pub(crate) model: ModelArguments,
 
     /// Which of the two is varied to find the critical point.
-    #[arg(long, value_enum, default_value = "alpha", value_name = "NAME")]
+    #[arg(long, value_parser = named::<SolveFor>(), default_value = "alpha", value_name = "NAME")]
     pub(crate) solve_for: SolveFor,
 
     /// At least N growth exponents: all those right of a line chosen so [default: 10].

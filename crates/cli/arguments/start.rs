@@ -1,23 +1,14 @@
 //! How a run begins: the options of every command that makes one.
 
-use clap::{Args, ValueEnum};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum StartName {
-    /// The steady state, as after an infinite past.
-    Steady,
-    /// A flat surface, the spring relaxed, the support above the tip.
-    Flat,
-}
+use super::named::named;
+use clap::Args;
+use stickslip_documents::StartName;
 
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Start")]
 pub(crate) struct StartArguments {
     /// What the tip finds at the start.
-    #[arg(long, value_enum, default_value = "steady")]
+    #[arg(long, value_parser = named::<StartName>(), value_name = "START", default_value = "steady")]
     pub(crate) start: StartName,
 
     /// Position of the tip at the start, in σ.

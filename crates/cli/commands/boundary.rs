@@ -3,18 +3,18 @@
 use super::figure::Figure;
 use super::model::tip;
 use crate::arguments::BoundaryArguments;
-use crate::documents::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, FORMAT_VERSION, OnsetColumns, Software,
-    SpacingName,
-};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
 use std::f64::consts::PI;
+use stickslip_documents::{
+    BoundaryDocument, BoundaryParameters, BranchDocument, FORMAT_VERSION, OnsetColumns, Software,
+    SpacingName,
+};
+use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{Boundary, Branch, Critical, StabilityError, onset_at};
 
 const MOST_POINTS: usize = 100_000;
 
@@ -106,30 +106,13 @@ fn document(
         wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
         r: along.iter().map(|at| at.r).collect(),
         alpha: along.iter().map(|at| at.alpha).collect(),
-        onset: onset(tip, &along),
-        branches: branches.into_iter().map(branch).collect(),
+        onset: OnsetColumns::along(tip, &along),
+        branches: branches.into_iter().map(Into::into).collect(),
         remarks: first_error
             .map(|error| format!("{left_out} values of r are left out: {error}"))
             .into_iter()
             .collect(),
     })
-}
-
-fn onset(tip: &TipFunction, along: &[Critical]) -> OnsetColumns {
-    let mut columns = OnsetColumns::default();
-    for at in along {
-        let onset = onset_at(tip, *at).ok();
-        columns.criticality.push(onset.map(|o| o.criticality.into()));
-        columns.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
-        columns.period_slope.push(onset.map(|o| o.period_slope));
-        columns.lyapunov.push(onset.map(|o| o.lyapunov));
-    }
-    columns
-}
-
-fn branch(branch: Branch) -> BranchDocument {
-    let Branch { wave_number, r, alpha } = branch;
-    BranchDocument { wave_number, r, alpha }
 }
 
 /// Null as NaN, where a column of numbers must hold something.

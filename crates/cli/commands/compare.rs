@@ -6,12 +6,8 @@ mod grid;
 mod pace;
 
 use super::figure::Figure;
-use super::run;
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
-use crate::documents::{
-    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, Software,
-};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
@@ -19,6 +15,9 @@ use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
 use closed::Closed;
 use grid::{Discretisation, Motion};
+use stickslip_documents::{
+    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, RunParameters, Software,
+};
 use stickslip_tip::Scenario;
 
 /// Heights compared.
@@ -145,7 +144,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
     let Disturbance { pulses, table, .. } = &asked.disturbance;
     let above = arguments.model.alpha_above;
-    let run = run::parameters::of(&asked.scenario, above, pulses, table.clone());
+    let run = RunParameters::of(&asked.scenario, above, pulses, table.clone());
     CompareParameters {
         model: run.model,
         start: run.start,

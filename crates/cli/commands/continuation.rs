@@ -7,8 +7,7 @@ use super::cycle::start::{Start, explain};
 use super::figure::Figure;
 use super::model::tip;
 use super::progress::Progress;
-use crate::arguments::{ContinueArguments, OverName};
-use crate::documents::{ContinueDocument, CycleBranch, SpecialDocument, SpecialName};
+use crate::arguments::ContinueArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
@@ -17,11 +16,10 @@ use crate::interrupt::Interrupt;
 use crate::plot;
 use std::ops::ControlFlow;
 use std::path::Path;
+use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
+use stickslip_documents::{ContinueDocument, CycleBranch, OverName, SpecialDocument, SpecialName};
+use stickslip_stability::trapping_alpha;
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::{
-    Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind,
-};
-use stickslip_tip::stability::trapping_alpha;
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
 const MOST_BRANCHES: usize = 12;
@@ -101,10 +99,7 @@ fn settings(arguments: &ContinueArguments) -> Result<Continuation, Failure> {
         }
         Err(Failure::input(format!("{option} {}", Typed(value)), "must be a finite number above 0"))
     };
-    let over = match arguments.over {
-        OverName::Alpha => Parameter::Alpha,
-        OverName::R => Parameter::R,
-    };
+    let over = arguments.over.into();
     let nowhere = match over {
         Parameter::Alpha => f64::INFINITY,
         Parameter::R => 0.0,

@@ -3,12 +3,7 @@
 pub(super) mod start;
 
 use super::figure::Figure;
-use super::run::document::history;
 use crate::arguments::CycleArguments;
-use crate::documents::{
-    ComplexDocument, CycleDocument, CycleParameters, CycleProfile, CycleWork, FORMAT_VERSION,
-    ModelParameters, Software,
-};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
@@ -17,14 +12,12 @@ use crate::plot;
 use start::Start;
 use std::path::Path;
 use std::time::Instant;
+use stickslip_cycles::Cycle;
+use stickslip_documents::{CycleDocument, CycleParameters, CycleProfile, ModelParameters};
 use stickslip_tip::Step;
-use stickslip_tip::cycle::Cycle;
 
 /// More do not fit in a picture, nor are they needed in a table.
 const MOST_POINTS: usize = 1_000_000;
-/// Intervals of the profile in a step of the mesh, at least: the largest velocity is then seen to 0.3 %, with one
-/// to 1.4 % (α from 1.2 to 2, the loosest tolerance).
-const FEWEST_PARTS: usize = 2;
 /// Points of the drawn surface.
 const DRAWN_POINTS: usize = 1000;
 /// Wavelengths of it.
@@ -46,7 +39,12 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
 
     let started = Instant::now();
     let cycle = start.solve()?;
-    let document = document(arguments, &cycle, started.elapsed().as_secs_f64());
+    let parameters = CycleParameters {
+        model: ModelParameters::of(cycle.model(), arguments.start.model.alpha_above),
+        tolerance: arguments.start.tolerance,
+    };
+    let seconds = started.elapsed().as_secs_f64();
+    let document = CycleDocument::of(&cycle, parameters, arguments.points, seconds);
     if let Some(figure) = figure {
         figure.write(&draw(&document, &cycle))?;
     }
@@ -66,52 +64,6 @@ fn summary(document: &CycleDocument) -> String {
     };
     let (period, amplitude) = (document.period, document.amplitude_x0);
     format!("{stable} cycle of {slips}, period {period:.9}, amplitude of x0 {amplitude:.9}")
-}
-
-fn document(arguments: &CycleArguments, cycle: &Cycle, seconds: f64) -> CycleDocument {
-    let distances = cycle.multipliers().iter().map(|m| (m - 1.0).norm());
-    CycleDocument {
-        format: CycleDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters: CycleParameters {
-            model: ModelParameters::of(cycle.model(), arguments.start.model.alpha_above),
-            tolerance: arguments.start.tolerance,
-        },
-        period: cycle.period(),
-        wavelength: cycle.wavelength(),
-        amplitude_x0: cycle.amplitude_x0(),
-        amplitude_u: cycle.amplitude_u(),
-        slips: cycle.slips(),
-        profile: profile(cycle, arguments.points),
-        floquet: cycle
-            .multipliers()
-            .iter()
-            .map(|m| ComplexDocument { re: m.re, im: m.im })
-            .collect(),
-        floquet_error: distances.fold(1.0, f64::min),
-        stable: cycle.is_stable(),
-        residual: cycle.residual(),
-        history: history(cycle.motion()),
-        work: CycleWork { steps: cycle.steps(), newton_iterations: cycle.iterations(), seconds },
-    }
-}
-
-/// The steps are short where the motion is fast: times even over the period would pass over its slips.
-fn profile(cycle: &Cycle, points: usize) -> CycleProfile {
-    let motion = cycle.motion();
-    let steps = motion.steps();
-    let parts = points.div_ceil(steps.len()).max(FEWEST_PARTS);
-    let within = |step: &Step| {
-        let (t, part) = (step.t, step.h / parts as f64);
-        (0..parts).map(move |i| t + part * i as f64)
-    };
-    let t: Vec<f64> = steps.iter().flat_map(within).chain([cycle.period()]).collect();
-    CycleProfile {
-        l: t.iter().map(|t| motion.l(*t)).collect(),
-        velocity: t.iter().map(|t| motion.velocity(*t)).collect(),
-        t,
-    }
 }
 
 fn write(document: &CycleDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {

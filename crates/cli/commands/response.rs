@@ -8,16 +8,16 @@ use super::run::limits::within_range;
 use super::run::parse_pulses;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
-use crate::documents::{
-    FORMAT_VERSION, ModeDocument, ModelParameters, PulseParameters, ResponseDocument,
-    ResponseParameters, ResponseSamples, Software, SteadyState,
-};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::plot;
-use stickslip_tip::stability::{Response, ResponseMode, response as respond};
+use stickslip_documents::{
+    FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
+    ResponseSamples, Software,
+};
+use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::{Model, Pulse, Scenario, TipFunction};
 
 /// What the modes left out may add, relative to the leading one, where the sum counts as valid.
@@ -116,7 +116,6 @@ impl Asked {
 fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocument, Failure> {
     let model = &asked.model;
     let response = asked.response(arguments.modes)?;
-    let behind = model.steady_surface_behind();
     let mut said = remarks(&response.spectrum, Some(arguments.modes), "modes");
     if matches!(model.tip(), TipFunction::Bessel) {
         let message = "modes: the branch points ±ir of J0 add a term that falls like t^(-3/2), \
@@ -129,16 +128,12 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
         software: Software::this(),
         parameters: ResponseParameters {
             model: ModelParameters::of(model, arguments.model.alpha_above),
-            pulses: asked.pulses.iter().map(pulse_parameters).collect(),
+            pulses: asked.pulses.iter().copied().map(Into::into).collect(),
             modes: arguments.modes,
             start_position: arguments.start_position,
             until: arguments.until,
         },
-        steady_state: SteadyState {
-            l: model.steady_l(),
-            lag: model.steady_lag(),
-            surface_behind: behind.is_finite().then_some(behind),
-        },
+        steady_state: model.into(),
         modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
         origin: asked.origin,
         valid_from: asked.valid_from(&response)?,
@@ -147,10 +142,6 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
         samples: samples(asked, &response),
         remarks: said,
     })
-}
-
-fn pulse_parameters(pulse: &Pulse) -> PulseParameters {
-    PulseParameters { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
 }
 
 fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {

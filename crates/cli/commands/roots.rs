@@ -1,8 +1,8 @@
 //! How many growth exponents may be asked for, and what is said about those that come.
 
-use crate::documents::ComplexDocument;
 use crate::failure::{Failure, Typed};
-use stickslip_tip::stability::{Certificate, Spectrum, StabilityError};
+use stickslip_documents::ComplexDocument;
+use stickslip_stability::{Certificate, Spectrum, StabilityError};
 use stickslip_tip::{Model, TipFunction};
 
 /// Errors above this part of the smallest |λ| are worth a remark.

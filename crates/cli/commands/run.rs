@@ -2,11 +2,10 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
-pub(crate) mod document;
+mod document;
 mod journey;
 pub(crate) mod limits;
 mod order;
-pub(crate) mod parameters;
 mod record;
 pub(crate) mod samples;
 mod write;
@@ -15,8 +14,7 @@ pub(crate) use disturbance::parse_pulses;
 pub(crate) use order::{explain, option_at_fault};
 
 use super::figure::Figure;
-use crate::arguments::{RunArguments, RunFormat};
-use crate::documents::Order;
+use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::files::apart::resting_place;
 use crate::files::output::{Output, Place, place};
@@ -25,7 +23,10 @@ use checkpoint::Checkpoints;
 use journey::Journey;
 use record::{Record, Sink};
 use std::path::{Path, PathBuf};
-use stickslip_tip::{RunError, Running, Scenario};
+use stickslip_documents::RunFormat;
+use stickslip_documents::{Order, Unusable};
+use stickslip_outcome::Watched;
+use stickslip_tip::{RunError, Scenario};
 use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -37,11 +38,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
-    let said = |message: String| Failure::input("the run", message);
+    let said = |error: Unusable| Failure::input("the run", error);
     let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
-    let scenario = parameters::scenario(&order.parameters).map_err(said)?;
+    let scenario = order.parameters.scenario().map_err(said)?;
     let surface = scenario.initial_surface().map_err(explained)?;
-    let running = Running::new(&scenario, &surface).map_err(explained)?;
+    let running = Watched::new(&scenario, &surface).map_err(explained)?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
     let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
@@ -68,9 +69,9 @@ fn resume(path: &Path) -> Result<(), Failure> {
     let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
     let (head, state) = checkpoint::read(path)?;
     let order = head.order;
-    let scenario = parameters::scenario(&order.parameters).map_err(named)?;
+    let scenario = order.parameters.scenario().map_err(|error| named(error.to_string()))?;
     let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
-    let running = Running::resumed(&scenario, &surface, &state);
+    let running = Watched::resumed(&scenario, &surface, &state);
     let running = running.map_err(|error| named(error.to_string()))?;
     let figure = Figure::asked("--plot", order.plot.as_deref())?;
     let (target, record) = if order.format == RunFormat::Jsonl {

@@ -9,7 +9,6 @@ mod write;
 
 use super::progress::Progress;
 use crate::arguments::{SweepArguments, SweepThen};
-use crate::documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
@@ -20,6 +19,7 @@ use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
+use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
 use write::Writer;
 
 const MOST_THREADS: usize = 4096;

@@ -5,17 +5,14 @@ mod solve;
 use super::model::tip;
 use super::roots::failed;
 use crate::arguments::UnitsArguments;
-use crate::documents::{
-    CriticalUnits, FORMAT_VERSION, LagDocument, PhysicalDocument, ScalesDocument, Software,
-    UnitsDocument,
-};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::output::{Output, OutputFormat};
 use solve::Given;
+use stickslip_documents::{CriticalUnits, FORMAT_VERSION, LagDocument, Software, UnitsDocument};
+use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{StabilityError, critical, critical_r, unstable_count};
-use stickslip_tip::units::Physical;
+use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
@@ -70,21 +67,9 @@ fn document(
         parameters: given.parameters(tip, arguments.model.alpha_above),
         alpha: model.alpha(),
         r: model.r(),
-        physical: PhysicalDocument {
-            damping: physical.damping,
-            stiffness: physical.stiffness,
-            tip_width: physical.tip_width,
-            indentation_rate: physical.indentation_rate,
-            slope_force: physical.slope_force,
-            velocity: physical.velocity,
-        },
+        physical: physical.into(),
         lag: LagDocument { metres: physical.lag(tip), dimensionless: model.steady_lag() },
-        scales: ScalesDocument {
-            length: scales.length,
-            time: scales.time,
-            height: scales.height,
-            force: scales.force,
-        },
+        scales: scales.into(),
         critical: CriticalUnits {
             alpha: indentation.map(|at| at.alpha),
             indentation_rate: indentation.map(|at| with(at.alpha, at.r).indentation_rate),

@@ -3,12 +3,7 @@
 mod lines;
 
 use super::progress::Progress;
-use super::run::{document, parameters};
 use crate::arguments::VerifyArguments;
-use crate::documents::{
-    FORMAT_VERSION, LargestDifferenceDocument, LinesDocument, RunDocument, RunParameters, Software,
-    VerificationDocument, VerifyDocument,
-};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run_from;
@@ -16,10 +11,13 @@ use crate::files::lines::{Written, open};
 use crate::files::output::Output;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use stickslip_surface::{
-    Difference, Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
+use stickslip_documents::{
+    LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
 };
 use stickslip_tip::{Scenario, Trajectory};
+use stickslip_verify::{
+    Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
+};
 
 /// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
 const ROUNDINGS: f64 = 16.0;
@@ -38,10 +36,11 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         let named = format!("RUN.json {}", arguments.run.display());
         Failure::input(named, format!("damaged: {message}"))
     };
-    let scenario = parameters::scenario(&run.parameters).map_err(damaged)?;
+    let unusable = |error: Unusable| damaged(error.to_string());
+    let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
     let (verification, output) = if run.history.is_some() {
-        let trajectory = document::trajectory(&run).map_err(damaged)?;
+        let trajectory = run.trajectory().map_err(unusable)?;
         is_of(&scenario, &trajectory).map_err(damaged)?;
         let samples = samples(&run, &scenario).map_err(damaged)?;
         are_of(&samples, &trajectory, scenario.tolerance).map_err(damaged)?;
@@ -53,23 +52,8 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         (of_samples(&scenario, memory, &samples)?, output)
     };
     let failure = broken(&verification, scenario.tolerance);
-    output.write_json(&written(run.parameters, verification, None))?;
+    output.write_json(&VerifyDocument::new(run.parameters, verification, None))?;
     failure.map_or(Ok(()), Err)
-}
-
-fn written(
-    parameters: RunParameters,
-    verification: VerificationDocument,
-    lines: Option<LinesDocument>,
-) -> VerifyDocument {
-    VerifyDocument {
-        format: VerifyDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters,
-        verification,
-        lines,
-    }
 }
 
 /// Whether the history begins and ends as the scenario does.
@@ -131,8 +115,8 @@ pub(super) fn of_history(
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
     let found =
-        repeated(|observe| stickslip_surface::verify(scenario, memory, trajectory, observe))?;
-    Ok(document(&found))
+        repeated(|observe| stickslip_verify::verify(scenario, memory, trajectory, observe))?;
+    Ok((&found).into())
 }
 
 /// Samples in the order of time, of which there are some, against the repetition of their run.
@@ -144,7 +128,7 @@ fn of_samples(
     let until = samples.last().map_or(scenario.until, |last| last.t);
     let each = || samples.iter().copied();
     let found = repeated(|observe| verify_samples(scenario, memory, each, until, observe))?;
-    Ok(document(&found))
+    Ok((&found).into())
 }
 
 /// Does the work before the eyes of a person, who may stop it.
@@ -168,24 +152,6 @@ fn repeated(
         }
         error => Failure::Run(error.to_string()),
     })
-}
-
-fn document(found: &Verification) -> VerificationDocument {
-    let difference = |d: &Difference| LargestDifferenceDocument {
-        largest: d.largest,
-        at: d.at,
-        allowed: d.allowed,
-    };
-    VerificationDocument {
-        kept: found.is_kept(),
-        memory: found.memory.into(),
-        tolerance: found.tolerance,
-        l: difference(&found.l),
-        u: found.u.as_ref().map(difference),
-        trusted_until: found.trusted_until,
-        amplification: found.growth.amplification,
-        lyapunov_exponent: found.growth.exponent,
-    }
 }
 
 /// What is said after the summary of a run that keeps its promise; else nothing.

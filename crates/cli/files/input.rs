@@ -1,12 +1,12 @@
 //! Files that users give: two-column CSV, tip functions, documents. All of it may be wrong.
 
-use crate::documents::{FORMAT_VERSION, RunDocument};
 use crate::failure::Failure;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use stickslip_documents::{self as documents, RunDocument};
 
 /// Two columns read from a CSV file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
@@ -170,32 +170,6 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
     Ok(TipFile::Gaussians(tip.gaussians))
 }
 
-/// What every document begins with.
-#[derive(Debug, Deserialize)]
-pub(super) struct Kind {
-    format: Option<String>,
-    format_version: Option<u32>,
-}
-
-impl Kind {
-    /// Refuses all but what this program reads.
-    pub(super) fn judge(&self, wanted: &str) -> Result<(), String> {
-        match (self.format.as_deref(), self.format_version) {
-            (Some(format), Some(FORMAT_VERSION)) if format == wanted => Ok(()),
-            (Some(format), version) if format == wanted => {
-                let found = version.map_or("none".into(), |v| v.to_string());
-                Err(format!(
-                    "format_version is {found}, this program reads {FORMAT_VERSION}: run it again with this version"
-                ))
-            }
-            (format, _) => {
-                let found = format.unwrap_or("missing");
-                Err(format!("format is {found}, \"{wanted}\" is needed"))
-            }
-        }
-    }
-}
-
 /// A document that `stickslip run` wrote.
 pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
     read_document("RUN.json", path, RunDocument::FORMAT)
@@ -203,8 +177,9 @@ pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
 
 /// The same, from a file that is open.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
-    let run = text_of(reader, LARGEST_DOCUMENT)
-        .and_then(|text| parse_document(&text, RunDocument::FORMAT));
+    let run = text_of(reader, LARGEST_DOCUMENT).and_then(|text| {
+        documents::read(&text, RunDocument::FORMAT).map_err(|error| error.to_string())
+    });
     run.map_err(|message| Failure::input(format!("RUN.json {}", path.display()), message))
 }
 
@@ -215,17 +190,8 @@ pub(crate) fn read_document<D: DeserializeOwned>(
     wanted: &str,
 ) -> Result<D, Failure> {
     let text = read_text(option, path, LARGEST_DOCUMENT)?;
-    parse_document(&text, wanted)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
-}
-
-pub(crate) fn parse_document<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, String> {
-    let kind: Kind = serde_json::from_str(text).map_err(|error| {
-        let command = wanted.replace('/', " ");
-        format!("not a whole JSON document ({error}); write it again with `{command} -o FILE.json`")
-    })?;
-    kind.judge(wanted)?;
-    serde_json::from_str(text).map_err(|error| format!("damaged: {error}"))
+    documents::read(&text, wanted)
+        .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 
 #[cfg(test)]
@@ -268,7 +234,8 @@ mod tests {
                 "{{\"format\":\"stickslip/run\",\"format_version\":1,\"software\":{}}}",
                 nested(depth)
             );
-            let refused = parse_document::<RunDocument>(&run, RunDocument::FORMAT).unwrap_err();
+            let refused =
+                documents::read::<RunDocument>(&run, RunDocument::FORMAT).unwrap_err().to_string();
             assert!(!refused.is_empty() && refused.len() < 300, "{refused}");
         }
     }

@@ -2,21 +2,10 @@
 //! checkpoint says, and goes on.
 
 use crc32fast::Hasher;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
-
-/// What a journal held at some time.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Mark {
-    /// Its length.
-    pub(crate) bytes: u64,
-    /// Their CRC-32 (IEEE).
-    pub(crate) crc32: u32,
-}
+use stickslip_documents::Mark;
 
 /// A growing file.
 #[derive(Debug)]

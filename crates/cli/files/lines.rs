@@ -1,12 +1,12 @@
 //! A run written as lines, read again, line by line: none of them is kept.
 
-use super::input::{Kind, LARGEST_DOCUMENT, unreadable};
-use crate::documents::{RunEnd, RunHead, SampleLine};
+use super::input::{LARGEST_DOCUMENT, unreadable};
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::ops::RangeInclusive;
 use std::path::Path;
+use stickslip_documents::{Kind, RunEnd, RunHead, SampleLine};
 
 /// The first line may hold a profile and a table of the force; the others are short.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -145,7 +145,7 @@ impl<R: BufRead> Lines<R> {
             Err(_) if self.is_broken_off() => return Err(Flaw::NoHead),
             kind => kind.map_err(|error| self.damaged(within(&error)))?,
         };
-        kind.judge(RunHead::FORMAT).map_err(Flaw::Damaged)?;
+        kind.judge(RunHead::FORMAT).map_err(|error| Flaw::Damaged(error.to_string()))?;
         self.parse().map_err(|error| self.damaged(within(&error)))
     }
 

@@ -1,6 +1,6 @@
 //! Output that grows line by line while the work goes on.
 
-use super::journal::{Journal, Mark};
+use super::journal::Journal;
 use super::output::{Place, place, refused, sync_folder};
 use crate::failure::Failure;
 use serde::Serialize;
@@ -8,6 +8,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use stickslip_documents::Mark;
 
 /// Lines on their way out. A file grows as `FILE.part` and gets its name when it is complete: nobody takes a
 /// half for the whole, and what was there before stays until then.

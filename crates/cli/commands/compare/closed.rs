@@ -7,12 +7,11 @@ use crate::commands::model::model;
 use crate::commands::progress::Progress;
 use crate::commands::run::disturbance::Disturbance;
 use crate::commands::run::limits::within_range;
-use crate::commands::run::parameters::memory;
 use crate::commands::run::{explain, option_at_fault};
-use crate::documents::{ClosedDocument, ClosedWork};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
+use stickslip_documents::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
 use stickslip_tip::{Run, RunError, Scenario, Trajectory, run_observed};
 
@@ -36,7 +35,7 @@ pub(super) fn scenario(
     let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = Scenario {
         tolerance: arguments.tolerance,
-        memory: memory(arguments.memory),
+        memory: arguments.memory.into(),
         ..disturbance.scenario(&arguments.start, model(&arguments.model)?, arguments.until)
     };
     within_range(&arguments.model, &scenario)?;

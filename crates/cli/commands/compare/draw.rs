@@ -1,8 +1,8 @@
 //! Both motions, and how far apart they are.
 
-use crate::documents::CompareDocument;
 use crate::failure::Failure;
 use crate::plot::{self, DrawnCurve, DrawnPanel, Style, seven_digits};
+use stickslip_documents::CompareDocument;
 
 /// An SVG document.
 pub(super) fn draw(document: &CompareDocument) -> Result<String, Failure> {

@@ -2,12 +2,12 @@
 
 use super::Asked;
 use super::pace::{PATIENCE, Pace};
-use crate::arguments::{CompareArguments, GridName};
+use crate::arguments::CompareArguments;
 use crate::commands::progress::Progress;
-use crate::documents::{GridDocument, GridWork};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
+use stickslip_documents::{GridDocument, GridName, GridWork};
 use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Problem, Request, Run, Start, Stepping, solve_observed,
 };

@@ -1,8 +1,7 @@
 //! What became of the branches, for a person who sent them to a file.
 
-use crate::arguments::OverName;
-use crate::documents::{ContinueDocument, CycleBranch, EndName};
 use crate::plot::seven_digits;
+use stickslip_documents::{ContinueDocument, CycleBranch, EndName, OverName};
 
 /// A line for each branch.
 pub(super) fn summary(document: &ContinueDocument) -> String {

@@ -2,11 +2,10 @@
 
 use crate::arguments::{CycleStart, ModelArguments};
 use crate::commands::model::{model, tip};
-use crate::commands::run::document::trajectory_of;
-use crate::documents::CycleDocument;
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
-use stickslip_tip::cycle::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
+use stickslip_cycles::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
+use stickslip_documents::{CycleDocument, Unusable};
 use stickslip_tip::{Model, Trajectory};
 
 /// Parameters, and the motion to start from if there is one.
@@ -25,9 +24,11 @@ impl Start {
             return Ok(Self { model: model(&arguments.model)?, period: None, tolerance });
         };
         let document: CycleDocument = read_document("--from", path, CycleDocument::FORMAT)?;
-        let refused = |message| Failure::input(format!("--from {}", path.display()), message);
-        let before = document.parameters.model.model().map_err(refused)?;
-        let period = trajectory_of(&document.history, before.r()).map_err(refused)?;
+        let refused =
+            |message: String| Failure::input(format!("--from {}", path.display()), message);
+        let unusable = |error: Unusable| refused(error.to_string());
+        let before = document.parameters.model.model().map_err(unusable)?;
+        let period = document.history.trajectory(before.r()).map_err(unusable)?;
         if period.start().abs() > 0.0 {
             return Err(refused("history: a cycle starts at t = 0".into()));
         }

@@ -1,10 +1,10 @@
 //! From the document of a figure to its picture.
 
-use crate::documents::{
-    ColoursName, CurveDocument, FigureDocument, MapDocument, PanelDocument, StyleName,
-};
 use crate::failure::Failure;
 use crate::plot::{self, Colours, DrawnCurve, DrawnPanel, Map, Style};
+use stickslip_documents::{
+    ColoursName, CurveDocument, FigureDocument, MapDocument, PanelDocument, StyleName,
+};
 
 /// The figure as SVG.
 pub(super) fn draw(document: &FigureDocument) -> Result<String, Failure> {

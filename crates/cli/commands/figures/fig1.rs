@@ -2,8 +2,8 @@
 
 use super::parts::{curve, figure as figure_with, finished, heights, panel, spaced};
 use super::tips::beta_1;
-use crate::documents::{FigureDocument, StyleName};
 use crate::failure::Failure;
+use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Model, Noise, Scenario, Start};
 
 const END: f64 = 457.0;

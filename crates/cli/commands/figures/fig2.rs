@@ -3,9 +3,9 @@
 use super::onset::{FITTED, Onset};
 use super::parts::{curve, failed, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::documents::{FigureDocument, PanelDocument, StyleName};
 use crate::failure::Failure;
-use stickslip_tip::stability::onset;
+use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
+use stickslip_stability::onset;
 
 /// α - αc of the cycles, and of steady motion below.
 pub(super) fn distances() -> Vec<f64> {

@@ -4,8 +4,8 @@ use super::fig2::distances;
 use super::onset::{FITTED, Onset};
 use super::parts::{curve, figure as empty, panel};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::documents::{FigureDocument, StyleName};
 use crate::failure::Failure;
+use stickslip_documents::{FigureDocument, StyleName};
 
 pub(super) fn figure() -> Result<FigureDocument, Failure> {
     let tips = [beta_1()?, beta_0()?];

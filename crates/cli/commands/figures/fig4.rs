@@ -2,9 +2,9 @@
 
 use super::parts::{curve, failed, figure as empty, finished, heights, panel, spaced};
 use super::tips::{BETA_0, beta_0};
-use crate::documents::{FigureDocument, StyleName};
 use crate::failure::Failure;
 use std::sync::LazyLock;
+use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Noise, Run, Scenario};
 
 pub(super) const END: f64 = 460.0;

@@ -4,8 +4,8 @@ use super::fig2::amplitudes;
 use super::onset::Onset;
 use super::parts::{figure as empty, spaced};
 use super::tips::beta_1;
-use crate::documents::FigureDocument;
 use crate::failure::Failure;
+use stickslip_documents::FigureDocument;
 
 const ALPHA: f64 = 1.0;
 const STEADY: [f64; 2] = [0.01, 0.02];

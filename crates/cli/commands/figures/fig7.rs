@@ -3,8 +3,8 @@
 use super::fig4::{END, settled};
 use super::parts::{failed, figure as empty, panel, spaced};
 use super::tips::BETA_0;
-use crate::documents::{ColoursName, FigureDocument, MapDocument};
 use crate::failure::Failure;
+use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
 use stickslip_surface::Surface;
 use stickslip_tip::Footprint;
 

@@ -2,8 +2,8 @@
 
 use super::parts::{figure as empty, finished, heights, panel, spaced};
 use super::tips::beta_1;
-use crate::documents::{ColoursName, FigureDocument, MapDocument};
 use crate::failure::Failure;
+use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
 use stickslip_tip::Scenario;
 
 const ALPHA: f64 = 1.4;

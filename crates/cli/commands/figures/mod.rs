@@ -20,7 +20,6 @@ mod tips;
 mod work_precision;
 
 use crate::arguments::{FigureName, FiguresArguments};
-use crate::documents::FigureDocument;
 use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::plot::{self, PlotFormat};
@@ -28,6 +27,7 @@ use clap::ValueEnum;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use stickslip_documents::FigureDocument;
 
 pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();

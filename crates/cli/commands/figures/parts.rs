@@ -1,11 +1,11 @@
 //! What figures are put together from.
 
-use crate::documents::{
+use crate::failure::Failure;
+use std::fmt::Display;
+use stickslip_documents::{
     CurveDocument, FORMAT_VERSION, FigureDocument, FigureParameters, ModelParameters,
     PanelDocument, Software, StyleName,
 };
-use crate::failure::Failure;
-use std::fmt::Display;
 use stickslip_surface::Surface;
 use stickslip_tip::{Model, Run, Scenario, run};
 

@@ -2,9 +2,9 @@
 //! what `make work-precision` measured last.
 
 use super::parts::{curve, failed, figure as empty, panel};
-use crate::documents::{FigureDocument, StyleName};
 use crate::failure::Failure;
 use serde::Deserialize;
+use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Model, TipFunction};
 
 /// Written by examples/work_precision.

@@ -1,6 +1,5 @@
 //! What the tip meets beside its own groove, read and judged.
 
-use super::parameters;
 use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::Named;
@@ -41,7 +40,7 @@ impl Disturbance {
     /// A run that starts as asked and meets all this, at the tolerance and with the memory of `Scenario::new`.
     pub(crate) fn scenario(&self, start: &StartArguments, model: Model, until: f64) -> Scenario {
         Scenario {
-            start: parameters::start(start.start),
+            start: start.start.into(),
             start_position: start.start_position,
             kick: start.kick,
             noise: self.noise,

@@ -2,10 +2,8 @@
 
 use crate::arguments::ModelArguments;
 use crate::failure::{Failure, Typed};
+use stickslip_documents::FARTHEST;
 use stickslip_tip::{Model, Scenario};
-
-/// Positions beyond this are rounded by a thousandth of σ and more, a tenth of the largest tolerance.
-pub(super) const FARTHEST: f64 = 1e13;
 
 /// Refuses what no run can do justice to, for want of digits.
 pub(crate) fn within_range(arguments: &ModelArguments, scenario: &Scenario) -> Result<(), Failure> {

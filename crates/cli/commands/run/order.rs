@@ -4,15 +4,13 @@ use super::super::model::model;
 use super::checkpoint;
 use super::disturbance::{Disturbance, files_read, warn_of_idle};
 use super::limits::within_range;
-use super::parameters;
-use crate::arguments::{
-    DisturbanceArguments, HistoryName, RunArguments, RunFormat, StartArguments,
-};
-use crate::documents::{Order, Times};
+use super::samples::sample_times;
+use crate::arguments::{DisturbanceArguments, HistoryName, RunArguments, StartArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::{apart, resting_place};
 use crate::files::output::OutputFormat;
 use std::path::Path;
+use stickslip_documents::{Order, RunFormat, RunParameters};
 use stickslip_tip::{RunError, Scenario};
 
 /// What is asked for, judged as a whole.
@@ -30,8 +28,8 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;
     let Disturbance { pulses, table, .. } = disturbance;
     let order = Order {
-        samples: Times::asked(&arguments.sampling, span, "the run", are_kept)?,
-        parameters: parameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
+        samples: sample_times(&arguments.sampling, span, "the run", are_kept)?,
+        parameters: RunParameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
         output: resting_place(&arguments.output),
         format,
         history: arguments.history == HistoryName::All,
@@ -107,7 +105,7 @@ fn scenario(arguments: &RunArguments, disturbance: &Disturbance) -> Result<Scena
     })?;
     Ok(Scenario {
         tolerance: arguments.tolerance,
-        memory: parameters::memory(arguments.memory),
+        memory: arguments.memory.into(),
         ..disturbance.scenario(&arguments.start, model(&arguments.model)?, until)
     })
 }

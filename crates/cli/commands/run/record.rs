@@ -1,12 +1,12 @@
 //! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
 
 use super::checkpoint::journal_of;
-use crate::documents::{SampleLine, Times};
 use crate::failure::Failure;
-use crate::files::journal::{Journal, Mark, rows, write_row};
+use crate::files::journal::{Journal, rows, write_row};
 use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
+use stickslip_documents::{Mark, SampleLine, Times};
 use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Step};
 
 /// The record of a run with support velocity r.

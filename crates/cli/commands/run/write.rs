@@ -3,17 +3,16 @@
 use super::document;
 use super::journey::Travelled;
 use super::record::{Record, Sink};
-use crate::arguments::RunFormat;
 use crate::commands::figure::Figure;
 use crate::commands::{surface, verify};
-use crate::documents::{Order, RegimeName, RunDocument, RunEnd, RunHead, SteadyState};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::plot;
 use std::path::Path;
+use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
+use stickslip_stability::unstable_count;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::stability::unstable_count;
 use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -28,7 +27,7 @@ pub(super) enum Target {
 pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
-            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
+            stream.line(&RunHead::new(order.parameters.clone(), (&scenario.model).into()))
         }
         Sink::Memory | Sink::Journal(..) => Ok(()),
     }
@@ -60,7 +59,13 @@ pub(super) fn all(
         Target::Document(output) => {
             let samples = &travelled.record.samples;
             let memory = end.work.memory.clone();
-            let mut document = document::of(order, scenario, end, samples, trajectory.as_ref());
+            let mut document = RunDocument::new(
+                order.parameters.clone(),
+                (&scenario.model).into(),
+                samples,
+                trajectory.as_ref().filter(|_| order.history).map(Into::into),
+                end,
+            );
             let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();

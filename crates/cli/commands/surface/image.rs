@@ -3,9 +3,9 @@
 use super::places::Places;
 use super::{time_label, title};
 use crate::arguments::SurfaceArguments;
-use crate::documents::{AcrossParameters, SurfaceDocument, SurfaceImage};
 use crate::failure::{Failure, Typed};
 use crate::plot;
+use stickslip_documents::{AcrossParameters, SurfaceDocument, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, TipFunction};
 

@@ -8,11 +8,7 @@ mod write;
 pub(crate) use places::{default_range, evenly};
 
 use super::figure::Figure;
-use super::run::{document, parameters};
 use crate::arguments::SurfaceArguments;
-use crate::documents::{
-    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
-};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run;
@@ -20,6 +16,10 @@ use crate::files::output::Output;
 use crate::plot;
 use image::Images;
 use places::Places;
+use stickslip_documents::{
+    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
+    Unusable,
+};
 use stickslip_surface::Surface;
 use units::Scale;
 use write::SurfaceFormat;
@@ -35,9 +35,10 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             format!("damaged: {message}"),
         )
     };
-    let model = document.parameters.model.model().map_err(damaged)?;
-    let trajectory = document::trajectory(&document).map_err(damaged)?;
-    let scenario = parameters::scenario(&document.parameters).map_err(damaged)?;
+    let unusable = |error: Unusable| damaged(error.to_string());
+    let model = document.parameters.model.model().map_err(unusable)?;
+    let trajectory = document.trajectory().map_err(unusable)?;
+    let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory)?;
     let scale = Scale::asked(arguments, &model)?;

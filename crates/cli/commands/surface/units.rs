@@ -1,9 +1,9 @@
 //! `--units`: what the dimensionless numbers of an image are in metres.
 
 use crate::arguments::SurfaceArguments;
-use crate::documents::UnitsDocument;
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
+use stickslip_documents::UnitsDocument;
 use stickslip_tip::Model;
 
 /// Relative difference at which α or r are taken for others: what is typed has this many digits.

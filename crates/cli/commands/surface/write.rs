@@ -3,12 +3,12 @@
 use super::places::Places;
 use super::units::Scale;
 use crate::arguments::SurfaceArguments;
-use crate::documents::{SurfaceDocument, SurfaceImage};
 use crate::failure::Failure;
 use crate::files::gsf::{Field, gsf};
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use std::io::{self, Write};
+use stickslip_documents::{SurfaceDocument, SurfaceImage};
 
 /// What is written: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The picture of a sweep: a phase diagram over two parameters, amplitude and period over one.
 
-use crate::documents::{RegimeName, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use crate::plot::{self, Phase};
+use stickslip_documents::{RegimeName, SweepParameters, SweepPoint};
 
 const ALPHA: &str = "α = ΓNa/(k²σ²)";
 const R: &str = "r = Γv₀/(kσ)";

@@ -1,12 +1,12 @@
 //! The points that are finished, kept in a file beside the output as they come: a line for the grid, then a
 //! line a point. A kill at any moment costs the points under way and at most the line being written.
 
-use crate::documents::{Software, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use stickslip_documents::{Software, SweepParameters, SweepPoint};
 
 /// What has been finished so far, and where it is kept, if it is.
 #[derive(Debug)]

@@ -2,10 +2,10 @@
 
 use crate::arguments::{Range, SweepArguments, TipArguments};
 use crate::commands::model::tip;
-use crate::documents::{ShardDocument, SweepParameters};
 use crate::failure::{Failure, Typed};
+use stickslip_cycles::TOLERANCES;
+use stickslip_documents::{ShardDocument, SweepParameters};
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::TOLERANCES;
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;
@@ -102,14 +102,6 @@ impl Grid {
             r: r[at],
             alpha: given.or(above).unwrap_or(Alpha::Given(0.0)),
         }
-    }
-}
-
-impl SweepParameters {
-    /// Points of the whole grid.
-    pub(super) fn points(&self) -> usize {
-        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
-        self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas)
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::write::Writer;
 use crate::arguments::MergeArguments;
-use crate::documents::{SweepDocument, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use crate::files::input::read_document;
 use std::path::Path;
+use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {

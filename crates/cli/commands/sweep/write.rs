@@ -2,11 +2,11 @@
 
 use super::diagram;
 use crate::commands::figure::Figure;
-use crate::documents::{SweepDocument, SweepParameters, SweepPoint};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat, place};
 use std::path::Path;
+use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
 /// Where it goes, known to be writable.
 pub(super) struct Writer {

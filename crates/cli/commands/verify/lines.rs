@@ -1,8 +1,6 @@
 //! The verification of a run written as lines: read twice, and never held.
 
-use super::{document, repeated, said_of, written};
-use crate::commands::run::parameters;
-use crate::documents::{EndingName, LinesDocument, RunHead, VerificationDocument};
+use super::{repeated, said_of};
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
 use crate::files::output::Output;
@@ -10,8 +8,11 @@ use std::cell::RefCell;
 use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
-use stickslip_surface::{ComparedSamples, Sample, verify_samples};
+use stickslip_documents::{
+    EndingName, LinesDocument, RunHead, VerificationDocument, VerifyDocument,
+};
 use stickslip_tip::{MemoryChoice, Running, Scenario};
+use stickslip_verify::{ComparedSamples, Sample, verify_samples};
 
 /// Line of the first sample.
 const FIRST: u64 = 2;
@@ -37,9 +38,9 @@ pub(super) fn verify(path: &Path, file: &File, output: &Path) -> Result<(), Fail
     }
     let found = found?;
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
-    let verification = document(&found);
+    let verification = VerificationDocument::from(&found);
     let failure = failure(&verification, &lines, &scenario, &named);
-    output.write_json(&written(head.parameters, verification, Some(lines)))?;
+    output.write_json(&VerifyDocument::new(head.parameters, verification, Some(lines)))?;
     failure.map_or(Ok(()), Err)
 }
 
@@ -47,7 +48,7 @@ pub(super) fn verify(path: &Path, file: &File, output: &Path) -> Result<(), Fail
 fn survey(file: &File) -> Result<(RunHead, Scenario, Extent), Flaw> {
     let mut lines = Lines::of(file)?;
     let head = lines.head()?;
-    let scenario = parameters::scenario(&head.parameters);
+    let scenario = head.parameters.scenario();
     let scenario = scenario.map_err(|message| Flaw::Damaged(format!("line 1: {message}")))?;
     let extent = lines.survey(&(scenario.start_time()..=scenario.until))?;
     Ok((head, scenario, extent))

@@ -262,8 +262,9 @@ mod tests {
     fn gathered_nodes_act_as_they_did() {
         let tip = TipFunction::gaussian(1.0).unwrap();
         let mut record = carried(2000, 0.01);
-        let slope =
-            |record: &Record| record.near(0.0, 0.0).map(|(x, w)| w * tip.slope(0.3 - x)).sum::<f64>();
+        let slope = |record: &Record| {
+            record.near(0.0, 0.0).map(|(x, w)| w * tip.slope(0.3 - x)).sum::<f64>()
+        };
         let before = slope(&record);
         record.gather();
         assert!(record.nodes.is_empty());

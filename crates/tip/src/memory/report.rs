@@ -76,7 +76,8 @@ impl MemoryReport {
     }
 
     fn fared(&self) -> Option<String> {
-        let Sum::Modes { terms, certificate: Certificate { slope, area, .. }, retreats } = &self.sum
+        let Sum::Modes { terms, certificate: Certificate { slope, area, .. }, retreats } =
+            &self.sum
         else {
             return None;
         };

@@ -6,9 +6,9 @@ mod oscillations;
 mod printed;
 
 use super::open;
-use crate::documents::{FORMAT_VERSION, ReproductionDocument, ReproductionParameters, Software};
 use crate::failure::Failure;
 use std::path::Path;
+use stickslip_documents::{FORMAT_VERSION, ReproductionDocument, ReproductionParameters, Software};
 
 /// Writes both; their names.
 pub(super) fn write(folder: &Path) -> Result<Vec<String>, Failure> {

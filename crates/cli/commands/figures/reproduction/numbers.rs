@@ -3,9 +3,9 @@
 use super::super::parts::failed;
 use super::super::tips::{Tip, beta_0, beta_1};
 use super::printed::Printed;
-use crate::documents::NumberDocument;
 use crate::failure::Failure;
-use stickslip_tip::stability::{critical, unstable_count};
+use stickslip_documents::NumberDocument;
+use stickslip_stability::{critical, unstable_count};
 use stickslip_tip::{InitialSurface, Model, TipFunction};
 
 const OTHER_TIP: &str = "the printed number is that of exp(-x²)";

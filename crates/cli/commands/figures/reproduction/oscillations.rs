@@ -4,8 +4,8 @@ use super::super::onset::{Onset, solved};
 use super::super::parts::line_of_best_fit;
 use super::super::tips::{Tip, beta_0, beta_1};
 use super::printed::Printed;
-use crate::documents::NumberDocument;
 use crate::failure::Failure;
+use stickslip_documents::NumberDocument;
 
 /// α - αc so small that the leading order is what one sees.
 const NEAR: [f64; 2] = [1e-3, 2e-3];

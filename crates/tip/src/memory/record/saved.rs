@@ -23,7 +23,9 @@ impl Record {
                 state.pairs(self.nodes.iter());
                 state.whole(bins.first);
                 state.flag(bins.dropped);
-                state.numbers(bins.moments.iter().flatten().copied().collect::<Vec<_>>().into_iter());
+                state.numbers(
+                    bins.moments.iter().flatten().copied().collect::<Vec<_>>().into_iter(),
+                );
             }
             Kept::OnLattice => {}
         }
@@ -50,7 +52,8 @@ impl Record {
                 let moments = state.numbers()?;
                 let (moments, rest) = moments.as_chunks::<MOMENTS>();
                 let far = bins.first.unsigned_abs() > 2 * MOST_BINS as u64;
-                if nodes.len() > MOST_NODES || moments.len() > MOST_BINS || !rest.is_empty() || far {
+                if nodes.len() > MOST_NODES || moments.len() > MOST_BINS || !rest.is_empty() || far
+                {
                     return Err(Damaged::OutOfRange);
                 }
                 // Into the room taken at the start: no step is to allocate.

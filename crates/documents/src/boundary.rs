@@ -1,0 +1,114 @@
+//! `stickslip/boundary`.
+
+use crate::{CriticalityName, Software, TipDocument};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{Branch, Critical, onset_at};
+use stickslip_tip::TipFunction;
+
+/// The stability boundary. `Omega`, `r`, `alpha` and the columns of `onset` have equal lengths.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryDocument {
+    /// "stickslip/boundary"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub parameters: BoundaryParameters,
+    /// Ω = ω/r of the oscillation that is born, in 1/σ.
+    #[serde(rename = "Omega")]
+    pub wave_number: Vec<f64>,
+    /// r, ascending; those at which steady motion is stable for every α are left out.
+    pub r: Vec<f64>,
+    /// αc(r), the first crossing: steady motion is stable below.
+    pub alpha: Vec<f64>,
+    /// What is born there.
+    pub onset: OnsetColumns,
+    /// The whole curve (42), (43) within the range of r, by stretches on which Ω runs without a gap.
+    /// Where there are several, or where one turns back in r, its parts above αc(r) are where further
+    /// pairs of roots cross.
+    pub branches: Vec<BranchDocument>,
+    /// What is left out, and why; empty if nothing is.
+    pub remarks: Vec<String>,
+}
+
+impl BoundaryDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/boundary";
+}
+
+/// How the range of r is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpacingName {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios.
+    Logarithmic,
+}
+
+/// What was asked for.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryParameters {
+    /// Footprint f.
+    pub tip: TipDocument,
+    /// First and last r.
+    pub r_range: [f64; 2],
+    /// Number of r.
+    pub points: usize,
+    /// How that range is divided.
+    pub spacing: SpacingName,
+}
+
+/// The small oscillation along the boundary, to leading order in α - αc. Null where that says nothing.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OnsetColumns {
+    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
+    pub criticality: Vec<Option<CriticalityName>>,
+    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
+    pub amplitude_squared_slope: Vec<Option<f64>>,
+    /// dT/dα along the branch, in Γ/k.
+    pub period_slope: Vec<Option<f64>>,
+    /// First Lyapunov coefficient, in k/(Γσ²).
+    pub lyapunov: Vec<Option<f64>>,
+}
+
+/// A stretch of the curve, evenly spaced in Ω.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BranchDocument {
+    /// Ω, ascending, in 1/σ.
+    #[serde(rename = "Omega")]
+    pub wave_number: Vec<f64>,
+    /// r, dimensionless, (42).
+    pub r: Vec<f64>,
+    /// α, dimensionless, (43).
+    pub alpha: Vec<f64>,
+}
+
+impl OnsetColumns {
+    /// What is born at each of these points of the boundary.
+    pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
+        let mut columns = Self::default();
+        for at in boundary {
+            let onset = onset_at(tip, *at).ok();
+            columns.criticality.push(onset.map(|o| o.criticality.into()));
+            columns.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
+            columns.period_slope.push(onset.map(|o| o.period_slope));
+            columns.lyapunov.push(onset.map(|o| o.lyapunov));
+        }
+        columns
+    }
+}
+
+impl From<Branch> for BranchDocument {
+    fn from(branch: Branch) -> Self {
+        let Branch { wave_number, r, alpha } = branch;
+        Self { wave_number, r, alpha }
+    }
+}

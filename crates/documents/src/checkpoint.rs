@@ -1,0 +1,147 @@
+//! `stickslip/checkpoint`.
+
+use crate::{FORMAT_VERSION, RunParameters, Software};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// The first line of a checkpoint: what is run, and how far it is.
+///
+/// After the line come `words` 64-bit words in little-endian order, the state of the computation, and the
+/// CRC-32 (IEEE) of all before it, also in little-endian order.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CheckpointHead {
+    /// "stickslip/checkpoint"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub order: Order,
+    /// Time reached, in Γ/k.
+    pub t: f64,
+    /// Samples taken.
+    pub samples: u64,
+    /// What is written of the output (`.jsonl`), or kept for it beside the checkpoint.
+    pub written: Mark,
+    /// Spent on the integration, in seconds.
+    pub seconds: f64,
+    /// Words of the state.
+    pub words: u64,
+}
+
+/// All that a run command asks for, but where its checkpoints are.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Order {
+    /// Everything that defines the run.
+    pub parameters: RunParameters,
+    /// When samples are taken.
+    pub samples: Times,
+    /// File to write, `-` for standard output.
+    pub output: PathBuf,
+    /// What is written.
+    pub format: RunFormat,
+    /// Whether the document holds the dense history.
+    pub history: bool,
+    /// Figure to draw.
+    pub plot: Option<PathBuf>,
+    /// Whether the run is repeated to verify it.
+    pub verify: bool,
+    /// Time between two checkpoints, in Γ/k, if any are made.
+    pub checkpoint_every: Option<f64>,
+}
+
+/// What a run is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RunFormat {
+    /// One document with everything.
+    Json,
+    /// The samples.
+    Csv,
+    /// Samples and history as NumPy arrays.
+    Npz,
+    /// JSON Lines: what is run, a line for each sample as the run passes it, what became of it.
+    Jsonl,
+}
+
+/// What a growing file held at some time.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mark {
+    /// Its length.
+    pub bytes: u64,
+    /// Their CRC-32 (IEEE).
+    pub crc32: u32,
+}
+
+/// The times at which a motion is sampled.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, deny_unknown_fields)]
+pub enum Times {
+    /// start, start + every, … `intervals` times, and not beyond end.
+    Every {
+        /// The first, in Γ/k.
+        start: f64,
+        /// From one to the next, in Γ/k.
+        every: f64,
+        /// None is beyond this time, in Γ/k.
+        end: f64,
+        /// Samples but the first.
+        intervals: u64,
+    },
+    /// As given.
+    At(Vec<f64>),
+}
+
+impl CheckpointHead {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/checkpoint";
+
+    /// Whether this version of the program wrote it: no other can take it up.
+    pub fn is_of_this_program(&self) -> bool {
+        self.format == Self::FORMAT
+            && self.format_version == FORMAT_VERSION
+            && self.software.version == Software::this().version
+    }
+}
+
+impl Times {
+    /// Whether they go on in time, and end.
+    pub fn are_usable(&self) -> bool {
+        match self {
+            Self::Every { every, .. } => *every > 0.0,
+            Self::At(_) => true,
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        match self {
+            Self::Every { intervals, .. } => intervals.saturating_add(1),
+            Self::At(times) => times.len() as u64,
+        }
+    }
+
+    /// The i-th of them.
+    pub fn at(&self, i: u64) -> Option<f64> {
+        match self {
+            Self::Every { start, every, end, intervals } => {
+                (i <= *intervals).then(|| (start + every * i as f64).min(*end))
+            }
+            Self::At(times) => times.get(usize::try_from(i).ok()?).copied(),
+        }
+    }
+
+    /// In the order in which a run passes them, and the place of each in the order asked for; no places where the
+    /// two are the same.
+    pub fn in_order(self) -> (Self, Vec<usize>) {
+        let Self::At(times) = self else { return (self, vec![]) };
+        let mut places: Vec<usize> = (0..times.len()).collect();
+        places.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
+        (Self::At(places.iter().map(|place| times[*place]).collect()), places)
+    }
+}

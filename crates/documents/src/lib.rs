@@ -1,0 +1,84 @@
+//! What stickslip writes and reads: the JSON documents, field by field, their schemas, and their way from and to
+//! the types of the library. Knows no files and no arguments.
+//!
+//! A document says all that defines it: what a run did is its [`RunDocument`], and [`RunParameters::scenario`] with
+//! [`History::trajectory`] is the run again.
+//!
+//! ```
+//! use stickslip_documents::{RunDocument, RunParameters, read};
+//! use stickslip_tip::{Model, Scenario, TipFunction};
+//!
+//! let model = Model::new(TipFunction::gaussian(1.0)?, 1.2, 1.0)?; // α = 1.2, r = 1
+//! let parameters = RunParameters::of(&Scenario::new(model, 50.0), None, &[], None);
+//! assert!(parameters.scenario()?.until > 49.0);
+//! // What is not a whole document of the format asked for is refused with a reason.
+//! let refused = read::<RunDocument>("{}", RunDocument::FORMAT).unwrap_err();
+//! assert!(refused.to_string().contains("format is missing"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod boundary;
+mod checkpoint;
+mod compare;
+mod continuation;
+mod cycle;
+mod figure;
+mod history;
+mod model;
+mod read;
+mod reproduction;
+mod response;
+mod run;
+mod run_lines;
+mod scenario;
+mod schemas;
+mod software;
+mod stability;
+mod surface;
+mod sweep;
+mod units;
+mod verification;
+
+pub use boundary::{
+    BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+};
+pub use checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
+pub use compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridName, GridWork,
+};
+pub use continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, OverName, SpecialDocument,
+    SpecialName,
+};
+pub use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
+pub use figure::{
+    ColoursName, CurveDocument, FigureDocument, FigureParameters, MapDocument, PanelDocument,
+    StyleName,
+};
+pub use history::{FARTHEST, History};
+pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
+pub use read::{Kind, Unusable, read};
+pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
+pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
+pub use run::{OscillationDocument, RegimeName, RunDocument, Samples, SteadyState, WorkDocument};
+pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
+pub use scenario::{
+    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
+};
+pub use schemas::{SCHEMAS, schema};
+pub use software::{FORMAT_VERSION, Software};
+pub use stability::{
+    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
+    SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
+};
+pub use surface::{
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+};
+pub use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
+pub use units::{
+    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
+};
+pub use verification::{
+    EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
+};

@@ -1,0 +1,142 @@
+//! The model in a document.
+
+use crate::Unusable;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError};
+
+/// The footprint f(x), x in units of σ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum TipDocument {
+    /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
+    Gaussians {
+        /// Its terms.
+        gaussians: Vec<GaussianDocument>,
+    },
+    /// J0(x).
+    Bessel {},
+    /// f(x,0) of a footprint f(x,y) in three dimensions, a sum of layers g(x)h(y).
+    Footprint {
+        /// Its terms.
+        layers: Vec<LayerDocument>,
+    },
+}
+
+/// g(x)h(y), g a sum of Gaussians, h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or
+/// exp(-y²/(2v²)) for d = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LayerDocument {
+    /// d, in σ
+    pub center_y: f64,
+    /// v, in σ
+    pub width_y: f64,
+    /// g
+    pub gaussians: Vec<GaussianDocument>,
+}
+
+/// a exp(-(x-c)²/(2w²)).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GaussianDocument {
+    /// a, dimensionless.
+    pub amplitude: f64,
+    /// c, in σ
+    pub center: f64,
+    /// w, in σ
+    pub width: f64,
+}
+
+impl From<&GaussianDocument> for Gaussian {
+    fn from(g: &GaussianDocument) -> Self {
+        Self { amplitude: g.amplitude, center: g.center, width: g.width }
+    }
+}
+
+impl From<&Gaussian> for GaussianDocument {
+    fn from(g: &Gaussian) -> Self {
+        Self { amplitude: g.amplitude, center: g.center, width: g.width }
+    }
+}
+
+impl From<&TipFunction> for TipDocument {
+    fn from(tip: &TipFunction) -> Self {
+        match (tip.footprint(), tip) {
+            (Some(footprint), _) => {
+                Self::Footprint { layers: footprint.layers().iter().map(layer_document).collect() }
+            }
+            (None, TipFunction::Bessel) => Self::Bessel {},
+            (None, tip) => Self::Gaussians { gaussians: gaussian_documents(tip) },
+        }
+    }
+}
+
+fn gaussian_documents(tip: &TipFunction) -> Vec<GaussianDocument> {
+    match tip {
+        TipFunction::Gaussians(sum) => sum.terms().iter().map(GaussianDocument::from).collect(),
+        TipFunction::Bessel => vec![],
+    }
+}
+
+fn layer_document(layer: &Layer) -> LayerDocument {
+    LayerDocument {
+        center_y: layer.across.center,
+        width_y: layer.across.width,
+        gaussians: gaussian_documents(&layer.along),
+    }
+}
+
+impl TipDocument {
+    /// The tip again.
+    ///
+    /// # Errors
+    /// There is no such tip, such as one without width.
+    pub fn tip(&self) -> Result<TipFunction, TipFunctionError> {
+        match self {
+            Self::Bessel {} => Ok(TipFunction::Bessel),
+            Self::Gaussians { gaussians } => sum_of(gaussians),
+            Self::Footprint { layers } => {
+                let layer = |layer: &LayerDocument| -> Result<Layer, TipFunctionError> {
+                    let across = Across { center: layer.center_y, width: layer.width_y };
+                    Ok(Layer { along: sum_of(&layer.gaussians)?, across })
+                };
+                let layers = layers.iter().map(layer).collect::<Result<_, _>>()?;
+                Footprint::from_layers(layers).map(TipFunction::of_footprint)
+            }
+        }
+    }
+}
+
+fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionError> {
+    TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
+}
+
+/// Footprint, α and r.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct ModelParameters {
+    /// Footprint f.
+    pub tip: TipDocument,
+    /// Dimensionless indentation rate α (13).
+    pub alpha: f64,
+    /// D, where α was given as αc(r) + D; dimensionless.
+    pub alpha_above: Option<f64>,
+    /// Dimensionless support velocity r (12).
+    pub r: f64,
+}
+
+impl ModelParameters {
+    /// Those of a model, and D where its α was given as αc(r) + D.
+    pub fn of(model: &Model, alpha_above: Option<f64>) -> Self {
+        Self { tip: model.tip().into(), alpha: model.alpha(), alpha_above, r: model.r() }
+    }
+
+    /// The model again.
+    ///
+    /// # Errors
+    /// No model has such a tip, α or r.
+    pub fn model(&self) -> Result<Model, Unusable> {
+        let tip = self.tip.tip().map_err(Unusable::new)?;
+        Model::new(tip, self.alpha, self.r).map_err(Unusable::new)
+    }
+}

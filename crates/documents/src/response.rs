@@ -1,0 +1,82 @@
+//! `stickslip/response`.
+
+use crate::{
+    CertificateDocument, ComplexDocument, ModelParameters, PulseParameters, Software, SteadyState,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Linear response of steady motion to weak pulses. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseDocument {
+    /// "stickslip/response"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub parameters: ResponseParameters,
+    /// The motion that the pulses disturb.
+    pub steady_state: SteadyState,
+    /// Terms of (A.9) by falling Re λ.
+    pub modes: Vec<ModeDocument>,
+    /// Time t0, in Γ/k, that the residues refer to, the center of the last pulse: from `valid_from` on,
+    /// l(t) - l0 = Σ residue e^{λ(t-t0)}.
+    pub origin: f64,
+    /// Time, in Γ/k, from which on, after the last pulse, the modes left out are estimated to add less than
+    /// `valid_to` of the leading mode. While a pulse lasts the sum is off by up to a half of the whole.
+    pub valid_from: f64,
+    /// 1e-6, a ratio.
+    pub valid_to: f64,
+    /// That no mode right of the last is missing.
+    pub certificate: CertificateDocument,
+    /// l at the times asked for.
+    pub samples: ResponseSamples,
+    /// What is short or inexact; empty if nothing is.
+    pub remarks: Vec<String>,
+}
+
+impl ResponseDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/response";
+}
+
+/// What was asked for.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct ResponseParameters {
+    /// Footprint, α and r.
+    #[serde(flatten)]
+    pub model: ModelParameters,
+    /// Gaussian pulses of external force.
+    pub pulses: Vec<PulseParameters>,
+    /// Least number of modes.
+    pub modes: usize,
+    /// The samples begin where a run from this position, in σ, would.
+    pub start_position: f64,
+    /// Time of the last sample, in Γ/k.
+    pub until: f64,
+}
+
+/// residue e^{λ(t-t0)}.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModeDocument {
+    /// λ, in k/Γ.
+    pub lambda: ComplexDocument,
+    /// Its residue, in σ.
+    pub residue: ComplexDocument,
+}
+
+/// Columns of equal length.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseSamples {
+    /// Times, in Γ/k.
+    pub t: Vec<f64>,
+    /// l = rt - r - x0, in σ; null where it has grown beyond all numbers.
+    pub l: Vec<Option<f64>>,
+    /// l - l0, in σ, with all its digits where that is small.
+    pub deviation: Vec<Option<f64>>,
+}

@@ -1,0 +1,265 @@
+//! `stickslip/run`.
+
+use crate::{
+    FORMAT_VERSION, History, RunEnd, RunParameters, SampleLine, Software, Unusable,
+    VerificationDocument,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_outcome::Regime;
+use stickslip_surface::Ripple;
+use stickslip_tip::motion::Oscillation;
+use stickslip_tip::{Model, Trajectory};
+
+/// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RunDocument {
+    /// "stickslip/run"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// Everything that defines the run.
+    pub parameters: RunParameters,
+    /// The steady motion at these parameters, whether or not it is stable.
+    pub steady_state: SteadyState,
+    /// l, x0 and x0' at the times asked for.
+    pub samples: Samples,
+    /// The dense history; null where it was not asked for.
+    pub history: Option<History>,
+    /// The kind of motion at the end of the run.
+    pub regime: RegimeName,
+    /// Period and amplitudes, where the regime is stick-slip.
+    pub oscillation: Option<OscillationDocument>,
+    /// Whether a signal stopped the run before `until`.
+    pub interrupted: bool,
+    /// The run against a repetition, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verification: Option<VerificationDocument>,
+    /// What it took.
+    pub work: WorkDocument,
+}
+
+impl RunDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/run";
+
+    /// The document of a run that became what `end` says; `samples` in the order asked for.
+    pub fn new(
+        parameters: RunParameters,
+        steady_state: SteadyState,
+        samples: &[SampleLine],
+        history: Option<History>,
+        end: RunEnd,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            parameters,
+            steady_state,
+            samples: samples.into(),
+            history,
+            regime: end.regime,
+            oscillation: end.oscillation,
+            interrupted: end.interrupted,
+            verification: None,
+            work: end.work,
+        }
+    }
+
+    /// The motion, as its dense history tells it.
+    ///
+    /// # Errors
+    /// The history was left out, or damaged.
+    pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
+        let missing = || Unusable::new("history: it was left out; run it again with --history all");
+        self.history.as_ref().ok_or_else(missing)?.trajectory(self.parameters.model.r)
+    }
+}
+
+/// Steady motion.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SteadyState {
+    /// l0 = α f(0)/r, in σ.
+    pub l: f64,
+    /// r + l0, the distance by which the tip lags behind the support, in σ.
+    pub lag: f64,
+    /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
+    pub surface_behind: Option<f64>,
+}
+
+/// Columns of equal length.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Samples {
+    /// Times, in Γ/k.
+    pub t: Vec<f64>,
+    /// l = rt - r - x0, in σ.
+    pub l: Vec<f64>,
+    /// Position of the tip, in σ.
+    pub x0: Vec<f64>,
+    /// x0', in kσ/Γ, the derivative of the dense history: one order less accurate than x0.
+    pub velocity: Vec<f64>,
+}
+
+impl From<&Model> for SteadyState {
+    fn from(model: &Model) -> Self {
+        let behind = model.steady_surface_behind();
+        Self {
+            l: model.steady_l(),
+            lag: model.steady_lag(),
+            surface_behind: behind.is_finite().then_some(behind),
+        }
+    }
+}
+
+impl From<&[SampleLine]> for Samples {
+    fn from(samples: &[SampleLine]) -> Self {
+        let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();
+        Self {
+            t: column(|s| s.t),
+            l: column(|s| s.l),
+            x0: column(|s| s.x0),
+            velocity: column(|s| s.velocity),
+        }
+    }
+}
+
+/// Kinds of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RegimeName {
+    /// l stays at l0.
+    Steady,
+    /// A periodic motion that repeats itself.
+    StickSlip,
+    /// The tip creeps logarithmically in its own pit and will not come out.
+    Trapped,
+    /// None of these yet.
+    Transient,
+}
+
+impl From<Regime> for RegimeName {
+    fn from(regime: Regime) -> Self {
+        match regime {
+            Regime::Steady => Self::Steady,
+            Regime::StickSlip => Self::StickSlip,
+            Regime::Trapped => Self::Trapped,
+            Regime::Transient => Self::Transient,
+        }
+    }
+}
+
+impl std::fmt::Display for RegimeName {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::Steady => "steady",
+            Self::StickSlip => "stick-slip",
+            Self::Trapped => "trapped",
+            Self::Transient => "transient",
+        })
+    }
+}
+
+/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OscillationDocument {
+    /// T, in Γ/k.
+    pub period: f64,
+    /// r times the period, in σ.
+    pub wavelength: f64,
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    pub amplitude_x0: f64,
+    /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
+    /// of reach of the tip, or f never fades.
+    pub amplitude_u: Option<f64>,
+    /// Maxima of l in one period.
+    pub slips: usize,
+    /// Largest change of a maximum of l from one period to the next, over the amplitude.
+    pub drift: f64,
+}
+
+impl OscillationDocument {
+    /// The motion, and the ripple that it leaves behind where that could be told.
+    pub fn of(motion: &Oscillation, ripple: Option<Ripple>) -> Self {
+        Self {
+            period: motion.period,
+            wavelength: motion.wavelength,
+            amplitude_x0: motion.amplitude_x0,
+            amplitude_u: ripple.map(|ripple| ripple.amplitude),
+            slips: motion.slips,
+            drift: motion.drift,
+        }
+    }
+}
+
+/// Counts that depend on the input alone, and the time that it took.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorkDocument {
+    /// Memory in use at the end.
+    pub memory: String,
+    /// Why that one.
+    pub memory_reason: String,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated with a smaller length.
+    pub rejected: u64,
+    /// Newton iterations in all steps.
+    pub newton_iterations: u64,
+    /// Time of the integration alone, in seconds: the one field that differs from run to run.
+    pub seconds: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read;
+    use stickslip_tip::{Scenario, TipFunction, run};
+
+    /// A document is the run: scenario and motion come back from its text to the last bit.
+    #[test]
+    fn a_run_comes_back_from_its_document() {
+        let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.2, 1.0).unwrap();
+        let scenario = Scenario { kick: 0.05, ..Scenario::new(model, 40.0) };
+        let done = run(&scenario).unwrap();
+        let end = RunEnd {
+            end: 40.0,
+            regime: RegimeName::Transient,
+            oscillation: None,
+            interrupted: false,
+            work: WorkDocument {
+                memory: done.memory.into(),
+                memory_reason: String::new(),
+                steps: done.work.steps,
+                rejected: done.work.rejected,
+                newton_iterations: done.work.newton_iterations,
+                seconds: 0.0,
+            },
+        };
+        let document = RunDocument::new(
+            RunParameters::of(&scenario, None, &[], None),
+            (&scenario.model).into(),
+            &[],
+            Some((&done.trajectory).into()),
+            end,
+        );
+        let text = serde_json::to_string(&document).unwrap();
+        let back: RunDocument = read(&text, RunDocument::FORMAT).unwrap();
+        let again = run(&back.parameters.scenario().unwrap()).unwrap();
+        let trajectory = back.trajectory().unwrap();
+        for t in [16.5, 25.0, 40.0] {
+            let bits = [&done.trajectory, &again.trajectory, &trajectory].map(|m| m.l(t).to_bits());
+            assert_eq!(bits, [bits[0]; 3], "t = {t}");
+        }
+        let other = read::<RunDocument>(&text, "stickslip/cycle").unwrap_err();
+        assert!(other.to_string().contains("is needed"), "{other}");
+        let none = RunDocument { history: None, ..back }.trajectory().unwrap_err();
+        assert!(none.to_string().contains("--history all"), "{none}");
+    }
+}

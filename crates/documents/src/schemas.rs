@@ -1,0 +1,32 @@
+//! The schemas of all documents, by name.
+
+use crate::{
+    BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
+    FigureDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
+    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+};
+use schemars::{Schema, schema_for};
+
+/// Every document that has a schema: its name, which follows "stickslip/" in its `format`, and the schema.
+pub const SCHEMAS: [(&str, fn() -> Schema); 15] = [
+    ("run", || schema_for!(RunDocument)),
+    ("run-lines", || schema_for!(RunLine)),
+    ("checkpoint", || schema_for!(CheckpointHead)),
+    ("verify", || schema_for!(VerifyDocument)),
+    ("surface", || schema_for!(SurfaceDocument)),
+    ("stability", || schema_for!(StabilityDocument)),
+    ("boundary", || schema_for!(BoundaryDocument)),
+    ("compare", || schema_for!(CompareDocument)),
+    ("response", || schema_for!(ResponseDocument)),
+    ("cycle", || schema_for!(CycleDocument)),
+    ("continue", || schema_for!(ContinueDocument)),
+    ("sweep", || schema_for!(SweepDocument)),
+    ("units", || schema_for!(UnitsDocument)),
+    ("figure", || schema_for!(FigureDocument)),
+    ("reproduction", || schema_for!(ReproductionDocument)),
+];
+
+/// The JSON Schema (draft 2020-12) of the document of this name.
+pub fn schema(name: &str) -> Option<Schema> {
+    SCHEMAS.iter().find(|(other, _)| *other == name).map(|(_, schema)| schema())
+}

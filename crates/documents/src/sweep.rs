@@ -1,0 +1,178 @@
+//! The document of `stickslip sweep`.
+
+use crate::{RegimeName, Software, TipDocument};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_cycles::Cycle;
+use stickslip_outcome::{Motion, Outcome};
+
+/// What the tip settles into, over a grid of parameters.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepDocument {
+    /// "stickslip/sweep"
+    pub format: String,
+    /// Version of the format.
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// The grid.
+    pub parameters: SweepParameters,
+    /// The points, by rising index.
+    pub points: Vec<SweepPoint>,
+}
+
+impl SweepDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/sweep";
+}
+
+/// The grid: footprints times r times α, the last varying fastest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepParameters {
+    /// Footprints f.
+    pub tips: Vec<TipDocument>,
+    /// Side lobes of each footprint, where they were given.
+    pub beta: Option<Vec<f64>>,
+    /// Dimensionless support velocities r (12).
+    pub r: Vec<f64>,
+    /// Dimensionless indentation rates α (13), where they were given as such.
+    pub alpha: Option<Vec<f64>>,
+    /// D, where they were given as αc(r) + D.
+    pub alpha_above: Option<Vec<f64>>,
+    /// Largest residual of (18) on a cycle, kσ/Γ.
+    pub tolerance: f64,
+    /// Part of the points that is here, all without.
+    pub shard: Option<ShardDocument>,
+}
+
+/// Part `index` of `of`: the points whose index is `index` - 1 modulo `of`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShardDocument {
+    /// From 1 to `of`.
+    pub index: usize,
+    /// Number of parts.
+    pub of: usize,
+}
+
+/// How a point was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SourceName {
+    /// Steady motion is stable, or as good as: α is below αc.
+    Stability,
+    /// The stable periodic solution of (18).
+    Cycle,
+    /// The end of a run from a disturbed steady state.
+    Run,
+}
+
+impl std::fmt::Display for SourceName {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::Stability => "stability",
+            Self::Cycle => "cycle",
+            Self::Run => "run",
+        })
+    }
+}
+
+/// One point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepPoint {
+    /// Its place in the grid.
+    pub index: usize,
+    /// Side lobes, where they were given.
+    pub beta: Option<f64>,
+    /// r, dimensionless.
+    pub r: f64,
+    /// α, dimensionless; null where αc(r) + D could not be found.
+    pub alpha: Option<f64>,
+    /// αc(r), if there is one.
+    pub critical_alpha: Option<f64>,
+    /// What the tip settles into; "transient" where a run of thousands of time units did not settle. Null
+    /// where `error` says why.
+    pub regime: Option<RegimeName>,
+    /// How that was found.
+    pub source: Option<SourceName>,
+    /// Period of l(t), Γ/k.
+    pub period: Option<f64>,
+    /// Wavelength of the surface left behind, σ.
+    pub wavelength: Option<f64>,
+    /// Half peak-to-peak of l, σ.
+    pub amplitude_x0: Option<f64>,
+    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles only.
+    pub amplitude_u: Option<f64>,
+    /// Maxima of l in one period.
+    pub slips: Option<usize>,
+    /// Largest modulus of the Floquet multipliers but that of a shift in time; of cycles only.
+    pub multiplier: Option<f64>,
+    /// Why nothing was found.
+    pub error: Option<String>,
+}
+
+impl SweepParameters {
+    /// Points of the whole grid.
+    pub fn points(&self) -> usize {
+        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
+        self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas)
+    }
+}
+
+impl SweepPoint {
+    /// A point of which nothing is known yet but where it is: its index, β, r and α.
+    pub fn at(index: usize, beta: Option<f64>, r: f64, alpha: Option<f64>) -> Self {
+        Self {
+            index,
+            beta,
+            r,
+            alpha,
+            critical_alpha: None,
+            regime: None,
+            source: None,
+            period: None,
+            wavelength: None,
+            amplitude_x0: None,
+            amplitude_u: None,
+            slips: None,
+            multiplier: None,
+            error: None,
+        }
+    }
+
+    /// With what the tip settles into there.
+    #[must_use]
+    pub fn settled(mut self, motion: Motion) -> Self {
+        match motion {
+            Motion::Steady => {
+                self.regime = Some(RegimeName::Steady);
+                self.source = Some(SourceName::Stability);
+            }
+            Motion::Cycle(cycle) => self.is_periodic(&cycle),
+            Motion::Run(outcome) => self.ended(outcome),
+        }
+        self
+    }
+
+    fn is_periodic(&mut self, cycle: &Cycle) {
+        (self.regime, self.source) = (Some(RegimeName::StickSlip), Some(SourceName::Cycle));
+        (self.period, self.wavelength) = (Some(cycle.period()), Some(cycle.wavelength()));
+        self.amplitude_x0 = Some(cycle.amplitude_x0());
+        self.amplitude_u = Some(cycle.amplitude_u());
+        self.slips = Some(cycle.slips());
+        let moduli = cycle.nontrivial_multipliers().map(|m| m.norm());
+        self.multiplier = moduli.max_by(f64::total_cmp);
+    }
+
+    fn ended(&mut self, outcome: Outcome) {
+        (self.regime, self.source) = (Some(outcome.regime.into()), Some(SourceName::Run));
+        if let Some(motion) = outcome.oscillation {
+            (self.period, self.wavelength) = (Some(motion.period), Some(motion.wavelength));
+            self.amplitude_x0 = Some(motion.amplitude_x0);
+            self.slips = Some(motion.slips);
+        }
+    }
+}

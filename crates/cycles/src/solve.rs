@@ -1,7 +1,8 @@
 //! Newton's method for a cycle, on meshes that are refined until its residual is as small as asked.
 
+use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
-use super::linearisation::{Change, Direction, Linearisation};
+use super::linearisation::Linearisation;
 use super::mesh::{adapted, residuals};
 use super::orbit::Orbit;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! A cycle on a branch, and the way on from there.
 
 use super::Continuation;
+use crate::change::{Change, Direction};
 use crate::embedding::Parameter;
-use crate::linearisation::{Change, Direction};
 use crate::solve::{Closed, Condition, close};
 use crate::{Cycle, CycleError};
 

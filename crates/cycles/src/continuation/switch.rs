@@ -3,7 +3,8 @@
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
 use crate::CycleError;
-use crate::linearisation::{Change, Direction, Linearisation};
+use crate::change::{Change, Direction};
+use crate::linearisation::Linearisation;
 use crate::solve::{Closed, Condition, close};
 use nalgebra::{DMatrix, DVector};
 

@@ -14,7 +14,7 @@ mod policy;
 mod record;
 mod report;
 
-pub use modes::{Certificate, Fit, FitError, Term, accuracy_needed};
+pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed};
 pub use policy::{CROSSOVER_NODES, CROSSOVER_STEPS, Policy};
 pub use report::{MemoryReport, Sum};
 

@@ -1,6 +1,6 @@
 //! What is worth knowing of a memory, as data and in a sentence.
 
-use super::{CROSSOVER_NODES, CROSSOVER_STEPS, Certificate, FitError, MemoryChoice};
+use super::{CROSSOVER_NODES, CROSSOVER_STEPS, FitCertificate, FitError, MemoryChoice};
 
 /// Which sum over the past was in use, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,7 @@ pub enum Sum {
         /// How many, a conjugate pair being one.
         terms: usize,
         /// Largest errors of their sum.
-        certificate: Certificate,
+        certificate: FitCertificate,
         /// How often the tip retreated beyond them.
         retreats: u64,
     },
@@ -76,7 +76,7 @@ impl MemoryReport {
     }
 
     fn fared(&self) -> Option<String> {
-        let Sum::Modes { terms, certificate: Certificate { slope, area, .. }, retreats } =
+        let Sum::Modes { terms, certificate: FitCertificate { slope, area, .. }, retreats } =
             &self.sum
         else {
             return None;

@@ -2,8 +2,9 @@
 
 mod saved;
 
-use super::fit::{Fit, Term};
+use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
+use super::term::Term;
 use crate::collocation::{STAGES, Stages};
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.

@@ -6,11 +6,13 @@ mod certificate;
 mod fit;
 mod local;
 mod pencil;
+mod term;
 mod weights;
 
 pub use accuracy::accuracy_needed;
-pub use certificate::Certificate;
-pub use fit::{Fit, FitError, Term};
+pub use certificate::FitCertificate;
+pub use fit::{Fit, FitError};
+pub use term::Term;
 
 use super::Groove;
 use crate::state::{Damaged, Reader, State};

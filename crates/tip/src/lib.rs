@@ -38,10 +38,8 @@ pub use force::{Force, ForceError, Pulse};
 pub use history::{STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};
 pub use integrator::{IntegrationError, Integrator, Work};
+pub use memory::MemoryChoice;
 pub use model::{Model, ModelError};
-pub use run::{
-    MOST_STEPS, MemoryChoice, Run, RunError, Running, Scenario, Start, TOLERANCES, run,
-    run_observed,
-};
+pub use run::{MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, run, run_observed};
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

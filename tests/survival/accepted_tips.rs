@@ -67,7 +67,11 @@ fn judge(count: &mut Count, model: &Model, found: Found) -> String {
             let off = cycle.multipliers().iter().map(|m| (m - 1.0).norm()).fold(1.0, f64::min);
             let said = format!(
                 "T {:.6}, amplitude {:.6}, stable {}, {} slips, off one by {off:.1e}, {} steps",
-                cycle.period(), cycle.amplitude_x0(), cycle.is_stable(), cycle.slips(), cycle.steps()
+                cycle.period(),
+                cycle.amplitude_x0(),
+                cycle.is_stable(),
+                cycle.slips(),
+                cycle.steps()
             );
             if off > 1e-4 || cycle.amplitude_x0() < 1e-6 {
                 count.wrong.push(said.clone());

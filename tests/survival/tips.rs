@@ -44,7 +44,10 @@ fn table(rng: &mut ChaCha20Rng) -> (Kind, Option<TipFunction>) {
         0 => (-0.5 * x * x).exp(),
         1 => (1.0 + x * x).powi(-4),
         2 => 1.0 / x.cosh(),
-        3 => (-0.5 * x * x).exp() + lobe * ((-2.0 * (x - at).powi(2)).exp() + (-2.0 * (x + at).powi(2)).exp()),
+        3 => {
+            (-0.5 * x * x).exp()
+                + lobe * ((-2.0 * (x - at).powi(2)).exp() + (-2.0 * (x + at).powi(2)).exp())
+        }
         _ => (1.0 - (x / 3.0).powi(2)).max(0.0).powi(3),
     };
     let x: Vec<f64> = (0..rows).map(|i| length * i as f64 / (rows - 1) as f64).collect();

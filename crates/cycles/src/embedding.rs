@@ -69,8 +69,9 @@ impl Embedding {
             return Err(CycleError::Rough { allowed, reached: times * allowed });
         }
         let short = sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_SHORT)?;
-        let precise = (short.certificate().slope > accuracy_needed(model, 10.0 * ACCURACY_OF_SHORT))
-            .then(|| sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_MULTIPLIERS));
+        let precise = (short.certificate().slope
+            > accuracy_needed(model, 10.0 * ACCURACY_OF_SHORT))
+        .then(|| sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_MULTIPLIERS));
         let precise = precise.transpose()?.unwrap_or_else(|| Arc::clone(&short));
         let nominal = tip.band();
         let is_usual = Fit::cached(&tip, accuracy_needed(model, ACCURACY_OF_SHORT)).is_ok();

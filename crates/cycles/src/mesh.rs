@@ -35,12 +35,7 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
 }
 
 /// The mesh on which residuals would be evenly below the one allowed.
-pub(super) fn adapted(
-    orbit: &Orbit,
-    band: f64,
-    residuals: &[f64],
-    allowed: f64,
-) -> Vec<f64> {
+pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64) -> Vec<f64> {
     let longest = longest_displacement(band);
     let shares: Vec<f64> = orbit.mesh.windows(2).map(|ends| ends[1] - ends[0]).collect();
     let wanted = |n: usize| {

@@ -170,7 +170,8 @@ impl Deflation {
         for k in start..end - 1 {
             let rows = (end - k).min(3);
             if k > start {
-                column = std::array::from_fn(|i| if i < rows { self.h[(k + i, k - 1)] } else { 0.0 });
+                column =
+                    std::array::from_fn(|i| if i < rows { self.h[(k + i, k - 1)] } else { 0.0 });
             }
             let Some((reflector, head)) = reflector(&column) else { continue };
             if k > start {
@@ -278,9 +279,8 @@ mod tests {
                 Complex::new(size * rng.random_range(-1.0..1.0), (size * im).max(0.0))
             };
             let upper: Vec<_> = (0..n).map(|i| value(i, &mut rng)).collect();
-            let wanted = upper.iter().flat_map(|z| {
-                if z.im > 0.0 { vec![*z, z.conj()] } else { vec![*z] }
-            });
+            let wanted =
+                upper.iter().flat_map(|z| if z.im > 0.0 { vec![*z, z.conj()] } else { vec![*z] });
             let found = sorted(eigenvalues(with_eigenvalues(&upper, &mut rng)).unwrap());
             for (a, b) in found.iter().zip(sorted(wanted.collect())) {
                 assert!((a - b).norm() < 1e-11, "{n}: {a} for {b}");
@@ -311,7 +311,10 @@ mod tests {
             let size = found.iter().map(|z| z.norm()).fold(1.0, f64::max);
             assert!((trace - matrix.trace()).abs() < 1e-10 * size, "{case}: {trace}");
             let left_over = found.iter().filter(|z| z.norm() > 1e-9 * size).count();
-            assert!(left_over <= rank, "{case}: {left_over} eigenvalues of a matrix of rank {rank}");
+            assert!(
+                left_over <= rank,
+                "{case}: {left_over} eigenvalues of a matrix of rank {rank}"
+            );
         }
     }
 

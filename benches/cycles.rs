@@ -3,8 +3,8 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::ops::ControlFlow;
-use stickslip_tip::cycle::{Continuation, DEFAULT_TOLERANCE, cycle};
-use stickslip_tip::stability::critical;
+use stickslip_cycles::{Continuation, DEFAULT_TOLERANCE, cycle};
+use stickslip_stability::critical;
 use stickslip_tip::{Model, TipFunction};
 
 fn tip() -> TipFunction {

@@ -17,9 +17,10 @@ use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip_documents::{RunDocument, SweepDocument};
+use stickslip_outcome::Watched;
 use stickslip_surface::Surface;
-use stickslip_tip::units::Unit;
-use stickslip_tip::{Force, InitialSurface, Running};
+use stickslip_tip::{Force, InitialSurface};
+use stickslip_units::Unit;
 
 /// Cases of each target where the environment sets no other number: some seconds in all.
 const CASES: u32 = 2000;
@@ -234,7 +235,7 @@ fn any_checkpoint_is_taken_or_refused() {
         let Ok((head, state)) = run::checkpoint::parse(&bytes) else { return false };
         let Ok(scenario) = head.order.parameters.scenario() else { return false };
         let Ok(surface) = scenario.initial_surface() else { return false };
-        let Ok(mut running) = Running::resumed(&scenario, &surface, &state) else { return false };
+        let Ok(mut running) = Watched::resumed(&scenario, &surface, &state) else { return false };
         // Numbers without sense may not be told from others, but they do no harm.
         for _ in 0..3 {
             if !running.step().is_ok_and(|step| step.is_some()) {

@@ -4,7 +4,7 @@
 
 use crate::folder::{Folder, said};
 use serde_json::Value;
-use stickslip_tip::cycle::{DEFAULT_TOLERANCE, cycle};
+use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
 use stickslip_tip::{Model, TipFunction};
 
 fn number(value: &Value) -> f64 {

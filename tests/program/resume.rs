@@ -1,9 +1,10 @@
 //! Does a run that was saved and taken up again go on as if nothing had happened? Judged by the same run
 //! in one go, to the last bit: nothing is allowed to differ, so nothing is compared by a tolerance.
 
+use stickslip_outcome::Watched;
 use stickslip_tip::state::{Damaged, State};
 use stickslip_tip::{
-    Force, MemoryChoice, Model, Noise, Pulse, RunError, Running, Scenario, Start, Step, TipFunction,
+    Force, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Step, TipFunction,
 };
 
 fn triple(alpha: f64) -> Model {
@@ -42,7 +43,7 @@ fn bits(step: &Step) -> [u64; 9] {
     step.numbers().map(f64::to_bits)
 }
 
-fn finish(mut running: Running, mut steps: Vec<[u64; 9]>) -> Told {
+fn finish(mut running: Watched, mut steps: Vec<[u64; 9]>) -> Told {
     while let Some(step) = running.step().unwrap() {
         steps.push(bits(&step));
     }
@@ -53,7 +54,7 @@ fn finish(mut running: Running, mut steps: Vec<[u64; 9]>) -> Told {
 /// The run, saved after so many steps and taken up by another that knows only the words.
 fn broken_at(scenario: &Scenario, at: &[usize]) -> Told {
     let surface = scenario.initial_surface().unwrap();
-    let mut running = Running::new(scenario, &surface).unwrap();
+    let mut running = Watched::new(scenario, &surface).unwrap();
     let mut steps = vec![];
     for &at in at {
         while steps.len() < at {
@@ -61,7 +62,7 @@ fn broken_at(scenario: &Scenario, at: &[usize]) -> Told {
         }
         let words = running.save().words().to_vec();
         drop(running);
-        running = Running::resumed(scenario, &surface, &State::from_words(words)).unwrap();
+        running = Watched::resumed(scenario, &surface, &State::from_words(words)).unwrap();
     }
     finish(running, steps)
 }
@@ -72,7 +73,7 @@ fn every_memory_goes_on_to_the_last_bit() {
         for memory in MEMORIES {
             let scenario = Scenario { memory, ..scenario.clone() };
             let surface = scenario.initial_surface().unwrap();
-            let running = match Running::new(&scenario, &surface) {
+            let running = match Watched::new(&scenario, &surface) {
                 Err(RunError::Modes(_)) => continue,
                 other => other.unwrap(),
             };
@@ -95,7 +96,7 @@ fn what_a_run_keeps_does_not_grow() {
         let memory = MemoryChoice::Modes;
         let scenario = Scenario { kick, memory, ..Scenario::new(triple(alpha), 12_000.0) };
         let surface = scenario.initial_surface().unwrap();
-        let mut running = Running::new(&scenario, &surface).unwrap();
+        let mut running = Watched::new(&scenario, &surface).unwrap();
         // By then the record of the modes has its full length.
         let (mut early, mut late) = (0, 0);
         let mut steps: u32 = 0;
@@ -120,14 +121,14 @@ fn a_state_that_is_not_the_same_is_noticed() {
     let surface = scenario.initial_surface().unwrap();
     for memory in MEMORIES {
         let scenario = Scenario { memory, ..scenario.clone() };
-        let whole = finish(Running::new(&scenario, &surface).unwrap(), vec![]);
-        let mut running = Running::new(&scenario, &surface).unwrap();
+        let whole = finish(Watched::new(&scenario, &surface).unwrap(), vec![]);
+        let mut running = Watched::new(&scenario, &surface).unwrap();
         let steps: Vec<_> = (0..20).map(|_| bits(&running.step().unwrap().unwrap())).collect();
         let words = running.save().words().to_vec();
         let noticed = |i: &usize| {
             let mut words = words.clone();
             words[*i] ^= 1 << 45;
-            match Running::resumed(&scenario, &surface, &State::from_words(words)) {
+            match Watched::resumed(&scenario, &surface, &State::from_words(words)) {
                 Err(RunError::State(_)) => true,
                 Ok(other) => finish(other, steps.clone()) != whole,
                 Err(other) => panic!("{other}"),
@@ -147,13 +148,13 @@ fn a_state_of_something_else_is_refused() {
     let surface = scenario.initial_surface().unwrap();
     let with = |memory, tolerance| Scenario { memory, tolerance, ..scenario.clone() };
     let saved = |scenario: &Scenario| {
-        let mut running = Running::new(scenario, &surface).unwrap();
+        let mut running = Watched::new(scenario, &surface).unwrap();
         assert!((0..30).all(|_| running.step().unwrap().is_some()));
         running.save().words().to_vec()
     };
     let refused = |scenario: &Scenario, words: &[u64]| {
         let state = State::from_words(words.to_vec());
-        match Running::resumed(scenario, &surface, &state) {
+        match Watched::resumed(scenario, &surface, &state) {
             Err(RunError::State(why)) => why,
             Err(other) => panic!("{other}"),
             Ok(_) => panic!("taken up"),

@@ -6,8 +6,8 @@
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Output;
+use stickslip_stability::{critical, onset, trapping_alpha};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{critical, onset, trapping_alpha};
 
 fn stickslip(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("stickslip").unwrap().args(arguments).output().unwrap()

@@ -6,7 +6,8 @@ use crate::folder::Folder;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-use stickslip_tip::{Model, Regime, Scenario, TipFunction, run};
+use stickslip_outcome::{Regime, run_and_judge};
+use stickslip_tip::{Model, Scenario, TipFunction};
 
 const SMALL: &str = "sweep --r 0.8:1.2:3 --alpha 0.5:4:8";
 
@@ -24,15 +25,16 @@ fn points_are_what_long_runs_come_to() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
         let model = Model::new(tip, number("alpha"), number("r")).unwrap();
         let until = 4000.0;
-        let run = run(&Scenario { kick: 0.1, ..Scenario::new(model, until) }).unwrap();
-        let regime = match run.outcome.regime {
+        let (_, outcome) =
+            run_and_judge(&Scenario { kick: 0.1, ..Scenario::new(model, until) }).unwrap();
+        let regime = match outcome.regime {
             Regime::Steady => "steady",
             Regime::StickSlip => "stick-slip",
             Regime::Trapped => "trapped",
             Regime::Transient => "transient",
         };
         assert_eq!(point["regime"], regime, "{point}");
-        if let Some(motion) = run.outcome.oscillation.filter(|o| o.drift < 1e-8) {
+        if let Some(motion) = outcome.oscillation.filter(|o| o.drift < 1e-8) {
             let errors = [
                 motion.period / number("period") - 1.0,
                 motion.amplitude_x0 / number("amplitude_x0") - 1.0,

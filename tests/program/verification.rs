@@ -7,13 +7,13 @@ use crate::folder::{Folder, said};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use stickslip_surface::{TOLERANCES_ALLOWED, Verification, verify};
+use stickslip_stability::{critical, leading_roots};
 use stickslip_tip::memory::{Fit, Modes, Term, accuracy_needed};
-use stickslip_tip::stability::{critical, leading_roots};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction,
     Trajectory, run,
 };
+use stickslip_verify::{TOLERANCES_ALLOWED, Verification, verify};
 
 fn triple(beta: f64, alpha: f64, r: f64) -> Model {
     Model::new(TipFunction::triple_gaussian(beta, 1.0).unwrap(), alpha, r).unwrap()

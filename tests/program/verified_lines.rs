@@ -7,8 +7,8 @@ use allocation_counter::measure;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::process::Output;
-use stickslip_surface::{Sample, verify_samples};
 use stickslip_tip::{MemoryChoice, Model, Running, Scenario, Step, TipFunction};
+use stickslip_verify::{Sample, verify_samples};
 
 const RUN: &str = "run --alpha 1.2 --r 1 --kick 0.05 --until 76 --sample-every 0.5";
 

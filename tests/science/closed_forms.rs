@@ -1,7 +1,8 @@
 //! Does a run give what is known in closed form? Judged by formulas: α = 0, and the steady state.
 
 use crate::acceptance::{Acceptance, largest_difference};
-use stickslip_tip::{MemoryChoice, Model, Regime, Scenario, Start, TipFunction, run};
+use stickslip_outcome::{Regime, run_and_judge};
+use stickslip_tip::{MemoryChoice, Model, Scenario, Start, TipFunction, run};
 
 /// A tolerance is an error, and here nothing amplifies it.
 const AS_ASKED: Acceptance = Acceptance { floor: 2e-14, slack: 1.0 };
@@ -13,12 +14,12 @@ fn without_indentation_l_decays_exponentially() {
     let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 0.0, 0.7).unwrap();
     for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
         let scenario = Scenario { kick: 1.5, tolerance, ..Scenario::new(model.clone(), 60.0) };
-        let run = run(&scenario).unwrap();
+        let (run, outcome) = run_and_judge(&scenario).unwrap();
         let (start, end) = (run.trajectory.start(), run.trajectory.end());
         let exact = |t: f64| 1.5 * (start - t).exp();
         let error = largest_difference(|t| run.trajectory.l(t), exact, (start, end), 4000);
         AS_ASKED.judge(&format!("α = 0, {tolerance:e}"), error, tolerance);
-        assert_eq!(run.outcome.regime, Regime::Steady);
+        assert_eq!(outcome.regime, Regime::Steady);
     }
 }
 
@@ -36,11 +37,11 @@ fn the_steady_state_is_kept_for_a_thousand_time_units() {
         // l0 = α f(0)/r, written out: f(0) is 1 - exp(-2) for the triple Gaussian, not 1.
         let l0 = [1.0 - (-2.0_f64).exp(), 0.4, 0.5][tip];
         let scenario = Scenario { tolerance, ..Scenario::new(model, 1015.0) };
-        let run = run(&scenario).unwrap();
+        let (run, outcome) = run_and_judge(&scenario).unwrap();
         let range = (run.trajectory.start(), run.trajectory.end());
         let error = largest_difference(|t| run.trajectory.l(t), |_| l0, range, 10_000);
         KEPT.judge(&format!("steady, tip {tip}, {tolerance:e}"), error, tolerance);
-        assert_eq!(run.outcome.regime, Regime::Steady);
+        assert_eq!(outcome.regime, Regime::Steady);
     }
 }
 
@@ -50,7 +51,7 @@ fn without_the_groove_of_the_start_the_steady_state_is_not_kept() {
     let l0 = model.steady_l();
     let scenario =
         Scenario { start: Start::Flat, kick: model.steady_lag(), ..Scenario::new(model, 40.0) };
-    let run = run(&scenario).unwrap();
+    let (run, _) = run_and_judge(&scenario).unwrap();
     let range = (run.trajectory.start(), run.trajectory.end());
     assert!(largest_difference(|t| run.trajectory.l(t), |_| l0, range, 1000) > 0.1);
 }

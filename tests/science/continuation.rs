@@ -7,11 +7,12 @@
 
 use crate::acceptance::Acceptance;
 use std::ops::ControlFlow;
-use stickslip_tip::cycle::{
+use stickslip_cycles::{
     Branch, Continuation, Cycle, DEFAULT_TOLERANCE, End, Parameter, Special, SpecialKind, cycle,
 };
-use stickslip_tip::stability::{critical, critical_r};
-use stickslip_tip::{Gaussian, Model, Regime, Scenario, TipFunction, run};
+use stickslip_outcome::{Regime, run_and_judge};
+use stickslip_stability::{critical, critical_r};
+use stickslip_tip::{Gaussian, Model, Scenario, TipFunction};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
@@ -83,7 +84,7 @@ fn runs_on_both_sides_of_a_doubling_have_one_slip_or_two() {
     ] {
         let model = Model::new(tip(), alpha, 1.0).unwrap();
         let scenario = Scenario { kick: 0.1, tolerance: 1e-8, ..Scenario::new(model.clone(), 1e4) };
-        let outcome = run(&scenario).unwrap().outcome;
+        let outcome = run_and_judge(&scenario).unwrap().1;
         let oscillation = outcome.oscillation.unwrap();
         assert_eq!(oscillation.slips, slips, "α = {alpha}");
         // And what is found from nothing is what runs settle into.
@@ -161,7 +162,7 @@ fn a_branch_goes_through_its_fold() {
     let model = Model::new(broad, 0.5 * (fold.alpha + born.alpha), 1.0).unwrap();
     let ends = [0.2, 6.0].map(|kick| {
         let scenario = Scenario { kick, tolerance: 1e-7, ..Scenario::new(model.clone(), 2e4) };
-        run(&scenario).unwrap().outcome.regime
+        run_and_judge(&scenario).unwrap().1.regime
     });
     assert_eq!(ends, [Regime::Steady, Regime::StickSlip]);
 }

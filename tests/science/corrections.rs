@@ -5,8 +5,9 @@
 //! library's. `docs/corrections.md` gives the reasons.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
-use stickslip_tip::stability::{critical, critical_r};
-use stickslip_tip::{InitialSurface, Model, Noise, Regime, Run, Scenario, Start, TipFunction, run};
+use stickslip_outcome::{Regime, run_and_judge};
+use stickslip_stability::{critical, critical_r};
+use stickslip_tip::{InitialSurface, Model, Noise, Run, Scenario, Start, TipFunction, run};
 
 /// Printed numbers are rounded to the third digit after the point.
 const ROUNDED: f64 = 5.1e-4;
@@ -93,8 +94,8 @@ fn steady_motion_lags_by_alpha_times_f_at_0_over_r() {
     let (l0, printed) = (alpha * f0 / r, alpha / r);
     // The tip is set down where (22) puts it, and goes to where (22) should.
     let steady = Scenario::new(model(triple(1.0), alpha, r), 250.0);
-    let run = run(&Scenario { kick: printed - l0, ..steady.clone() }).unwrap();
-    assert_eq!(run.outcome.regime, Regime::Steady);
+    let (run, outcome) = run_and_judge(&Scenario { kick: printed - l0, ..steady.clone() }).unwrap();
+    assert_eq!(outcome.regime, Regime::Steady);
     assert!(late_deviation(&run, l0) < 1e-8, "{}", late_deviation(&run, l0));
     assert!(late_deviation(&run, printed) > 0.06);
     // Hence the start of the paper's simulations, (22) at x0 = 14: not 15 + α.
@@ -129,7 +130,7 @@ fn the_period_printed_for_alpha_1_is_the_wavelength() {
     assert!((at.r - name("r")).abs() < 1e-12 && (at.omega - name("omega")).abs() < 1e-12);
     let scenario =
         Scenario { kick: 0.15, ..Scenario::new(model(triple(1.0), 1.0, at.r - 0.003), 900.0) };
-    let oscillation = run(&scenario).unwrap().outcome.oscillation.unwrap();
+    let oscillation = run_and_judge(&scenario).unwrap().1.oscillation.unwrap();
     // T = 2π/ω, approached as r → rc; 6.59 is 2πr/ω, as the paper's own expression says.
     assert!((oscillation.period - name("period")).abs() < 0.05, "{oscillation:?}");
     assert!((oscillation.period - 6.59).abs() > 0.25);

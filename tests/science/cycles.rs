@@ -9,9 +9,10 @@
 
 use crate::acceptance::{Acceptance, largest_difference};
 use gauss_quad::legendre::GaussLegendre;
+use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle};
+use stickslip_outcome::run_and_judge;
+use stickslip_stability::{critical, onset};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::cycle::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle};
-use stickslip_tip::stability::{critical, onset};
 use stickslip_tip::{Model, Run, Scenario, TipFunction, Trajectory, run};
 
 fn tip(beta: f64) -> TipFunction {
@@ -249,10 +250,10 @@ fn the_ripple_is_that_of_a_run() {
         let cycle = found(case);
         let scenario =
             Scenario { kick: 0.1, tolerance: 1e-11, ..Scenario::new(cycle.model().clone(), 800.0) };
-        let run = run(&scenario).unwrap();
+        let (run, outcome) = run_and_judge(&scenario).unwrap();
         let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
         let ripple =
-            ripple_behind(&surface, &run.trajectory, &run.outcome.oscillation.unwrap()).unwrap();
+            ripple_behind(&surface, &run.trajectory, &outcome.oscillation.unwrap()).unwrap();
         let difference = (ripple.amplitude - cycle.amplitude_u()).abs();
         Acceptance { floor: 1e-8, slack: 0.0 }.judge(&format!("{case:?}"), difference, 0.0);
     }

@@ -3,9 +3,9 @@
 //! equation (stability/onset.rs), which is derived from neither.
 
 use crate::acceptance::Acceptance;
+use stickslip_cycles::{DEFAULT_TOLERANCE, Measured, Parameter, scaling};
+use stickslip_stability::{critical_r, onset};
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::{DEFAULT_TOLERANCE, Measured, Parameter, scaling};
-use stickslip_tip::stability::{critical_r, onset};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()

@@ -9,7 +9,7 @@
 //!   would take some 1/(α - αc) units of time.
 
 use std::f64::consts::PI;
-use stickslip_tip::stability::{critical, leading_roots, onset, response};
+use stickslip_stability::{critical, leading_roots, onset, response};
 use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, run};
 
 fn triple(beta: f64) -> TipFunction {

@@ -5,8 +5,9 @@ use crate::acceptance::Acceptance;
 use gauss_quad::legendre::GaussLegendre;
 use std::f64::consts::PI;
 use std::num::NonZeroUsize;
+use stickslip_outcome::classify;
+use stickslip_stability::critical;
 use stickslip_surface::{Method, Surface, carved_by, ripple_behind, steady_profile};
-use stickslip_tip::stability::critical;
 use stickslip_tip::{InitialSurface, Model, Run, Scenario, Start, TipFunction, Trajectory, run};
 
 /// Heights are of order one.
@@ -128,7 +129,8 @@ fn ripple_and_tip_amplitudes_are_tied_at_onset() {
             let scenario = Scenario { kick: 0.05, tolerance: 1e-10, ..Scenario::new(model, until) };
             let (run, initial) = finished(&scenario);
             let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
-            let oscillation = run.outcome.oscillation.unwrap();
+            let outcome = classify(&run.trajectory, &scenario.model, scenario.tolerance);
+            let oscillation = outcome.oscillation.unwrap();
             let ripple = ripple_behind(&surface, &run.trajectory, &oscillation).unwrap();
             ripple.amplitude / oscillation.amplitude_x0
         };

@@ -13,8 +13,8 @@ use stickslip_documents::{
     BoundaryDocument, BoundaryParameters, BranchDocument, FORMAT_VERSION, OnsetColumns, Software,
     SpacingName,
 };
+use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{Boundary, Critical, StabilityError};
 
 const MOST_POINTS: usize = 100_000;
 

@@ -16,12 +16,10 @@ use crate::interrupt::Interrupt;
 use crate::plot;
 use std::ops::ControlFlow;
 use std::path::Path;
+use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
 use stickslip_documents::{ContinueDocument, CycleBranch, OverName, SpecialDocument, SpecialName};
+use stickslip_stability::trapping_alpha;
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::{
-    Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind,
-};
-use stickslip_tip::stability::trapping_alpha;
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
 const MOST_BRANCHES: usize = 12;

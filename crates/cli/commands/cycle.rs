@@ -12,9 +12,9 @@ use crate::plot;
 use start::Start;
 use std::path::Path;
 use std::time::Instant;
+use stickslip_cycles::Cycle;
 use stickslip_documents::{CycleDocument, CycleParameters, CycleProfile, ModelParameters};
 use stickslip_tip::Step;
-use stickslip_tip::cycle::Cycle;
 
 /// More do not fit in a picture, nor are they needed in a table.
 const MOST_POINTS: usize = 1_000_000;

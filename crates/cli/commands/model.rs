@@ -3,7 +3,8 @@
 use crate::arguments::{ModelArguments, TipArguments, TipName};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction, stability};
+use stickslip_stability as stability;
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction};
 
 /// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
 /// holds the groove.

@@ -17,7 +17,7 @@ use stickslip_documents::{
     FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
     ResponseSamples, Software,
 };
-use stickslip_tip::stability::{Response, ResponseMode, response as respond};
+use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::{Model, Pulse, Scenario, TipFunction};
 
 /// What the modes left out may add, relative to the leading one, where the sum counts as valid.

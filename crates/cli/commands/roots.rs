@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, Typed};
 use stickslip_documents::ComplexDocument;
-use stickslip_tip::stability::{Certificate, Spectrum, StabilityError};
+use stickslip_stability::{Certificate, Spectrum, StabilityError};
 use stickslip_tip::{Model, TipFunction};
 
 /// Errors above this part of the smallest |λ| are worth a remark.

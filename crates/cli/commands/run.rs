@@ -25,7 +25,8 @@ use record::{Record, Sink};
 use std::path::{Path, PathBuf};
 use stickslip_documents::RunFormat;
 use stickslip_documents::{Order, Unusable};
-use stickslip_tip::{RunError, Running, Scenario};
+use stickslip_outcome::Watched;
+use stickslip_tip::{RunError, Scenario};
 use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -41,7 +42,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = order.parameters.scenario().map_err(said)?;
     let surface = scenario.initial_surface().map_err(explained)?;
-    let running = Running::new(&scenario, &surface).map_err(explained)?;
+    let running = Watched::new(&scenario, &surface).map_err(explained)?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
     let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
@@ -70,7 +71,7 @@ fn resume(path: &Path) -> Result<(), Failure> {
     let order = head.order;
     let scenario = order.parameters.scenario().map_err(|error| named(error.to_string()))?;
     let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
-    let running = Running::resumed(&scenario, &surface, &state);
+    let running = Watched::resumed(&scenario, &surface, &state);
     let running = running.map_err(|error| named(error.to_string()))?;
     let figure = Figure::asked("--plot", order.plot.as_deref())?;
     let (target, record) = if order.format == RunFormat::Jsonl {

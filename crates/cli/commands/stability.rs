@@ -13,8 +13,8 @@ use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
     StabilityParameters, TrappingDocument,
 };
-use stickslip_tip::stability::{
-    Critical, Spectrum, StabilityError, creep_rates, critical, critical_r, leading_roots, onset_at,
+use stickslip_stability::{
+    Critical, Spectrum, StabilityError, creep, critical, critical_r, leading_roots, onset_at,
     roots, trapping_alpha, unstable_count,
 };
 use stickslip_tip::{Model, TipFunction};
@@ -143,6 +143,15 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         .chain(why("onset", onset.err().filter(|_| critical.is_ok())))
         .chain(why("trapping", trapping.err()))
         .collect();
+    let creep = creep(model);
+    said.extend(why("trapping", creep.as_ref().err().copied()));
+    let rates = creep.as_ref().map(|creep| creep.rates()).unwrap_or_default();
+    let attracting = creep.as_ref().ok().and_then(|creep| creep.attracting());
+    if !rates.is_empty() && attracting.is_none() {
+        let message = "trapping: a complex pair of creep_roots lies right of every real rate: no tip stays \
+                       trapped here, every stick ends in a slip";
+        said.push(message.into());
+    }
     said.extend(remarks(&spectrum, asked, "roots"));
     Ok(StabilityDocument {
         format: StabilityDocument::FORMAT.into(),
@@ -159,7 +168,11 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         stable: point.is_stable()?,
         trapping: TrappingDocument {
             alpha: trapping.ok(),
-            creep_rates: creep_rates(model).map(|(repelling, attracting)| [repelling, attracting]),
+            creep_rates: (!rates.is_empty()).then_some(rates),
+            attracting,
+            creep_roots: creep
+                .ok()
+                .map(|creep| creep.roots.iter().map(|p| complex(p.re, p.im)).collect()),
         },
         roots: spectrum.roots.iter().map(|z| complex(z.re, z.im)).collect(),
         certificate: (&spectrum.certificate).into(),

@@ -10,9 +10,9 @@ use crate::files::apart::apart;
 use crate::files::output::{Output, OutputFormat};
 use solve::Given;
 use stickslip_documents::{CriticalUnits, FORMAT_VERSION, LagDocument, Software, UnitsDocument};
+use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{StabilityError, critical, critical_r, unstable_count};
-use stickslip_tip::units::Physical;
+use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;

@@ -14,10 +14,10 @@ use std::ops::ControlFlow;
 use stickslip_documents::{
     LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
 };
-use stickslip_surface::{
+use stickslip_tip::{Scenario, Trajectory};
+use stickslip_verify::{
     Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
 };
-use stickslip_tip::{Scenario, Trajectory};
 
 /// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
 const ROUNDINGS: f64 = 16.0;
@@ -115,7 +115,7 @@ pub(super) fn of_history(
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
     let found =
-        repeated(|observe| stickslip_surface::verify(scenario, memory, trajectory, observe))?;
+        repeated(|observe| stickslip_verify::verify(scenario, memory, trajectory, observe))?;
     Ok((&found).into())
 }
 

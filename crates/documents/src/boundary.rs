@@ -3,8 +3,8 @@
 use crate::{CriticalityName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_stability::{Branch, Critical, onset_at};
 use stickslip_tip::TipFunction;
-use stickslip_tip::stability::{Branch, Critical, onset_at};
 
 /// The stability boundary. `Omega`, `r`, `alpha` and the columns of `onset` have equal lengths.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

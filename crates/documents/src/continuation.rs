@@ -3,7 +3,7 @@
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::cycle::{Branch, End, Parameter, Point, Special, SpecialKind};
+use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
 
 /// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
 /// peak-to-peak.

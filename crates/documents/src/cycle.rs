@@ -3,8 +3,8 @@
 use crate::{ComplexDocument, FORMAT_VERSION, History, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_cycles::Cycle;
 use stickslip_tip::Step;
-use stickslip_tip::cycle::Cycle;
 
 /// Intervals of the profile in a step of the mesh, at least: the largest velocity is then seen to 0.3 %, with one
 /// to 1.4 % (α from 1.2 to 2, the loosest tolerance).

@@ -6,8 +6,10 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_outcome::Regime;
 use stickslip_surface::Ripple;
-use stickslip_tip::{Model, Oscillation, Regime, Trajectory};
+use stickslip_tip::motion::Oscillation;
+use stickslip_tip::{Model, Trajectory};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -228,7 +230,7 @@ mod tests {
         let done = run(&scenario).unwrap();
         let end = RunEnd {
             end: 40.0,
-            regime: done.outcome.regime.into(),
+            regime: RegimeName::Transient,
             oscillation: None,
             interrupted: false,
             work: WorkDocument {

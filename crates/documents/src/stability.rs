@@ -3,7 +3,7 @@
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::stability::{Certificate, Critical, Criticality, Onset};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -98,8 +98,14 @@ pub struct CriticalDocument {
 pub struct TrappingDocument {
     /// The smallest α at which there is such a motion at this r; null if there is none at any α.
     pub alpha: Option<f64>,
-    /// The two p at the α and r of `parameters`, in 1/σ, the repelling one first; null below the threshold.
-    pub creep_rates: Option<[f64; 2]>,
+    /// All such p at the α and r of `parameters`, in 1/σ, ascending; null where there is none.
+    pub creep_rates: Option<Vec<f64>>,
+    /// The one of them that a trapped tip comes to; null where there is none, or where a complex root lies
+    /// right of them all: there every stick ends in a slip.
+    pub attracting: Option<f64>,
+    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null where they
+    /// could not be had, see `remarks`.
+    pub creep_roots: Option<Vec<ComplexDocument>>,
 }
 
 /// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, outside of which no root has a real part

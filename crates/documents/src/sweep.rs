@@ -3,8 +3,8 @@
 use crate::{RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::Outcome;
-use stickslip_tip::cycle::{Cycle, Motion};
+use stickslip_cycles::{Cycle, Motion};
+use stickslip_outcome::Outcome;
 
 /// What the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

@@ -3,7 +3,7 @@
 use crate::{Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::units::{Physical, Scales};
+use stickslip_units::{Physical, Scales};
 
 /// Measured quantities and the numbers of the model.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

@@ -3,7 +3,7 @@
 use crate::{FORMAT_VERSION, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_surface::{Difference, Verification};
+use stickslip_verify::{Difference, Verification};
 
 /// The verification of a saved run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

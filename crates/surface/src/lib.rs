@@ -25,14 +25,9 @@
 mod carved;
 mod image;
 mod ripple;
-mod verification;
 
 pub use carved::{Method, carved, carved_by};
 pub use ripple::{Ripple, ripple_behind};
-pub use verification::{
-    ComparedSamples, Difference, Growth, Sample, TOLERANCES_ALLOWED, Verification,
-    VerificationError, verify, verify_samples,
-};
 
 use ndarray::Array1;
 use rayon::prelude::*;

@@ -2,7 +2,8 @@
 
 use crate::Surface;
 use ndarray::Array1;
-use stickslip_tip::{Oscillation, Trajectory};
+use stickslip_tip::Trajectory;
+use stickslip_tip::motion::Oscillation;
 
 /// One wavelength of the surface left behind.
 #[derive(Debug, Clone, Copy, PartialEq)]

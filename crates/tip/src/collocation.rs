@@ -13,19 +13,19 @@ pub const STAGES: usize = 6;
 pub type Stages = [f64; STAGES];
 
 /// The s-stage Radau IIA method on the unit step.
-pub(crate) struct Collocation {
+pub struct Collocation {
     /// Nodes 0 < `c_1` < … < `c_s` = 1.
-    pub(crate) c: Stages,
+    pub c: Stages,
     /// `a_ij` = `∫_0^{c_i}` `ℓ_j(τ)dτ` with the Lagrange polynomials `ℓ_j` of the nodes.
-    pub(crate) a: [Stages; STAGES],
+    pub a: [Stages; STAGES],
     /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes:
     /// the inverse of `a`.
-    pub(crate) derivative: [Stages; STAGES],
+    pub derivative: [Stages; STAGES],
     /// Derivative of that polynomial at τ = 0.
-    pub(crate) derivative_at_start: Stages,
+    pub derivative_at_start: Stages,
     /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): what a defect at the start of a step, times
     /// its length, amounts to within the step.
-    pub(crate) defect_to_error: f64,
+    pub defect_to_error: f64,
     /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation, per divided difference.
     largest_node_product: f64,
     /// `1/Π_{k≠j}(c_j - c_k)`: the Lagrange polynomials less their products of differences.
@@ -36,7 +36,7 @@ pub(crate) struct Collocation {
 }
 
 /// The method, built once.
-pub(crate) static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::radau);
+pub static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::radau);
 
 impl Collocation {
     fn radau() -> Self {
@@ -90,18 +90,18 @@ impl Collocation {
     }
 
     /// Quadrature weights over the whole step, `b_j` = `a_sj`.
-    pub(crate) fn b(&self) -> &Stages {
+    pub fn b(&self) -> &Stages {
         &self.a[STAGES - 1]
     }
 
     /// Value at τ of the polynomial that is 0 at τ = 0 and `values` at the nodes.
-    pub(crate) fn value(&self, values: &Stages, tau: f64) -> f64 {
+    pub fn value(&self, values: &Stages, tau: f64) -> f64 {
         let basis = lagrange(&self.c, &self.scales, tau);
         tau * (0..STAGES).map(|i| values[i] / self.c[i] * basis[i]).sum::<f64>()
     }
 
     /// Its values at τ = 1 + ρ `c_i`, less that at τ = 1: its continuation beyond the unit step.
-    pub(crate) fn continued(&self, values: &Stages, ratio: f64) -> Stages {
+    pub fn continued(&self, values: &Stages, ratio: f64) -> Stages {
         let power = apply(&self.about_the_end, values);
         self.c.map(|c| {
             let y = ratio * c;
@@ -111,18 +111,18 @@ impl Collocation {
 
     /// The largest error on the unit step of the polynomial as an interpolant, from its miss of a value
     /// known at another τ: both are the same divided difference times a product of node distances.
-    pub(crate) fn interpolation_error(&self, values: &Stages, tau: f64, known: f64) -> f64 {
+    pub fn interpolation_error(&self, values: &Stages, tau: f64, known: f64) -> f64 {
         let product: f64 = tau * self.c.iter().map(|c| tau - c).product::<f64>();
         (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
     }
 
     /// Its derivative at τ.
-    pub(crate) fn slope(&self, values: &Stages, tau: f64) -> f64 {
+    pub fn slope(&self, values: &Stages, tau: f64) -> f64 {
         self.between(&apply(&self.derivative, values), tau)
     }
 
     /// Value at τ of the polynomial of degree s - 1 through values at the nodes.
-    pub(crate) fn between(&self, values: &Stages, tau: f64) -> f64 {
+    pub fn between(&self, values: &Stages, tau: f64) -> f64 {
         lagrange(&self.c, &self.scales, tau).iter().zip(values).map(|(l, v)| l * v).sum()
     }
 }
@@ -134,7 +134,7 @@ pub fn nodes_and_weights() -> (Stages, Stages) {
 }
 
 /// Matrix times vector.
-pub(crate) fn apply(matrix: &[Stages; STAGES], v: &Stages) -> Stages {
+pub fn apply(matrix: &[Stages; STAGES], v: &Stages) -> Stages {
     std::array::from_fn(|i| (0..STAGES).map(|j| matrix[i][j] * v[j]).sum())
 }
 

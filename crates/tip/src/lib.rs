@@ -13,22 +13,19 @@
 //! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
 //! `docs/mathematics.md` derives them again.
 
-pub mod cycle;
+pub mod collocation;
 pub mod memory;
-pub mod stability;
+pub mod motion;
+pub mod roots;
 pub mod state;
 pub mod tip_function;
-pub mod units;
 
-mod collocation;
 mod footprint;
 mod force;
 mod history;
 mod initial_surface;
 mod integrator;
 mod model;
-mod outcome;
-mod roots;
 mod run;
 mod series;
 mod spline;
@@ -40,15 +37,9 @@ pub use history::{STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use model::{Model, ModelError};
-pub use outcome::{Classifier, Oscillation, Outcome, Regime, classify};
 pub use run::{
     MOST_STEPS, MemoryChoice, Run, RunError, Running, Scenario, Start, TOLERANCES, run,
     run_observed,
 };
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};
-
-/// The README's example is compiled and run.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;

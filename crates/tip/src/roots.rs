@@ -7,7 +7,7 @@ const MOST_ITERATIONS: usize = 60;
 ///
 /// Ridders' method: the false position of `f e^{kx}`, k such that the midpoint falls on a line too.
 /// Reference: C. Ridders, IEEE Trans. Circuits Syst. 26, 979 (1979).
-pub(crate) fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+pub fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     let mut last = a;
     for _ in 0..MOST_ITERATIONS {

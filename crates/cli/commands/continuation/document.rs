@@ -6,7 +6,7 @@ use stickslip_documents::{
     ContinueDocument, ContinueParameters, CycleBranch, FORMAT_VERSION, ModelParameters, OverName,
     Software, SpecialDocument, TipDocument,
 };
-use stickslip_tip::stability::trapping_alpha;
+use stickslip_stability::trapping_alpha;
 
 pub(super) fn of(
     arguments: &ContinueArguments,

@@ -4,8 +4,8 @@ use crate::arguments::{CycleStart, ModelArguments};
 use crate::commands::model::{model, tip};
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
+use stickslip_cycles::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
 use stickslip_documents::{CycleDocument, Unusable};
-use stickslip_tip::cycle::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
 use stickslip_tip::{Model, Trajectory};
 
 /// Parameters, and the motion to start from if there is one.

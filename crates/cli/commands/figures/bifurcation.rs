@@ -4,9 +4,10 @@ use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
 use crate::failure::Failure;
 use std::ops::ControlFlow;
+use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
-use stickslip_tip::cycle::{Branch, Continuation, Cycle, SpecialKind};
-use stickslip_tip::{Regime, Scenario, Trajectory};
+use stickslip_outcome::{Regime, classify};
+use stickslip_tip::{Scenario, Trajectory};
 
 /// Up to which transients die out, and how long is looked at then.
 const SETTLED: f64 = 1500.0;
@@ -108,12 +109,13 @@ impl Runs {
             let scenario =
                 Scenario { kick: 0.2, tolerance: 1e-7, ..Scenario::new(model, SETTLED + SHOWN) };
             let run = finished(&scenario)?;
-            if let Some(oscillation) = run.outcome.oscillation {
+            let outcome = classify(&run.trajectory, &scenario.model, scenario.tolerance);
+            if let Some(oscillation) = outcome.oscillation {
                 runs.alpha.push(alpha);
                 runs.amplitude.push(oscillation.amplitude_x0);
             }
             // Where steady motion is stable, maxima of round-off are none.
-            if run.outcome.regime != Regime::Steady {
+            if outcome.regime != Regime::Steady {
                 let maxima = maxima_of(&run.trajectory, SETTLED);
                 runs.alpha_of_maxima.extend(vec![alpha; maxima.len()]);
                 runs.maxima.extend(maxima);

@@ -4,7 +4,7 @@ use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failure::Failure;
 use stickslip_documents::{FigureDocument, StyleName};
-use stickslip_tip::stability::{Boundary, onset_at};
+use stickslip_stability::{Boundary, onset_at};
 
 /// log₁₀ of the r shown.
 const RANGE: (f64, f64) = (-1.5, 1.0);

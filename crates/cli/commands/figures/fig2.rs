@@ -5,7 +5,7 @@ use super::parts::{curve, failed, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failure::Failure;
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
-use stickslip_tip::stability::onset;
+use stickslip_stability::onset;
 
 /// α - αc of the cycles, and of steady motion below.
 pub(super) fn distances() -> Vec<f64> {

@@ -4,7 +4,7 @@ use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failure::Failure;
 use stickslip_documents::{FigureDocument, StyleName};
-use stickslip_tip::stability::Boundary;
+use stickslip_stability::Boundary;
 
 /// Gnecco et al.: k = 1.406 N/(σ v0) is α = r/1.406.
 const GNECCO: f64 = 1.0 / 1.406;

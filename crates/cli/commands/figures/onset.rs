@@ -3,8 +3,8 @@
 use super::parts::{failed, line_of_best_fit};
 use super::tips::Tip;
 use crate::failure::Failure;
+use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_tip::Model;
-use stickslip_tip::cycle::{Cycle, DEFAULT_TOLERANCE, cycle};
 
 /// The lines of best fit go through this many points.
 pub(super) const FITTED: usize = 4;

@@ -3,7 +3,7 @@
 use super::parts::failed;
 use crate::failure::Failure;
 use std::f64::consts::FRAC_1_SQRT_2;
-use stickslip_tip::stability::{Critical, critical, critical_r};
+use stickslip_stability::{Critical, critical, critical_r};
 use stickslip_tip::{Model, TipFunction};
 
 /// Said of every figure that has a panel for β = 0.

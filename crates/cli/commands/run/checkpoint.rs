@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use stickslip_documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
-use stickslip_tip::Running;
+use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
 
 /// A run has so many checkpoints by default.
@@ -54,7 +54,7 @@ impl Checkpoints {
 
     pub(super) fn write(
         &mut self,
-        running: &Running,
+        running: &Watched,
         record: &mut Record,
         seconds: f64,
     ) -> Result<(), Failure> {

@@ -6,11 +6,12 @@ use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
-use stickslip_tip::{Running, Scenario, Step};
+use stickslip_outcome::Watched;
+use stickslip_tip::{Scenario, Step};
 
 /// A run under way, with all that accompanies it.
 pub(super) struct Journey<'a> {
-    pub(super) running: Running<'a>,
+    pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) checkpoints: Option<Checkpoints>,
     /// Spent before.
@@ -19,7 +20,7 @@ pub(super) struct Journey<'a> {
 
 /// A run that has come to an end.
 pub(super) struct Travelled<'a> {
-    pub(super) running: Running<'a>,
+    pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) seconds: f64,
     /// That stopped it before its end.

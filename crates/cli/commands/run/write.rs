@@ -11,8 +11,8 @@ use crate::files::output::Output;
 use crate::plot;
 use std::path::Path;
 use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
+use stickslip_stability::unstable_count;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::stability::unstable_count;
 use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
 
 /// What the run is written to.

@@ -3,9 +3,9 @@
 use crate::arguments::{Range, SweepArguments, TipArguments};
 use crate::commands::model::tip;
 use crate::failure::{Failure, Typed};
+use stickslip_cycles::TOLERANCES;
 use stickslip_documents::{ShardDocument, SweepParameters};
 use stickslip_tip::TipFunction;
-use stickslip_tip::cycle::TOLERANCES;
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;

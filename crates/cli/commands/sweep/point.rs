@@ -1,10 +1,10 @@
 //! What the tip settles into at one point. Depends on the point alone: a sweep may be done in any order.
 
 use super::grid::{Alpha, Place};
+use stickslip_cycles::motion;
 use stickslip_documents::SweepPoint;
+use stickslip_stability::critical;
 use stickslip_tip::Model;
-use stickslip_tip::cycle::motion;
-use stickslip_tip::stability::critical;
 
 pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
     let critical = critical(place.tip, place.r);

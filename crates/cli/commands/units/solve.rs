@@ -3,8 +3,9 @@
 use crate::arguments::{ModelArguments, UnitsArguments};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::UnitsParameters;
-use stickslip_tip::units::{Physical, Unit};
-use stickslip_tip::{TipFunction, stability};
+use stickslip_stability as stability;
+use stickslip_tip::TipFunction;
+use stickslip_units::{Physical, Unit};
 
 /// Option, symbol, unit, and the powers with which it enters r (12) and α (13).
 struct Quantity {

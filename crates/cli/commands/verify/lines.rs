@@ -11,8 +11,8 @@ use std::path::Path;
 use stickslip_documents::{
     EndingName, LinesDocument, RunHead, VerificationDocument, VerifyDocument,
 };
-use stickslip_surface::{ComparedSamples, Sample, verify_samples};
 use stickslip_tip::{MemoryChoice, Running, Scenario};
+use stickslip_verify::{ComparedSamples, Sample, verify_samples};
 
 /// Line of the first sample.
 const FIRST: u64 = 2;

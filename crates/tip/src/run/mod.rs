@@ -1,4 +1,4 @@
-//! A run: a tip set going from a given start, integrated to a given time, and what became of it.
+//! A run: a tip set going from a given start, integrated to a given time.
 
 mod running;
 mod scenario;
@@ -7,7 +7,6 @@ pub use running::Running;
 pub use scenario::{MOST_STEPS, MemoryChoice, RunError, Scenario, Start, TOLERANCES};
 
 use crate::integrator::Work;
-use crate::outcome::Outcome;
 use crate::{InitialSurface, Step, Trajectory};
 use std::ops::ControlFlow;
 
@@ -18,8 +17,6 @@ pub struct Run {
     pub initial_surface: InitialSurface,
     /// x0(t) at every t of the run.
     pub trajectory: Trajectory,
-    /// Its regime and oscillation.
-    pub outcome: Outcome,
     /// Counts.
     pub work: Work,
     /// Name of the memory in use at the end.
@@ -59,10 +56,10 @@ pub fn run_observed(
         steps.push(step);
         interrupted = observe(&step).is_break();
     }
-    let (outcome, work, memory) = (running.outcome(), running.work(), running.memory());
+    let (work, memory) = (running.work(), running.memory());
     let memory_reason = running.memory_reason();
     drop(running);
     let trajectory = Trajectory::new(scenario.model.r(), steps);
     let initial_surface = surface;
-    Ok(Run { initial_surface, trajectory, outcome, work, memory, memory_reason, interrupted })
+    Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted })
 }

@@ -2,16 +2,13 @@
 
 use super::{RunError, Scenario};
 use crate::integrator::{Integrator, Work};
-use crate::outcome::{Classifier, Outcome};
-use crate::state::{Damaged, State};
-use crate::{InitialSurface, Step, Trajectory};
+use crate::state::{Damaged, Reader, State};
+use crate::{InitialSurface, Step};
 
-/// A tip on its way through a scenario. It keeps no history but the steps at the end that its
-/// [`Outcome`] is read from.
+/// A tip on its way through a scenario. It keeps no history but what the memory needs.
 pub struct Running<'a> {
     scenario: &'a Scenario,
     integrator: Integrator<'a>,
-    classifier: Classifier,
 }
 
 impl<'a> Running<'a> {
@@ -30,8 +27,7 @@ impl<'a> Running<'a> {
             start,
             scenario.tolerance,
         );
-        let classifier = Classifier::new(&scenario.model, scenario.tolerance);
-        Ok(Self { scenario, integrator, classifier })
+        Ok(Self { scenario, integrator })
     }
 
     /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as
@@ -42,27 +38,20 @@ impl<'a> Running<'a> {
     pub fn resumed(
         scenario: &'a Scenario,
         surface: &'a InitialSurface,
-        state: &State,
+        state: &mut Reader,
     ) -> Result<Self, RunError> {
         let mut running = Self::new(scenario, surface)?;
-        let mut state = state.reader();
-        running.integrator.restore(&mut state)?;
-        running.classifier.restore(&mut state)?;
+        running.integrator.restore(state)?;
         let t = running.integrator.t();
         if !(scenario.start_time()..=scenario.until).contains(&t) {
             return Err(Damaged::OutOfRange.into());
         }
-        state.finish()?;
         Ok(running)
     }
 
     /// All that the rest of the run depends on, beside the scenario.
-    #[must_use]
-    pub fn save(&self) -> State {
-        let mut state = State::default();
-        self.integrator.save(&mut state);
-        self.classifier.save(&mut state);
-        state
+    pub fn save(&self, state: &mut State) {
+        self.integrator.save(state);
     }
 
     /// Makes the next step; `None` once the end of the scenario is reached.
@@ -73,34 +62,13 @@ impl<'a> Running<'a> {
         if self.integrator.t() >= self.scenario.until {
             return Ok(None);
         }
-        let step = self.integrator.step(self.scenario.until)?;
-        self.classifier.observe(&step);
-        Ok(Some(step))
-    }
-
-    /// The last step made.
-    #[must_use]
-    pub fn last(&self) -> Option<Step> {
-        self.classifier.last()
+        Ok(Some(self.integrator.step(self.scenario.until)?))
     }
 
     /// Time reached.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.integrator.t()
-    }
-
-    /// Regime and oscillation, were the run to end here.
-    #[must_use]
-    pub fn outcome(&self) -> Outcome {
-        self.classifier.outcome(&self.scenario.model)
-    }
-
-    /// The steps at the end that the outcome, and the ripple that belongs to it, are read from; `None`
-    /// before the first step.
-    #[must_use]
-    pub fn tail(&self) -> Option<Trajectory> {
-        self.classifier.tail()
     }
 
     /// Counts so far.

@@ -5,7 +5,7 @@ use super::super::tips::{Tip, beta_0, beta_1};
 use super::printed::Printed;
 use crate::failure::Failure;
 use stickslip_documents::NumberDocument;
-use stickslip_tip::stability::{critical, unstable_count};
+use stickslip_stability::{critical, unstable_count};
 use stickslip_tip::{InitialSurface, Model, TipFunction};
 
 const OTHER_TIP: &str = "the printed number is that of exp(-x²)";

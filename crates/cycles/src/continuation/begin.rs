@@ -1,0 +1,69 @@
+//! Where branches begin: at onset, or at a cycle.
+
+use super::place::{Place, solved_again};
+use super::{Continuation, Special, SpecialKind};
+use crate::linearisation::Direction;
+use crate::orbit::{Orbit, even_mesh};
+use crate::search::embedding;
+use crate::solve::{Closed, Condition, close};
+use crate::start::{mode, steps_of_mode};
+use crate::{Cycle, CycleError, Parameter};
+use stickslip_stability::{critical, critical_r};
+use stickslip_tip::{Model, TipFunction};
+
+/// Amplitude of the first cycle, in widths.
+const FIRST_AMPLITUDE: f64 = 0.02;
+
+/// The Hopf point at the value of the other parameter, and the first cycle of its branch.
+pub(super) fn at_onset(
+    settings: &Continuation,
+    tip: &TipFunction,
+    other: f64,
+) -> Result<(Special, Place), CycleError> {
+    let born = match settings.over {
+        Parameter::Alpha => critical(tip, other)?,
+        Parameter::R => critical_r(tip, other)?,
+    };
+    let (alpha, r) = (born.alpha, born.r);
+    let hopf = Special { kind: SpecialKind::Hopf, alpha, r, period: born.period, cycle: None };
+    let lost = CycleError::NotConverged { alpha, r };
+    let model = Model::new(tip.clone(), alpha, r).map_err(|_| lost.clone())?;
+    let closed = small(settings, &model, born.period, FIRST_AMPLITUDE * 8.7 / tip.band())?;
+    let place = Place::new(closed, settings.over, &Direction::L).ok_or(lost)?;
+    Ok((hopf, place))
+}
+
+/// The cycle of a given small amplitude, near these parameters and this period.
+pub(super) fn small(
+    settings: &Continuation,
+    model: &Model,
+    period: f64,
+    amplitude: f64,
+) -> Result<Closed, CycleError> {
+    let equation = embedding(model, settings.tolerance)?;
+    let mesh = even_mesh(steps_of_mode(&equation, period, amplitude));
+    let l = mode(model.steady_l(), amplitude, period);
+    let guess = Orbit::of_profile(model.r(), period, mesh, l);
+    let condition = Condition { free: settings.over, fixed: Direction::L };
+    let (alpha, r) = (model.alpha(), model.r());
+    close(equation, guess, condition, settings.tolerance)
+        .map_err(|_| CycleError::NotConverged { alpha, r })
+}
+
+/// Of a cycle whose halves are nearly the same, the one of half the period.
+pub(super) fn halved(settings: &Continuation, cycle: &Cycle) -> Option<Place> {
+    let guess = cycle.closed.orbit.halved(cycle.model().r());
+    let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
+    let equation = cycle.closed.equation.clone();
+    let closed = close(equation, guess, condition, settings.tolerance).ok()?;
+    Place::new(closed, settings.over, &Direction::PARAMETER)
+}
+
+/// At a cycle, so that the parameter goes towards its last value.
+pub(super) fn at_cycle(settings: &Continuation, cycle: &Cycle) -> Result<Place, CycleError> {
+    let closed = solved_again(cycle, settings)?;
+    let (alpha, r) = (closed.equation.alpha, closed.equation.r);
+    let ahead = settings.to - closed.equation.parameter(settings.over);
+    let along = Direction::PARAMETER.times(ahead.signum());
+    Place::new(closed, settings.over, &along).ok_or(CycleError::NotConverged { alpha, r })
+}

@@ -1,0 +1,89 @@
+//! Why a cycle could not be had.
+
+use stickslip_outcome::{Outcome, Regime};
+use stickslip_stability::StabilityError;
+use stickslip_tip::RunError;
+use stickslip_tip::memory::FitError;
+use thiserror::Error;
+
+/// Why there is no cycle to give.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CycleError {
+    /// A residual that cannot be reached, or is none.
+    #[error(
+        "the tolerance must lie between {min:e}, below which round-off takes over, and {max:e}; {0:e} does not",
+        min = super::TOLERANCES.0, max = super::TOLERANCES.1
+    )]
+    Tolerance(f64),
+    /// A footprint whose past is no state of few numbers.
+    #[error("cycles need a footprint that fades; this one does not (J0 falls like 1/√x)")]
+    NeverFades,
+    /// f' cannot be fitted.
+    #[error(transparent)]
+    Fit(FitError),
+    /// Steady motion is stable, and the small cycle exists only on the other side of αc.
+    #[error(
+        "there is no small cycle at alpha = {alpha:?}: the one that is born at alpha = {critical:?} (r = {r:?}) exists only above that, and below it steady motion is stable"
+    )]
+    NoSmallCycle {
+        /// As asked.
+        alpha: f64,
+        /// As asked.
+        r: f64,
+        /// αc(r).
+        critical: f64,
+    },
+    /// Runs did not come near a cycle.
+    #[error(
+        "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
+        how(ended.as_ref())
+    )]
+    NoCycleReached {
+        /// As asked.
+        alpha: f64,
+        /// As asked.
+        r: f64,
+        /// What the longest run ended as.
+        ended: Option<Outcome>,
+    },
+    /// Newton's method did not converge from the cycle given.
+    #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
+    NotConverged {
+        /// As asked.
+        alpha: f64,
+        /// As asked.
+        r: f64,
+    },
+    /// The tip steps back farther than the past can be told by exponentials.
+    #[error("the tip steps back by {retreat:.3}, more than the {most:.3} that cycles allow for")]
+    Retreat {
+        /// Farthest step back, in σ.
+        retreat: f64,
+        /// Farthest that holds.
+        most: f64,
+    },
+    /// No critical point.
+    #[error(transparent)]
+    Stability(#[from] StabilityError),
+    /// A run failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl From<FitError> for CycleError {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::NeverFades => Self::NeverFades,
+            error => Self::Fit(error),
+        }
+    }
+}
+
+fn how(ended: Option<&Outcome>) -> &'static str {
+    match ended.map(|outcome| outcome.regime) {
+        Some(Regime::Steady) => "in steady motion",
+        Some(Regime::StickSlip) => "in stick-slip that no cycle near it closes",
+        Some(Regime::Trapped) => "trapped: the groove holds the tip for ever",
+        Some(Regime::Transient) | None => "without having settled",
+    }
+}

@@ -1,0 +1,209 @@
+//! Limit cycles: periodic solutions of (18), their stability, and how they depend on α and r.
+//!
+//! A cycle is a motion x0(t + T) = x0(t) + rT. On the side of the past f' is a sum of few exponentials
+//! ([`stickslip_tip::memory::Fit`]), so that the tip with its past is a state of some twenty numbers, and a cycle the
+//! periodic solution of an ordinary differential equation. It is found by Radau collocation on a mesh that
+//! follows the motion, with Newton's method for all displacements, the period and, along a branch, a
+//! parameter; eliminated step by step, the equations leave a matrix of the size of the state, whose
+//! eigenvalues are the Floquet multipliers. `docs/cycles.md` derives it and says what was found with it.
+//!
+//! ```
+//! use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
+//! use stickslip_tip::{Model, TipFunction};
+//!
+//! let model = Model::new(TipFunction::triple_gaussian(1.0, 1.0)?, 1.2, 1.0)?;
+//! let found = cycle(&model, DEFAULT_TOLERANCE)?;
+//! assert!(found.is_stable());
+//! assert!((found.multipliers()[0].re - 1.0).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod continuation;
+mod embedding;
+mod error;
+mod linearisation;
+mod mesh;
+mod orbit;
+mod past;
+mod ripple;
+mod scaling;
+mod search;
+mod sensitivity;
+mod solve;
+mod start;
+mod step;
+
+pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
+pub use embedding::Parameter;
+pub use error::CycleError;
+pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
+pub use search::{Motion, cycle, cycle_near, motion};
+
+use num_complex::Complex;
+use ripple::Ripple;
+use solve::Closed;
+use stickslip_tip::motion::latest_extrema;
+use stickslip_tip::{Model, Trajectory};
+
+/// Residuals of (18) that can be asked for.
+pub const TOLERANCES: (f64, f64) = (1e-11, 1e-4);
+/// What commands ask for.
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+
+/// A multiplier this close to the unit circle is on it, as far as one can tell.
+const ON_THE_CIRCLE: f64 = 1e-7;
+/// Multipliers below this modulus are those of the exponentials rather than of f.
+const LEAST_MULTIPLIER: f64 = 1e-6;
+
+/// A periodic solution of (18). Lengths in σ, times in Γ/k.
+#[derive(Clone)]
+pub struct Cycle {
+    model: Model,
+    closed: Closed,
+    motion: Trajectory,
+    multipliers: Vec<Complex<f64>>,
+    extremes: (f64, f64),
+    slips: usize,
+}
+
+impl Cycle {
+    fn new(closed: Closed) -> Result<Self, CycleError> {
+        let (retreat, most) = (closed.orbit.retreat(), closed.equation.retreat());
+        if retreat > most {
+            return Err(CycleError::Retreat { retreat, most });
+        }
+        let (alpha, r) = (closed.equation.alpha, closed.equation.r);
+        let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
+        let multipliers = linearisation::multipliers(&closed.linearisation.monodromy());
+        let motion = closed.orbit.trajectory(r);
+        let extrema = latest_extrema(&motion);
+        let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);
+        let extremes = (lowest, motion.l(0.0));
+        // Around a period there are as many maxima as minima; the first maximum is at the seam.
+        let slips = extrema.iter().filter(|e| !e.is_maximum).count();
+        Ok(Self { model, closed, motion, multipliers, extremes, slips })
+    }
+
+    /// Footprint, α and r.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// T
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.closed.orbit.period
+    }
+
+    /// rT, the wavelength of the surface left behind.
+    #[must_use]
+    pub fn wavelength(&self) -> f64 {
+        self.model.r() * self.period()
+    }
+
+    /// Half peak-to-peak of l, that is of x0 less its steady advance.
+    #[must_use]
+    pub fn amplitude_x0(&self) -> f64 {
+        0.5 * (self.extremes.1 - self.extremes.0)
+    }
+
+    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a.
+    #[must_use]
+    pub fn amplitude_u(&self) -> f64 {
+        self.ripple().amplitude()
+    }
+
+    /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion).
+    #[must_use]
+    pub fn surface_behind(&self, x: &[f64]) -> Vec<f64> {
+        let ripple = self.ripple();
+        x.iter().map(|x| ripple.height(*x)).collect()
+    }
+
+    fn ripple(&self) -> Ripple {
+        Ripple::new(self.model.tip(), self.model.alpha(), &self.motion)
+    }
+
+    /// Smallest and largest l.
+    #[must_use]
+    pub fn extremes(&self) -> (f64, f64) {
+        self.extremes
+    }
+
+    /// Maxima of l in one period.
+    #[must_use]
+    pub fn slips(&self) -> usize {
+        self.slips
+    }
+
+    /// x0(t) over one period from t = 0, where l is at its maximum.
+    #[must_use]
+    pub fn motion(&self) -> &Trajectory {
+        &self.motion
+    }
+
+    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow
+    /// in a period. One of them is 1, that of a shift in time.
+    #[must_use]
+    pub fn multipliers(&self) -> &[Complex<f64>] {
+        let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
+        &self.multipliers[..count]
+    }
+
+    /// The multipliers without that of a shift in time.
+    pub fn nontrivial_multipliers(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
+        let distance = |m: &Complex<f64>| (m - 1.0).norm();
+        let nearest = (0..self.multipliers.len()).min_by(|a, b| {
+            distance(&self.multipliers[*a]).total_cmp(&distance(&self.multipliers[*b]))
+        });
+        let others = self.multipliers().iter().enumerate();
+        others.filter(move |(i, _)| Some(*i) != nearest).map(|(_, m)| *m)
+    }
+
+    /// Whether every small deviation but a shift in time dies out.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.nontrivial_multipliers().all(|m| m.norm() < 1.0 + ON_THE_CIRCLE)
+    }
+
+    /// Estimate of the largest residual of (18) at any time.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.closed.residual
+    }
+
+    /// Steps of the mesh.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.closed.orbit.stages.len()
+    }
+
+    /// Linearisations that it took.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.closed.iterations
+    }
+}
+
+impl std::fmt::Debug for Cycle {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut fields = out.debug_struct("Cycle");
+        fields.field("alpha", &self.model.alpha()).field("r", &self.model.r());
+        fields.field("period", &self.period()).field("amplitude_x0", &self.amplitude_x0());
+        fields.field("multipliers", &self.multipliers()).finish_non_exhaustive()
+    }
+}
+
+/// A cycle whose l swings by less than this is none.
+const LEAST_AMPLITUDE: f64 = 1e-9;
+
+impl Closed {
+    /// Whether Newton's method has fallen to steady motion, of which every period is one.
+    fn is_steady(&self) -> bool {
+        let r = self.equation.r;
+        let motion = self.orbit.trajectory(r);
+        let swing = |t: f64| (motion.l(t) - motion.l(0.0)).abs();
+        motion.steps().iter().map(|step| swing(step.t)).fold(0.0, f64::max) < LEAST_AMPLITUDE
+    }
+}

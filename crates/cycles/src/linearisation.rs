@@ -1,0 +1,216 @@
+//! The collocation equations of a whole cycle, linearised and reduced to its first state.
+//!
+//! The displacements of every step are eliminated as the orbit is followed, so that what is left are the
+//! changes of the first state X, the period T and the free parameter, with X at the end equal to X at the
+//! start, l at a maximum there, and one equation more: a fixed parameter, or a way along the branch.
+
+use super::embedding::{Embedding, Parameter};
+use super::orbit::Orbit;
+use super::past::Past;
+use super::sensitivity::Sensitivity;
+use super::step::LinearStep;
+use nalgebra::{DMatrix, DVector, Dyn, LU};
+use num_complex::Complex;
+use stickslip_tip::collocation::{STAGES, Stages};
+use stickslip_tip::memory::Fit;
+
+/// A linear functional of what a branch of cycles is followed by: the largest l, the period and the
+/// parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Direction {
+    pub(super) l: f64,
+    pub(super) period: f64,
+    pub(super) parameter: f64,
+}
+
+impl Direction {
+    /// The parameter alone.
+    pub(super) const PARAMETER: Self = Self { l: 0.0, period: 0.0, parameter: 1.0 };
+    /// The largest l alone.
+    pub(super) const L: Self = Self { l: 1.0, period: 0.0, parameter: 0.0 };
+
+    pub(super) fn of(&self, change: &Change) -> f64 {
+        self.l * change.state[0] + self.period * change.period + self.parameter * change.parameter
+    }
+
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let Self { l, period, parameter } = *self;
+        Self { l: factor * l, period: factor * period, parameter: factor * parameter }
+    }
+}
+
+/// A change of all unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Change {
+    /// Of the state X at t = 0.
+    pub(super) state: Vec<f64>,
+    pub(super) period: f64,
+    pub(super) parameter: f64,
+    pub(super) stages: Vec<Stages>,
+}
+
+impl Change {
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        let stages = self.stages.iter_mut().flatten();
+        self.state.iter_mut().chain(stages).for_each(|c| *c *= factor);
+        self.period *= factor;
+        self.parameter *= factor;
+        self
+    }
+
+    /// Largest change of a position.
+    pub(super) fn size(&self) -> f64 {
+        let stages = self.stages.iter().flatten();
+        stages.chain(&self.state[..1]).fold(0.0, |m: f64, d| m.max(d.abs()))
+    }
+}
+
+/// An orbit's equations, linearised.
+pub(super) struct Linearisation {
+    /// rt - x0 at the end less that at the start.
+    gap: f64,
+    end: Sensitivity,
+    stages: Vec<Sensitivity>,
+    phase: Phase,
+    /// Of the groove, by step.
+    pub(super) stiffness: Vec<f64>,
+}
+
+/// r less the velocity at the start, and its derivatives.
+struct Phase {
+    value: f64,
+    by_state: Vec<f64>,
+    by_parameter: f64,
+}
+
+/// A step's equations are singular: the orbit is far from a solution.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Singular;
+
+impl Linearisation {
+    /// In the short sum, about an orbit that is to solve the equations in the sum `solved`.
+    pub(super) fn new(
+        equation: &Embedding,
+        orbit: &Orbit,
+        free: Parameter,
+        solved: &Fit,
+    ) -> Result<Self, Singular> {
+        let past = Past::of(&equation.short, orbit);
+        let other = (solved != &*equation.short).then(|| Past::of(solved, orbit));
+        let solved = other.as_ref().unwrap_or(&past);
+        let mut end = Sensitivity::identity(1 + 2 * equation.short.terms().len());
+        let (mut stages, mut stiffness) = (vec![], vec![]);
+        let mut extension = orbit.extension;
+        let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
+        for (n, ((ends, h), d)) in steps.enumerate() {
+            let slopes = (past.of_step(n), &solved.of_step(n).slope());
+            let step = LinearStep::new(equation, slopes, (extension, h, d));
+            stages.push(step.carry(free, ends[1] - ends[0], &mut end).ok_or(Singular)?);
+            stiffness.push(step.stiffness());
+            extension += equation.r * h - d[STAGES - 1];
+        }
+        let gap = extension - orbit.extension;
+        let phase = Phase::new(equation, orbit.extension, solved, free);
+        Ok(Self { gap, end, stages, phase, stiffness })
+    }
+
+    /// Length of the state X.
+    fn len(&self) -> usize {
+        self.phase.by_state.len()
+    }
+
+    /// The change that solves the linearised equations, and moves by nothing in this direction.
+    pub(super) fn correction(&self, fixed: &Direction) -> Option<Change> {
+        let n = self.len();
+        let mut wanted = DVector::zeros(n + 2);
+        // ζ closes by itself: it is that of a motion that has gone on for ever.
+        wanted[0] = -self.gap;
+        for i in 0..n {
+            wanted[i] -= self.end.row(i)[n + 2];
+        }
+        wanted[n] = -self.phase.value;
+        let found = self.factorised(fixed).solve(&wanted)?;
+        Some(self.change(&found, 1.0))
+    }
+
+    /// The change along the branch, by 1 in this direction.
+    pub(super) fn tangent(&self, along: &Direction) -> Option<Change> {
+        let n = self.len();
+        let mut wanted = DVector::zeros(n + 2);
+        wanted[n + 1] = 1.0;
+        let found = self.factorised(along).solve(&wanted)?;
+        Some(self.change(&found, 0.0))
+    }
+
+    /// What a change of the first state alone becomes.
+    pub(super) fn carried(&self, state: &[f64]) -> Change {
+        let mut unknowns = DVector::zeros(state.len() + 2);
+        unknowns.rows_mut(0, state.len()).copy_from_slice(state);
+        self.change(&unknowns, 0.0)
+    }
+
+    /// The monodromy matrix ∂X(T)/∂X(0).
+    pub(super) fn monodromy(&self) -> DMatrix<f64> {
+        let n = self.len();
+        DMatrix::from_fn(n, n, |i, k| self.end.row(i)[k])
+    }
+
+    fn factorised(&self, last: &Direction) -> LU<f64, Dyn, Dyn> {
+        let n = self.len();
+        let mut matrix = DMatrix::zeros(n + 2, n + 2);
+        for i in 0..n {
+            let row = self.end.row(i);
+            for k in 0..n + 2 {
+                matrix[(i, k)] = row[k];
+            }
+            matrix[(i, i)] -= 1.0;
+            matrix[(n, i)] = self.phase.by_state[i];
+        }
+        matrix[(n, n + 1)] = self.phase.by_parameter;
+        matrix[(n + 1, 0)] = last.l;
+        matrix[(n + 1, n)] = last.period;
+        matrix[(n + 1, n + 1)] = last.parameter;
+        matrix.lu()
+    }
+
+    fn change(&self, found: &DVector<f64>, corrected: f64) -> Change {
+        let n = self.len();
+        let unknowns: Vec<f64> = found.iter().copied().chain([corrected]).collect();
+        let stages = self.stages.iter();
+        Change {
+            state: unknowns[..n].to_vec(),
+            period: unknowns[n],
+            parameter: unknowns[n + 1],
+            stages: stages.map(|s| std::array::from_fn(|i| s.change(i, &unknowns))).collect(),
+        }
+    }
+}
+
+impl Phase {
+    /// l' = r - x0' = r - e - α Σ Re ζ at the start, which is to be a maximum of l.
+    fn new(equation: &Embedding, extension: f64, solved: &Past, free: Parameter) -> Self {
+        let groove: f64 = solved.of_step(0).zeta.iter().map(|z| z.re).sum();
+        let modes = equation.short.terms().len();
+        let mut by_state = vec![0.0; 1 + 2 * modes];
+        by_state[0] = -1.0;
+        by_state[1..=modes].fill(-equation.alpha);
+        let by_parameter = match free {
+            Parameter::Alpha => -groove,
+            Parameter::R => 1.0,
+        };
+        let value = equation.r - extension - equation.alpha * groove;
+        Self { value, by_state, by_parameter }
+    }
+}
+
+/// Eigenvalues of the monodromy matrix by falling modulus: the Floquet multipliers.
+pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    let found = monodromy.clone().complex_eigenvalues();
+    let mut found: Vec<_> = found.iter().map(|m| Complex::new(m.re, m.im)).collect();
+    // Of a pair, the one with the positive imaginary part first.
+    found.sort_by(|a, b| {
+        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
+        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
+    });
+    found
+}

@@ -1,0 +1,92 @@
+//! The mesh that a cycle needs: steps long where the motion is smooth, short in its slips.
+
+use super::orbit::Orbit;
+use stickslip_tip::TipFunction;
+use stickslip_tip::collocation::{RADAU, STAGES, apply};
+
+/// The residual of a collocation polynomial falls as this power of the step.
+const ORDER: f64 = STAGES as f64;
+/// A step displaces the tip by at most this much over the band limit of f, 1.5 widths of a Gaussian:
+/// beyond, what it carves itself is no smooth function of its stages.
+const BANDS_PER_STEP: f64 = 13.0;
+/// A mesh aims at this fraction of the residual allowed.
+const AIM: f64 = 0.4;
+/// Neighbours are no more than so many times as dense.
+const GRADING: f64 = 2.0;
+const FEWEST: usize = 10;
+
+/// Largest residual of (18) within each step, estimated from where its polynomial begins: there the true
+/// velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
+/// interpolation errs by `stiffness` times that in the force.
+pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
+    let h: Vec<f64> = orbit.lengths().collect();
+    let steps = h.len();
+    let residual = |n: usize| {
+        let before = (n + steps - 1) % steps;
+        let d = &orbit.stages[n];
+        let slope: f64 = RADAU.derivative_at_start.iter().zip(d).map(|(w, d)| w * d).sum();
+        let velocity = apply(&RADAU.derivative, &orbit.stages[before])[STAGES - 1] / h[before];
+        let defect = slope / h[n] - velocity;
+        let [.., last, end] = orbit.stages[before];
+        let tau = (RADAU.c[STAGES - 2] - 1.0) * h[before] / h[n];
+        let interpolation = RADAU.interpolation_error(d, tau, last - end);
+        defect.abs() + stiffness[n] * interpolation
+    };
+    (0..steps).map(residual).collect()
+}
+
+/// The mesh on which residuals would be evenly below the one allowed.
+pub(super) fn adapted(
+    orbit: &Orbit,
+    tip: &TipFunction,
+    residuals: &[f64],
+    allowed: f64,
+) -> Vec<f64> {
+    let longest = longest_displacement(tip);
+    let shares: Vec<f64> = orbit.mesh.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    let wanted = |n: usize| {
+        let moved = orbit.stages[n].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+        let steps = (residuals[n] / (AIM * allowed)).powf(1.0 / ORDER).max(moved / longest);
+        steps / shares[n]
+    };
+    let density = graded((0..shares.len()).map(wanted).collect());
+    equidistributed(&orbit.mesh, &density)
+}
+
+/// The farthest that one step may lead.
+pub(super) fn longest_displacement(tip: &TipFunction) -> f64 {
+    (BANDS_PER_STEP / tip.band()).min(4.0)
+}
+
+/// Raises densities that fall too fast from one step to the next, around the period.
+fn graded(mut density: Vec<f64>) -> Vec<f64> {
+    let n = density.len();
+    for i in 0..2 * n {
+        let (here, next) = (density[i % n], (i + 1) % n);
+        density[next] = density[next].max(here / GRADING);
+    }
+    for i in (1..=2 * n).rev() {
+        let (here, next) = (density[i % n], (i - 1) % n);
+        density[next] = density[next].max(here / GRADING);
+    }
+    density
+}
+
+/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh.
+pub(super) fn equidistributed(mesh: &[f64], density: &[f64]) -> Vec<f64> {
+    let mut cumulated = vec![0.0];
+    let mut total = 0.0;
+    for (ends, density) in mesh.windows(2).zip(density) {
+        total += density * (ends[1] - ends[0]);
+        cumulated.push(total);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let steps = (total.ceil() as usize).max(FEWEST);
+    let place = |i: usize| {
+        let wanted = total * i as f64 / steps as f64;
+        let after = cumulated.partition_point(|c| *c <= wanted).clamp(1, density.len());
+        mesh[after - 1] + (wanted - cumulated[after - 1]) / density[after - 1]
+    };
+    let inner = (1..steps).map(place);
+    [0.0].into_iter().chain(inner).chain([1.0]).collect()
+}

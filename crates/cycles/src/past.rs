@@ -1,0 +1,95 @@
+//! The past of a motion that has gone on for ever, as a sum of exponentials tells it.
+
+use super::orbit::Orbit;
+use num_complex::Complex;
+use stickslip_tip::collocation::{RADAU, STAGES, Stages};
+use stickslip_tip::memory::{Fit, Term};
+
+/// ζ at the ends of all steps of an orbit, and the exponentials at their stages.
+pub(super) struct Past<'a> {
+    terms: &'a [Term],
+    /// `e^{s_j d_i}` by step and term.
+    exponentials: Vec<[Complex<f64>; STAGES]>,
+    /// `ζ_j` by step, the end of the last included, and term.
+    zeta: Vec<Complex<f64>>,
+}
+
+/// That of one step.
+#[derive(Clone, Copy)]
+pub(super) struct PastOfStep<'a> {
+    pub(super) terms: &'a [Term],
+    /// `e^{s_j d_i}`
+    pub(super) exponentials: &'a [[Complex<f64>; STAGES]],
+    /// ζ where the step starts.
+    pub(super) zeta: &'a [Complex<f64>],
+    /// ζ where it ends.
+    pub(super) after: &'a [Complex<f64>],
+}
+
+impl<'a> Past<'a> {
+    /// Over a step ζ becomes `e^{s d_s} (ζ + w h Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
+    pub(super) fn of(fit: &'a Fit, orbit: &Orbit) -> Self {
+        let terms = fit.terms();
+        let (mut exponentials, mut spent) = (vec![], vec![]);
+        for (d, h) in orbit.stages.iter().zip(orbit.lengths()) {
+            for term in terms {
+                let e = d.map(|d| (term.exponent * d).exp());
+                spent.push(term.weight * spent_in(&e) * h);
+                exponentials.push(e);
+            }
+        }
+        let mut past = Self { terms, exponentials, zeta: vec![Complex::ZERO; terms.len()] };
+        past.follow(&spent);
+        let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
+        let added = &past.zeta[past.zeta.len() - terms.len()..];
+        let settled =
+            |(added, term): (&Complex<f64>, &Term)| added / (1.0 - (term.exponent * moved).exp());
+        past.zeta = added.iter().zip(terms).map(settled).collect();
+        past.follow(&spent);
+        past
+    }
+
+    /// ζ at the ends of all steps, from what it is at the start.
+    fn follow(&mut self, spent: &[Complex<f64>]) {
+        for (n, (e, spent)) in self.exponentials.iter().zip(spent).enumerate() {
+            self.zeta.push(e[STAGES - 1] * (self.zeta[n] + spent));
+        }
+    }
+
+    pub(super) fn of_step(&self, n: usize) -> PastOfStep<'_> {
+        let of = |n: usize| n * self.terms.len()..(n + 1) * self.terms.len();
+        PastOfStep {
+            terms: self.terms,
+            exponentials: &self.exponentials[of(n)],
+            zeta: &self.zeta[of(n)],
+            after: &self.zeta[of(n + 1)],
+        }
+    }
+}
+
+/// `Σ_k b_k e^{-s d_k}`
+fn spent_in(e: &[Complex<f64>; STAGES]) -> Complex<f64> {
+    e.iter().zip(RADAU.b()).map(|(e, b)| e.inv() * *b).sum()
+}
+
+impl PastOfStep<'_> {
+    /// Slope of the past groove at the stages, over α.
+    pub(super) fn slope(&self) -> Stages {
+        self.sum(|value, _| value.re)
+    }
+
+    /// Its curvature.
+    pub(super) fn curvature(&self) -> Stages {
+        self.sum(|value, term| (value * term.exponent).re)
+    }
+
+    fn sum(&self, part: impl Fn(Complex<f64>, &Term) -> f64) -> Stages {
+        let mut sums = [0.0; STAGES];
+        for ((e, zeta), term) in self.exponentials.iter().zip(self.zeta).zip(self.terms) {
+            for (sum, e) in sums.iter_mut().zip(e) {
+                *sum += part(zeta * e, term);
+            }
+        }
+        sums
+    }
+}

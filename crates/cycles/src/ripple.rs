@@ -1,0 +1,90 @@
+//! The surface that a cycle leaves far behind the tip.
+
+use num_complex::Complex;
+use std::f64::consts::TAU;
+use stickslip_tip::{TipFunction, Trajectory};
+
+/// One wavelength of u far behind the tip, (35), as a Fourier series.
+///
+/// u(x) = -α ∫ f(x - x0(t))dt over all times, and x0 advances by the wavelength Λ = rT in each period T, so that
+/// by Poisson's formula u(x) = -(α/Λ) `Σ_k f̂(q_k) e^{i q_k x} ∫_0^T e^{-i q_k x0(t)}dt`, `q_k` = 2πk/Λ. The sum ends
+/// where f̂ does.
+#[derive(Debug, Clone)]
+pub(super) struct Ripple {
+    wavelength: f64,
+    /// That of k = 0.
+    mean: f64,
+    /// Coefficients of `e^{i q_k x}`, k ≥ 1; those of -k are their conjugates.
+    coefficients: Vec<Complex<f64>>,
+}
+
+const POINTS_PER_HARMONIC: usize = 8;
+
+impl Ripple {
+    /// Of one period of the motion.
+    pub(super) fn new(tip: &TipFunction, alpha: f64, period: &Trajectory) -> Self {
+        let (positions, weights) = period.residence(period.end());
+        let wavelength = period.r() * (period.end() - period.start());
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let harmonics = (tip.band() * wavelength / TAU).ceil() as usize;
+        let mut spent = vec![Complex::ZERO; harmonics + 1];
+        for (x, weight) in positions.iter().zip(&weights) {
+            for (spent, power) in spent.iter_mut().zip(powers(-TAU * x / wavelength)) {
+                *spent += power * *weight;
+            }
+        }
+        for (k, spent) in spent.iter_mut().enumerate() {
+            *spent *= -alpha / wavelength * tip.fourier(TAU * k as f64 / wavelength);
+        }
+        Self { wavelength, mean: spent[0].re, coefficients: spent.split_off(1) }
+    }
+
+    /// u(x).
+    pub(super) fn height(&self, x: f64) -> f64 {
+        self.mean + self.at(x).0
+    }
+
+    /// u less its mean, its slope and its curvature.
+    fn at(&self, x: f64) -> (f64, f64, f64) {
+        let mut sums = (0.0, 0.0, 0.0);
+        let wave_number = TAU / self.wavelength;
+        let terms = self.coefficients.iter().zip(powers(wave_number * x).skip(1));
+        for (k, (coefficient, power)) in terms.enumerate() {
+            let q = wave_number * (k + 1) as f64;
+            let value = coefficient * power * 2.0;
+            sums.0 += value.re;
+            sums.1 -= q * value.im;
+            sums.2 -= q * q * value.re;
+        }
+        sums
+    }
+
+    /// Half peak-to-peak.
+    pub(super) fn amplitude(&self) -> f64 {
+        0.5 * (self.extremum(1.0) + self.extremum(-1.0))
+    }
+
+    /// Largest `sign` · u: the best of many points, then Newton's method for its zero slope.
+    fn extremum(&self, sign: f64) -> f64 {
+        let points = POINTS_PER_HARMONIC * self.coefficients.len().max(1);
+        let spacing = self.wavelength / points as f64;
+        let height = |x: f64| sign * self.at(x).0;
+        let heights = (0..points).map(|i| (spacing * i as f64, height(spacing * i as f64)));
+        let start = heights.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(x, _)| x);
+        let mut x = start;
+        for _ in 0..8 {
+            let (_, slope, curvature) = self.at(x);
+            let step = slope / curvature;
+            if step.is_finite() {
+                x = (x - step).clamp(start - spacing, start + spacing);
+            }
+        }
+        height(x).max(height(start))
+    }
+}
+
+/// `e^{ikφ}` for k = 0, 1, …
+fn powers(phase: f64) -> impl Iterator<Item = Complex<f64>> {
+    let once = Complex::from_polar(1.0, phase);
+    std::iter::successors(Some(Complex::ONE), move |power| Some(power * once))
+}

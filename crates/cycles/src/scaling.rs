@@ -1,0 +1,151 @@
+//! How amplitude and wavelength leave their values at onset: the laws of the paper's Figs. 2, 3 and 5.
+//!
+//! Near the critical point the square of the amplitude and the wavelength are linear in the distance from it.
+
+use super::{CycleError, Parameter, cycle};
+use stickslip_outcome::run_and_judge;
+use stickslip_stability::{Onset, critical, critical_r, onset_at};
+use stickslip_tip::{Model, Scenario, TipFunction};
+
+/// A law near onset, measured at some distances from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scaling {
+    /// The critical value of the parameter that varies.
+    pub critical: f64,
+    /// By rising distance.
+    pub points: Vec<ScalingPoint>,
+    /// The line through amplitude² of x0.
+    pub amplitude_x0_squared: Line,
+    /// The line through amplitude² of the surface left behind; `None` from runs, that do not tell it.
+    pub amplitude_u_squared: Option<Line>,
+    /// The line through the wavelength.
+    pub wavelength: Line,
+}
+
+/// One distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScalingPoint {
+    /// Of the parameter from its critical value.
+    pub distance: f64,
+    /// Half peak-to-peak of l.
+    pub amplitude_x0: f64,
+    /// Half peak-to-peak of u far behind.
+    pub amplitude_u: Option<f64>,
+    /// rT
+    pub wavelength: f64,
+}
+
+/// intercept + slope · distance
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Value at the critical point.
+    pub intercept: f64,
+    /// Per distance.
+    pub slope: f64,
+}
+
+/// What amplitudes and wavelengths are measured on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measured {
+    /// [`cycle`], to this residual.
+    Cycles(f64),
+    /// Runs to this tolerance, which start near the cycle and last until what is left of the start has decayed.
+    Runs(f64),
+}
+
+/// The scaling laws in `over` at the value `other` of the parameter that does not vary, from motions at these
+/// distances from the critical point (below zero where oscillation lies below it, as it does in r).
+///
+/// # Errors
+/// No critical point, or a distance at which there is no small motion.
+pub fn scaling(
+    tip: &TipFunction,
+    (over, other): (Parameter, f64),
+    distances: &[f64],
+    measured: Measured,
+) -> Result<Scaling, CycleError> {
+    let born = match over {
+        Parameter::Alpha => critical(tip, other)?,
+        Parameter::R => critical_r(tip, other)?,
+    };
+    let onset = onset_at(tip, born)?;
+    let at = |distance: f64| {
+        let (alpha, r) = match over {
+            Parameter::Alpha => (born.alpha + distance, other),
+            Parameter::R => (other, born.r + distance),
+        };
+        let model = Model::new(tip.clone(), alpha, r);
+        let model = model.map_err(|_| CycleError::NotConverged { alpha, r })?;
+        match measured {
+            Measured::Cycles(tolerance) => of_cycle(&model, distance, tolerance),
+            Measured::Runs(tolerance) => of_run(&model, &onset, distance, tolerance),
+        }
+    };
+    let mut points = distances.iter().map(|d| at(*d)).collect::<Result<Vec<_>, _>>()?;
+    points.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    let line = |of: &dyn Fn(&ScalingPoint) -> f64| {
+        Line::through(&points.iter().map(|p| (p.distance, of(p))).collect::<Vec<_>>())
+    };
+    let told = points.iter().all(|p| p.amplitude_u.is_some());
+    Ok(Scaling {
+        critical: if over == Parameter::Alpha { born.alpha } else { born.r },
+        amplitude_x0_squared: line(&|p| p.amplitude_x0.powi(2)),
+        amplitude_u_squared: told.then(|| line(&|p| p.amplitude_u.unwrap_or(0.0).powi(2))),
+        wavelength: line(&|p| p.wavelength),
+        points,
+    })
+}
+
+fn of_cycle(model: &Model, distance: f64, tolerance: f64) -> Result<ScalingPoint, CycleError> {
+    let cycle = cycle(model, tolerance)?;
+    Ok(ScalingPoint {
+        distance,
+        amplitude_x0: cycle.amplitude_x0(),
+        amplitude_u: Some(cycle.amplitude_u()),
+        wavelength: cycle.wavelength(),
+    })
+}
+
+/// So many e-foldings of what is left of the start.
+const FOLDINGS: f64 = 14.0;
+
+fn of_run(
+    model: &Model,
+    onset: &Onset,
+    distance: f64,
+    tolerance: f64,
+) -> Result<ScalingPoint, CycleError> {
+    // Small motions depend on how far α is above its critical value at this r.
+    let above = model.alpha() - critical(model.tip(), model.r())?.alpha;
+    let mut scenario = Scenario::new(model.clone(), 0.0);
+    scenario.kick = (onset.amplitude_squared_slope * above).abs().sqrt();
+    scenario.tolerance = tolerance;
+    // A deviation of the amplitude decays twice as fast as one of steady motion grows.
+    let decay = 2.0 * (onset.growth_slope * above).abs();
+    let settling = FOLDINGS / decay + 10.0 * onset.critical.period;
+    scenario.until = scenario.start_time() + settling;
+    let (_, outcome) = run_and_judge(&scenario)?;
+    let (alpha, r) = (model.alpha(), model.r());
+    let oscillation =
+        outcome.oscillation.ok_or(CycleError::NoCycleReached { alpha, r, ended: Some(outcome) })?;
+    let amplitude_x0 = oscillation.amplitude_x0;
+    Ok(ScalingPoint {
+        distance,
+        amplitude_x0,
+        amplitude_u: None,
+        wavelength: oscillation.wavelength,
+    })
+}
+
+impl Line {
+    /// By least squares.
+    fn through(points: &[(f64, f64)]) -> Self {
+        let n = points.len() as f64;
+        let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+        let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+        let covariance: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+        let variance: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+        let slope = covariance / variance;
+        Self { intercept: y - slope * x, slope }
+    }
+}

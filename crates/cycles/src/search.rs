@@ -1,0 +1,142 @@
+//! Cycles found from nothing, or from a motion near them.
+
+use super::embedding::Embedding;
+use super::orbit::Orbit;
+use super::solve::{Condition, close};
+use super::start::{from_onset, from_runs, small_cycle_exists};
+use super::{Cycle, CycleError, TOLERANCES};
+use stickslip_outcome::Outcome;
+use stickslip_stability::{Critical, StabilityError, critical, onset_at};
+use stickslip_tip::{Model, Trajectory};
+
+/// Halves of a cycle that differ by less, in σ, are the same.
+const REPEATS_WITHIN: f64 = 1e-7;
+
+/// What a tip comes to when steady motion is disturbed a little.
+#[derive(Debug, Clone)]
+pub enum Motion {
+    /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
+    Steady,
+    /// A stable cycle.
+    Cycle(Box<Cycle>),
+    /// What a run ended as, that came near no stable cycle: trapped, or without end in sight.
+    Run(Outcome),
+}
+
+/// What the motion at the parameters of the model comes to: by linear stability, by [`cycle`], by a run.
+///
+/// # Errors
+/// A tolerance out of range, or a run that fails.
+pub fn motion(model: &Model, tolerance: f64) -> Result<Motion, CycleError> {
+    judge(tolerance)?;
+    let critical = match critical(model.tip(), model.r()) {
+        Ok(critical) if model.alpha() > critical.alpha => critical,
+        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Motion::Steady),
+        Err(error) => return Err(error.into()),
+    };
+    let Search { stable, ended, .. } = Search::above_onset(model, critical, tolerance)?;
+    Ok(match (stable, ended) {
+        (Some(cycle), _) => Motion::Cycle(Box::new(cycle)),
+        (None, Some(outcome)) => Motion::Run(outcome),
+        (None, None) => Motion::Steady,
+    })
+}
+
+/// The cycle at the parameters of the model that is found from nothing: the one that is born at αc, where
+/// Newton's method finds it from its leading order and it is stable, else the one that a run settles into.
+/// An unstable one is what there is where neither is stable.
+///
+/// (18) holds on it to `tolerance` at every time; its period and amplitudes are more accurate than that, as
+/// collocation converges faster at the ends of its steps.
+///
+/// # Errors
+/// A tolerance out of range, a footprint that never fades, or no cycle near what was tried.
+pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
+    let equation = embedding(model, tolerance)?;
+    let (alpha, r) = (model.alpha(), model.r());
+    let critical = critical(model.tip(), r)?;
+    if alpha > critical.alpha {
+        let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
+        return stable.or(unstable).ok_or(CycleError::NoCycleReached { alpha, r, ended });
+    }
+    let small =
+        born(&equation, model, critical).and_then(|guess| solve(&equation, guess, tolerance));
+    small.ok_or(CycleError::NoSmallCycle { alpha, r, critical: critical.alpha })
+}
+
+/// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
+/// maximum of l.
+///
+/// # Errors
+/// As [`cycle`]; or Newton's method does not converge.
+pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<Cycle, CycleError> {
+    let equation = embedding(model, tolerance)?;
+    let (start, length) = (period.start(), period.end() - period.start());
+    let ends = period.steps().iter().map(|step| (step.end() - start) / length);
+    let mesh = [0.0].into_iter().chain(ends).collect();
+    let guess = Orbit::of_profile(equation.r, length, mesh, |t| period.l(start + t));
+    let (alpha, r) = (model.alpha(), model.r());
+    solve(&equation, guess, tolerance).ok_or(CycleError::NotConverged { alpha, r })
+}
+
+pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
+    judge(tolerance)?;
+    Ok(Embedding::new(model, tolerance)?)
+}
+
+fn judge(tolerance: f64) -> Result<(), CycleError> {
+    let usable = (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance);
+    if usable { Ok(()) } else { Err(CycleError::Tolerance(tolerance)) }
+}
+
+/// What was found above αc.
+struct Search {
+    stable: Option<Cycle>,
+    unstable: Option<Cycle>,
+    /// What the longest run ended as, if one was needed.
+    ended: Option<Outcome>,
+}
+
+impl Search {
+    fn above_onset(model: &Model, critical: Critical, tolerance: f64) -> Result<Self, CycleError> {
+        // Runs are made of tips that never fade, too.
+        let equation = match embedding(model, tolerance) {
+            Err(CycleError::NeverFades) => None,
+            other => Some(other?),
+        };
+        let mut found = Self { stable: None, unstable: None, ended: None };
+        let mut take = |guess: Orbit| {
+            let Some(cycle) = equation.as_ref().and_then(|e| solve(e, guess, tolerance)) else {
+                return false;
+            };
+            let is_stable = cycle.is_stable();
+            let place = if is_stable { &mut found.stable } else { &mut found.unstable };
+            place.get_or_insert(cycle);
+            is_stable
+        };
+        let small = equation.as_ref().and_then(|e| born(e, model, critical));
+        if !small.is_some_and(&mut take) {
+            found.ended = Some(from_runs(model, take)?);
+        }
+        Ok(found)
+    }
+}
+
+/// A guess at the small cycle on this side of onset.
+fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit> {
+    let onset = onset_at(model.tip(), critical).ok()?;
+    from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
+}
+
+/// The cycle near a guess, once around it: a guess at two slips may close after one.
+fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Option<Cycle> {
+    let closed = close(equation.clone(), guess, Condition::GIVEN, tolerance).ok()?;
+    if closed.is_steady() {
+        return None;
+    }
+    let r = equation.r;
+    if closed.orbit.difference_of_halves(r) < REPEATS_WITHIN {
+        return solve(equation, closed.orbit.halved(r), tolerance);
+    }
+    Cycle::new(closed).ok()
+}

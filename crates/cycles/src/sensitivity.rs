@@ -1,0 +1,103 @@
+//! How quantities along the orbit depend on its unknowns: rows of derivatives.
+
+use num_complex::Complex;
+use stickslip_tip::collocation::{STAGES, Stages};
+
+/// Rows of derivatives with respect to the state X at t = 0, the period and the free parameter, and last
+/// the change that solving the stage equations asks for. Row by row in memory.
+#[derive(Debug, Clone)]
+pub(super) struct Sensitivity {
+    columns: usize,
+    entries: Vec<f64>,
+}
+
+/// Columns beyond those of the state: period, free parameter, correction.
+const CONSTANTS: usize = 3;
+/// Columns are dealt with in blocks that stay in registers.
+const LANES: usize = 4;
+
+impl Sensitivity {
+    fn zeros(rows: usize, columns: usize) -> Self {
+        Self { columns, entries: vec![0.0; rows * columns.next_multiple_of(LANES)] }
+    }
+
+    /// Of a state of this length to itself.
+    pub(super) fn identity(n: usize) -> Self {
+        let mut identity = Self::zeros(n, n + CONSTANTS);
+        for i in 0..n {
+            identity.row_mut(i)[i] = 1.0;
+        }
+        identity
+    }
+
+    /// Entries of a row in memory, the last of them idle.
+    fn stride(&self) -> usize {
+        self.columns.next_multiple_of(LANES)
+    }
+
+    pub(super) fn row(&self, i: usize) -> &[f64] {
+        &self.entries[i * self.stride()..][..self.columns]
+    }
+
+    fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        let (stride, columns) = (self.stride(), self.columns);
+        &mut self.entries[i * stride..][..columns]
+    }
+
+    /// The derivatives of row i with respect to the period and the free parameter, and its correction.
+    pub(super) fn constants(&mut self, i: usize) -> &mut [f64] {
+        let from = self.columns - CONSTANTS;
+        &mut self.row_mut(i)[from..]
+    }
+
+    /// One row per stage: `Σ_j factors[j][k]` times row j of these.
+    pub(super) fn contracted(&self, factors: &[Stages]) -> Self {
+        let stride = self.stride();
+        let mut stages = Self::zeros(STAGES, self.columns);
+        for column in (0..stride).step_by(LANES) {
+            let mut sums = [[0.0; LANES]; STAGES];
+            for (factors, row) in factors.iter().zip(self.entries.chunks_exact(stride)) {
+                let row: [f64; LANES] = std::array::from_fn(|c| row[column + c]);
+                for (sum, factor) in sums.iter_mut().zip(factors) {
+                    (0..LANES).for_each(|c| sum[c] += factor * row[c]);
+                }
+            }
+            for (to, sum) in stages.entries.chunks_exact_mut(stride).zip(&sums) {
+                to[column..column + LANES].copy_from_slice(sum);
+            }
+        }
+        stages
+    }
+
+    /// Adds `Σ_k factors[j][k]` times the row of stage k to each row j.
+    pub(super) fn add_expanded(&mut self, factors: &[Stages], stages: &Self) {
+        let stride = self.stride();
+        for column in (0..stride).step_by(LANES) {
+            let stage = |k: usize, c: usize| stages.entries[k * stride + column + c];
+            let block: [[f64; LANES]; STAGES] =
+                std::array::from_fn(|k| std::array::from_fn(|c| stage(k, c)));
+            for (factors, row) in factors.iter().zip(self.entries.chunks_exact_mut(stride)) {
+                let mut sum = [0.0; LANES];
+                for (factor, stage) in factors.iter().zip(&block) {
+                    (0..LANES).for_each(|c| sum[c] += factor * stage[c]);
+                }
+                (0..LANES).for_each(|c| row[column + c] += sum[c]);
+            }
+        }
+    }
+
+    /// Multiplies rows that are the real and imaginary part of one quantity.
+    pub(super) fn multiply_pair(&mut self, re: usize, im: usize, factor: Complex<f64>) {
+        let stride = self.stride();
+        let (first, second) = self.entries.split_at_mut(im * stride);
+        let (first, second) = (&mut first[re * stride..][..stride], &mut second[..stride]);
+        for (a, b) in first.iter_mut().zip(second) {
+            (*a, *b) = (*a * factor.re - *b * factor.im, *a * factor.im + *b * factor.re);
+        }
+    }
+
+    /// Row i times the changes of the unknowns, 1 for the correction.
+    pub(super) fn change(&self, i: usize, unknowns: &[f64]) -> f64 {
+        self.row(i).iter().zip(unknowns).map(|(s, u)| s * u).sum()
+    }
+}

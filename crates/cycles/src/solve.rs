@@ -1,0 +1,132 @@
+//! Newton's method for a cycle, on meshes that are refined until its residual is as small as asked.
+
+use super::embedding::{Embedding, Parameter};
+use super::linearisation::{Change, Direction, Linearisation};
+use super::mesh::{adapted, residuals};
+use super::orbit::Orbit;
+use std::sync::Arc;
+use stickslip_tip::memory::Fit;
+
+/// A cycle: an orbit that solves the collocation equations on a mesh fine enough.
+#[derive(Clone)]
+pub(super) struct Closed {
+    pub(super) equation: Embedding,
+    pub(super) orbit: Orbit,
+    pub(super) linearisation: Arc<Linearisation>,
+    /// Estimate of the largest residual of (18).
+    pub(super) residual: f64,
+    /// Linearisations that it took.
+    pub(super) iterations: usize,
+}
+
+/// Which unknown is free besides the motion and its period, and what does not change.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Condition {
+    pub(super) free: Parameter,
+    pub(super) fixed: Direction,
+}
+
+impl Condition {
+    /// Both parameters given.
+    pub(super) const GIVEN: Self = Self { free: Parameter::Alpha, fixed: Direction::PARAMETER };
+}
+
+/// Newton's method did not converge, or the mesh needs too many steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NotClosed;
+
+const MOST_ITERATIONS: usize = 15;
+const MOST_STEPS: usize = 4000;
+const MOST_MESHES: usize = 8;
+/// Residuals within a step may exceed the estimate by as much.
+const ESTIMATE_FALLS_SHORT: f64 = 0.7;
+/// A correction of this size leaves an error of its square.
+const ENOUGH: f64 = 1e-9;
+/// Enough to see how far the mesh must be refined.
+const ENOUGH_FOR_A_MESH: f64 = 1e-6;
+/// Corrections that no longer shrink are round-off if they are below this.
+const ROUND_OFF: f64 = 1e-6;
+/// A correction changes no position by more than this, in widths of the tip, and the period by no more
+/// than that fraction.
+const LONGEST_CORRECTION: f64 = 1.0;
+const LARGEST_CHANGE_OF_PERIOD: f64 = 0.2;
+
+/// The cycle near a guess.
+pub(super) fn close(
+    mut equation: Embedding,
+    mut orbit: Orbit,
+    condition: Condition,
+    allowed: f64,
+) -> Result<Closed, NotClosed> {
+    let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
+    let mut iterations = 0;
+    for _ in 0..MOST_MESHES {
+        // The mesh is found with the short sum, and the solution on it with the fine one.
+        for (solved, enough) in [(&short, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
+            let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
+            let (linearisation, count) = newton.solve(solved, enough)?;
+            iterations += count;
+            let residuals = residuals(&orbit, &linearisation.stiffness);
+            let residual = residuals.iter().copied().fold(0.0, f64::max);
+            if residual > ESTIMATE_FALLS_SHORT * allowed {
+                let mesh = adapted(&orbit, &equation.tip, &residuals, allowed);
+                if mesh.len() > MOST_STEPS {
+                    return Err(NotClosed);
+                }
+                orbit = orbit.on_mesh(equation.r, mesh);
+                break;
+            }
+            if Arc::ptr_eq(solved, &fine) {
+                let linearisation = Arc::new(linearisation);
+                return Ok(Closed { equation, orbit, linearisation, residual, iterations });
+            }
+        }
+    }
+    Err(NotClosed)
+}
+
+/// Newton's method on one mesh.
+struct Newton<'a> {
+    equation: &'a mut Embedding,
+    orbit: &'a mut Orbit,
+    condition: Condition,
+}
+
+impl Newton<'_> {
+    /// Solves the equations in one of the sums until a correction is below `enough`. Returns the
+    /// linearisation about the last iterate but one, and how many it took.
+    fn solve(&mut self, solved: &Fit, enough: f64) -> Result<(Linearisation, usize), NotClosed> {
+        let free = self.condition.free;
+        let mut last = f64::INFINITY;
+        for iteration in 1..=MOST_ITERATIONS {
+            let linearisation = Linearisation::new(self.equation, self.orbit, free, solved);
+            let linearisation = linearisation.map_err(|_| NotClosed)?;
+            let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed)?;
+            self.apply(&change)?;
+            let size = change.size();
+            let settled = size > 0.5 * last && size < ROUND_OFF;
+            if size <= enough || settled {
+                return Ok((linearisation, iteration));
+            }
+            last = size;
+        }
+        Err(NotClosed)
+    }
+
+    fn apply(&mut self, change: &Change) -> Result<(), NotClosed> {
+        let width = 8.7 / self.equation.tip.band();
+        let factor = damping(change, self.orbit.period, width);
+        let free = self.condition.free;
+        self.orbit.move_by(change, factor);
+        self.equation.set(free, self.equation.parameter(free) + factor * change.parameter);
+        let usable = change.size().is_finite() && self.orbit.period > 0.0;
+        if usable && self.equation.model().is_some() { Ok(()) } else { Err(NotClosed) }
+    }
+}
+
+/// How much of a correction is made.
+fn damping(change: &Change, period: f64, width: f64) -> f64 {
+    let by_size = LONGEST_CORRECTION * width / change.size();
+    let by_period = LARGEST_CHANGE_OF_PERIOD * period / change.period.abs();
+    by_size.min(by_period).min(1.0)
+}

@@ -1,0 +1,108 @@
+//! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
+
+use super::CycleError;
+use super::embedding::Embedding;
+use super::mesh::{equidistributed, longest_displacement};
+use super::orbit::{Orbit, even_mesh};
+use std::f64::consts::{PI, TAU};
+use stickslip_outcome::{Outcome, Regime, run_and_judge};
+use stickslip_stability::{Criticality, Onset};
+use stickslip_tip::motion::{Extremum, latest_extrema};
+use stickslip_tip::{Model, Run, Scenario, Trajectory};
+
+const FEWEST_STEPS: f64 = 18.0;
+/// Amplitude to which the leading order is a guess, in widths.
+const LARGEST_MODE: f64 = 1.0;
+
+/// The linear mode with the amplitude and period of leading order in α - αc; `None` where that is
+/// imaginary, or so large that Newton's method might find any cycle from there.
+pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
+    let above = equation.alpha - onset.critical.alpha;
+    let square = onset.amplitude_squared_slope * above;
+    if square.is_nan() || square <= 0.0 {
+        return None;
+    }
+    let model = equation.model()?;
+    let amplitude = square.sqrt();
+    if amplitude > LARGEST_MODE * 8.7 / equation.tip.band() {
+        return None;
+    }
+    let period = onset.critical.period + onset.period_slope * above;
+    if period <= 0.5 * onset.critical.period {
+        return None;
+    }
+    let mesh = even_mesh(steps_of_mode(equation, period, amplitude));
+    Some(Orbit::of_profile(equation.r, period, mesh, mode(model.steady_l(), amplitude, period)))
+}
+
+/// l(t) of the linear mode.
+pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> f64 {
+    move |t| steady + amplitude * (TAU * t / period).cos()
+}
+
+/// So many steps that none leads too far.
+pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> usize {
+    let farthest = equation.r * period + PI * amplitude;
+    let longest = longest_displacement(&equation.tip);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    return FEWEST_STEPS.max(1.5 * farthest / longest) as usize;
+}
+
+/// Whether a small cycle is to be expected here.
+pub(super) fn small_cycle_exists(equation: &Embedding, onset: &Onset) -> bool {
+    let above = equation.alpha > onset.critical.alpha;
+    above == (onset.criticality == Criticality::Supercritical)
+}
+
+/// Lengths of the runs tried, in turn.
+const RUNS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
+const TOLERANCE_OF_A_RUN: f64 = 1e-6;
+/// What sets the tip going, in widths.
+const KICK: f64 = 0.3;
+
+/// Offers the last period of ever longer runs until `take` is content, and says what the last run ended as.
+pub(super) fn from_runs(
+    model: &Model,
+    mut take: impl FnMut(Orbit) -> bool,
+) -> Result<Outcome, CycleError> {
+    let mut scenario = Scenario::new(model.clone(), 0.0);
+    scenario.kick = KICK * 8.7 / model.tip().band();
+    scenario.tolerance = TOLERANCE_OF_A_RUN;
+    let mut ended = None;
+    for length in RUNS {
+        scenario.until = scenario.start_time() + length;
+        let (Run { trajectory, .. }, outcome) = run_and_judge(&scenario)?;
+        // Where none is seen yet, a period may have one slip or two.
+        let slips = outcome.oscillation.map_or(1..=2, |o| o.slips..=o.slips);
+        let periods: Vec<_> = slips.filter_map(|slips| last_period(&trajectory, slips)).collect();
+        let taken = periods.into_iter().any(|(from, to)| take(part(&trajectory, from, to)));
+        let over = matches!(outcome.regime, Regime::Steady | Regime::Trapped);
+        ended = Some(outcome);
+        if taken || over {
+            break;
+        }
+    }
+    Ok(ended.unwrap_or(Outcome { regime: Regime::Transient, oscillation: None }))
+}
+
+/// Between two maxima a period apart: the highest within the period, and the one before it.
+fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
+    let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
+    let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
+    let (i, end) = maxima.iter().take(slips).enumerate().max_by(highest)?;
+    let start = maxima.get(i + slips)?;
+    Some((start.t, end.t))
+}
+
+/// A period of a run, with steps as long as those of the run.
+fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
+    let period = to - from;
+    let steps = trajectory.steps().iter().filter(|step| step.t < to && step.end() > from);
+    let (mut mesh, mut density) = (vec![0.0], vec![]);
+    for step in steps {
+        mesh.push(((step.end() - from) / period).min(1.0));
+        density.push(period / step.h);
+    }
+    let mesh = equidistributed(&mesh, &density);
+    Orbit::of_profile(trajectory.r(), period, mesh, |t| trajectory.l(from + t))
+}

@@ -1,0 +1,87 @@
+//! Steps of a stretch of the run that may last for ever, ever fewer of them.
+
+use stickslip_tip::Step;
+use stickslip_tip::state::{Damaged, Reader, State};
+
+/// Every n-th step since some time; n doubles when there are too many.
+#[derive(Debug, Clone)]
+pub(super) struct Thinned {
+    steps: Vec<Step>,
+    every: u64,
+    seen: u64,
+}
+
+/// Kept at most.
+const MOST: usize = 512;
+
+impl Default for Thinned {
+    fn default() -> Self {
+        Self { steps: vec![], every: 1, seen: 0 }
+    }
+}
+
+impl Thinned {
+    /// Begins anew, with the step that follows.
+    pub(super) fn clear(&mut self) {
+        self.steps.clear();
+        (self.every, self.seen) = (1, 0);
+    }
+
+    pub(super) fn observe(&mut self, step: &Step) {
+        if self.seen.is_multiple_of(self.every) {
+            if self.steps.len() == MOST {
+                let mut index = 0;
+                self.steps.retain(|_| {
+                    index += 1;
+                    index % 2 == 1
+                });
+                self.every *= 2;
+            }
+            self.steps.push(*step);
+        }
+        self.seen += 1;
+    }
+
+    /// The last one kept that begins by time t.
+    pub(super) fn at(&self, t: f64) -> Option<&Step> {
+        self.steps[..self.steps.partition_point(|step| step.t <= t)].last()
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        state.count(self.every);
+        state.count(self.seen);
+        state.steps(self.steps.iter());
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        (self.every, self.seen) = (state.count()?, state.count()?);
+        self.steps = state.steps()?;
+        if self.every == 0 || self.steps.len() > MOST {
+            return Err(Damaged::OutOfRange);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn however_many_steps_pass_a_bounded_number_spans_them_all() {
+        let mut thinned = Thinned::default();
+        for i in 0..100_000 {
+            thinned.observe(&Step {
+                t: f64::from(i),
+                h: 1.0,
+                extension: 0.0,
+                displacement: [0.0; 6],
+            });
+        }
+        assert!(thinned.steps.len() <= MOST);
+        for t in [0.0, 10.0, 50_000.0, 99_990.0] {
+            let kept = thinned.at(t).unwrap().t;
+            assert!(kept <= t && t - kept <= 100_000.0 * 2.0 / MOST as f64, "{kept} for {t}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! A certificate that a list of roots is complete.
+
+use super::cell::Cell;
+use super::characteristic::Characteristic;
+use super::spectrum::HalfPlane;
+use super::{StabilityError, bessel_roots};
+use num_complex::Complex64;
+use stickslip_tip::{Model, TipFunction};
+
+/// A residual above this, relative to the terms of h, is no root.
+const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Relative error of h for the error bars of its roots: that of the error function at large.
+pub(super) const ROUNDOFF: f64 = 3e-14;
+/// Entries closer than this, in units of 1/width, are counted together.
+const CLUSTER: f64 = 1e-5;
+
+/// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max.
+///
+/// No root lies right of it, above it or below it, so that what is certified is all of Re λ ≥ re_min.
+/// For J0 less the cuts |Im λ| = r, Re λ < 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Region {
+    /// Left edge.
+    pub re_min: f64,
+    /// Right edge.
+    pub re_max: f64,
+    /// Upper edge, and the lower one mirrored.
+    pub im_max: f64,
+}
+
+/// What was counted, by the argument principle, against what a list holds.
+///
+/// The count is a rounded floating-point number (it must lie within 1e-6 of a whole one) along a path
+/// whose steps follow h', not an enclosure in interval arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Certificate {
+    /// Where.
+    pub region: Region,
+    /// Roots in the region, with multiplicity, by the argument principle.
+    pub counted: usize,
+    /// Roots in the list that lie in the region and solve (30), each counted once.
+    pub found: usize,
+    /// Largest |h| among them, relative to the sizes of the terms of h.
+    pub largest_residual: f64,
+    /// Largest estimate of the error of a listed λ: what round-off in h displaces.
+    pub largest_error: f64,
+}
+
+impl Certificate {
+    /// Whether the list is complete and each of its members a root.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.counted == self.found && self.largest_residual <= LARGEST_RESIDUAL
+    }
+
+    pub(super) fn of(
+        h: &Characteristic,
+        region: Region,
+        counted: usize,
+        roots: &[Complex64],
+    ) -> Self {
+        let inside: Vec<Complex64> =
+            roots.iter().filter(|z| region.contains(**z)).map(|z| z / h.r).collect();
+        let largest =
+            |f: &dyn Fn(Complex64) -> f64| inside.iter().map(|z| f(*z)).fold(0.0, f64::max);
+        Self {
+            region,
+            counted,
+            found: distinct(h, &inside),
+            largest_residual: largest(&|z| h.relative_residual(z)),
+            largest_error: h.r * largest(&|z| h.root_error(z, ROUNDOFF)),
+        }
+    }
+}
+
+impl Region {
+    pub(super) fn contains(&self, z: Complex64) -> bool {
+        (self.re_min..=self.re_max).contains(&z.re) && z.im.abs() <= self.im_max
+    }
+}
+
+/// Checks any list of roots λ against a fresh count of those with Re λ ≥ `bound`.
+///
+/// A root left out, listed twice, or displaced shows in [`Certificate::is_complete`].
+///
+/// # Errors
+/// As [`super::roots`].
+pub fn certify(
+    model: &Model,
+    bound: f64,
+    roots: &[Complex64],
+) -> Result<Certificate, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::certify(model, bound, roots);
+    }
+    let h = Characteristic::new(model);
+    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
+    Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
+}
+
+/// Entries that are roots, each once: those that lie together count as often as h vanishes there.
+fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
+    let radius = CLUSTER / h.length;
+    let near = |z: Complex64| move |k: &&Complex64| (*k - z).norm() < radius;
+    let mut found = 0;
+    for (i, z) in zeros.iter().enumerate() {
+        if h.relative_residual(*z) > LARGEST_RESIDUAL || zeros[..i].iter().any(|k| near(*z)(&k)) {
+            continue;
+        }
+        let together = zeros.iter().filter(near(*z)).count();
+        found += if together == 1 {
+            1
+        } else {
+            let cell = Cell::square(*z, 3.0 * radius, h.length);
+            together.min(cell.count(&|z| h.at(z)).unwrap_or(0))
+        };
+    }
+    found
+}

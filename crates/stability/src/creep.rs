@@ -1,0 +1,113 @@
+//! The rates p at which a trapped tip may creep, x0 ~ (1/p) ln t: the roots of 1 + (α/r) G(p) = 0 with a
+//! positive real part, all of them.
+//!
+//! Where the tip hardly moves, the time θ(x) at which it reaches x obeys a linear equation whose solutions are
+//! Σ C e^{px} over these roots (`docs/mathematics.md`, section 8). The one of largest real part wins: a real
+//! one holds the tip for ever, a complex pair makes θ turn, so that every stick ends in a slip.
+
+use super::StabilityError;
+use super::certificate::{Certificate, Region};
+use super::characteristic::Characteristic;
+use super::newton::polish;
+use super::spectrum::{HalfPlane, Spectrum, with_conjugates};
+use super::transform::{CurvatureTransform, Scaled};
+use num_complex::Complex64;
+use stickslip_tip::{Model, TipFunction};
+
+/// The creep that the equations allow at given α and r.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Creep {
+    /// All p with a positive real part, in 1/σ, by falling real part, both of each conjugate pair.
+    pub roots: Vec<Complex64>,
+    /// That none is missing.
+    pub certificate: Certificate,
+}
+
+impl Creep {
+    /// The real ones, ascending: at each of them x0 ~ (1/p) ln t solves (10) for large t.
+    #[must_use]
+    pub fn rates(&self) -> Vec<f64> {
+        self.roots.iter().rev().filter(|p| p.im.abs() <= 0.0).map(|p| p.re).collect()
+    }
+
+    /// The rate that attracts: the root of largest real part, if that is real. Without one no tip is trapped
+    /// for ever.
+    #[must_use]
+    pub fn attracting(&self) -> Option<f64> {
+        self.roots.first().filter(|p| p.im.abs() <= 0.0).map(|p| p.re)
+    }
+}
+
+/// All rates of creep at the α and r of the model, found and counted as [`super::roots`] are.
+///
+/// # Errors
+/// As [`super::roots`].
+pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
+    let Spectrum { roots, certificate } = match model.tip() {
+        TipFunction::Bessel => bessel(model.alpha() / model.r()),
+        TipFunction::Gaussians(_) => {
+            let h = Characteristic::of_creep(model);
+            let unmoved = h.ratio <= 0.0;
+            if unmoved { none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }
+        }
+    };
+    let positive = |p: &Complex64| p.re > 0.0;
+    Ok(Creep { roots: roots.into_iter().filter(positive).collect(), certificate })
+}
+
+fn none() -> Spectrum {
+    let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };
+    let certificate =
+        Certificate { region, counted: 0, found: 0, largest_residual: 0.0, largest_error: 0.0 };
+    Spectrum { roots: vec![], certificate }
+}
+
+/// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp; squared,
+/// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
+fn bessel(kappa: f64) -> Spectrum {
+    if kappa <= 0.0 {
+        return none();
+    }
+    let transform = CurvatureTransform::new(&TipFunction::Bessel);
+    let h = |p: Complex64| {
+        let g = transform.at(p);
+        Scaled { value: g.value * kappa + 1.0, derivative: g.derivative * kappa, log_scale: 0.0 }
+    };
+    let size = |p: Complex64| 1.0 + kappa * transform.at(p).value.norm();
+    let is_root = |p: &Complex64| h(*p).value.norm() < 1e-11 * size(*p);
+    let real = |z: Complex64| if z.im.abs() < 1e-9 * z.norm() { z.re.into() } else { z };
+    let candidates = cubic([(kappa * kappa + 1.0) / (-2.0 * kappa), 1.0, -0.5 / kappa]);
+    let mut upper: Vec<Complex64> = vec![];
+    for p in candidates.into_iter().filter(|p| p.im >= 0.0 && p.re > 0.0) {
+        let p = real(polish(h, p));
+        if is_root(&p) && upper.iter().all(|known| (known - p).norm() > 1e-9 * p.norm()) {
+            upper.push(p);
+        }
+    }
+    let roots = with_conjugates(&upper, 1.0);
+    let largest = |f: &dyn Fn(Complex64) -> f64| roots.iter().map(|p| f(*p)).fold(0.0, f64::max);
+    let far = 2.0 + 2.0 * kappa;
+    let certificate = Certificate {
+        region: Region { re_min: 0.0, re_max: far, im_max: far },
+        counted: roots.len(),
+        found: roots.len(),
+        largest_residual: largest(&|p| h(p).value.norm() / size(p)),
+        largest_error: largest(&|p| 4.0 * f64::EPSILON * size(p) / h(p).derivative.norm()),
+    };
+    Spectrum { roots, certificate }
+}
+
+/// The zeros of z³ + a z² + b z + c: a real one by bisection, the other two of what is left.
+fn cubic([a, b, c]: [f64; 3]) -> [Complex64; 3] {
+    let value = |z: f64| ((z + a) * z + b) * z + c;
+    let bound = 1.0 + a.abs().max(b.abs()).max(c.abs());
+    let (mut low, mut high) = (-bound, bound);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if value(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    let z = 0.5 * (low + high);
+    let (p, q) = (a + z, b + z * (a + z));
+    let root = Complex64::new(0.25 * p * p - q, 0.0).sqrt();
+    [z.into(), root - 0.5 * p, -root - 0.5 * p]
+}

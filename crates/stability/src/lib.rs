@@ -1,0 +1,45 @@
+//! Linear stability of steady motion (section IV of the paper), and what follows from it.
+//!
+//! A small deviation l - l0 ∝ e^{λt} grows or decays with a root λ = rΛ of
+//!
+//! ```text
+//!     h(Λ) = rΛ + 1 + (α/r) G(Λ) = 0,    G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy      (30)
+//! ```
+//!
+//! [`critical`] and [`Boundary`] find where the first root reaches the imaginary axis, [`roots`] and
+//! [`leading_roots`] list all roots right of a line with a [`Certificate`] that none is missing,
+//! [`response`] adds them up after a weak pulse, and [`onset`] says what is born at the boundary.
+//! [`trapping_alpha`] is the threshold of motion that never returns to stick-slip, [`creep`] lists all rates at
+//! which it may creep. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either can judge the other.
+
+mod axis;
+mod bessel_roots;
+mod boundary;
+mod cell;
+mod certificate;
+mod characteristic;
+mod creep;
+mod critical;
+mod error;
+mod newton;
+mod onset;
+mod response;
+mod scaled_erfc;
+mod spectrum;
+mod transform;
+mod trapping;
+mod winding;
+
+#[cfg(test)]
+#[path = "../tests/tables/mod.rs"]
+mod tables;
+
+pub use boundary::{Boundary, Branch};
+pub use certificate::{Certificate, Region, certify};
+pub use creep::{Creep, creep};
+pub use critical::{Critical, critical, critical_r};
+pub use error::StabilityError;
+pub use onset::{Criticality, Onset, onset, onset_at};
+pub use response::{Response, ResponseMode, response};
+pub use spectrum::{Spectrum, leading_roots, roots, unstable_count};
+pub use trapping::trapping_alpha;

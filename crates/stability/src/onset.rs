@@ -1,0 +1,116 @@
+//! What is born at the boundary: the Hopf bifurcation to leading order.
+//!
+//! With l = l0 + A e^{iωt} + c.c. + …, (18) expanded to third order in the differences
+//! l(t-τ) - l(t) and the amplitude equation read off at frequency ω (Lindstedt's method, which on the
+//! centre manifold is its reduction): D_λ A' = -D_α (α - αc) A + N |A|²A, where D(λ) = λ + 1 - K̃(λ).
+//! `docs/stability.md` derives N.
+
+use super::critical::Critical;
+use super::transform::CurvatureTransform;
+use super::{StabilityError, critical};
+use num_complex::Complex64;
+use std::f64::consts::PI;
+use stickslip_tip::TipFunction;
+
+/// On which side of the boundary the small oscillation exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Criticality {
+    /// Stable and small, for α above αc.
+    Supercritical,
+    /// Unstable, for α below αc: beyond αc the tip leaves for a large motion at once.
+    Subcritical,
+}
+
+/// The small oscillation near a critical point, to leading order in α - αc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Onset {
+    /// The critical point.
+    pub critical: Critical,
+    /// Which way it branches.
+    pub criticality: Criticality,
+    /// First Lyapunov coefficient, Re(N/D_λ): |A|' = … + this |A|³. Negative if supercritical.
+    pub lyapunov: f64,
+    /// d(Re λ)/dα of the critical pair.
+    pub growth_slope: f64,
+    /// d(a²)/dα with a half the peak-to-peak of l (or x0). Negative if subcritical.
+    pub amplitude_squared_slope: f64,
+    /// dT/dα along the branch.
+    pub period_slope: f64,
+    /// dω/dα along the branch.
+    pub omega_slope: f64,
+}
+
+/// The bifurcation at αc(r).
+///
+/// Limits: leading order, so figures for α hold within a relative O(α - αc); a critical pair that is
+/// the only one on the axis; for J0 not where 2Ω = 1, the branch point, at which N is infinite.
+///
+/// # Errors
+/// As [`critical`]; [`StabilityError::DegenerateOnset`] where the coefficients are not finite or vanish.
+pub fn onset(tip: &TipFunction, r: f64) -> Result<Onset, StabilityError> {
+    onset_at(tip, critical(tip, r)?)
+}
+
+/// As [`onset`], for a critical point already known.
+///
+/// # Errors
+/// As [`onset`].
+pub fn onset_at(tip: &TipFunction, critical: Critical) -> Result<Onset, StabilityError> {
+    let Coefficients { slope_lambda, slope_alpha, cubic } = Coefficients::new(tip, &critical);
+    let growth = -slope_alpha / slope_lambda;
+    let damping = cubic / slope_lambda;
+    let square = -growth.re / damping.re;
+    let omega_slope = growth.im + damping.im * square;
+    let onset = Onset {
+        critical,
+        criticality: if square > 0.0 {
+            Criticality::Supercritical
+        } else {
+            Criticality::Subcritical
+        },
+        lyapunov: damping.re,
+        growth_slope: growth.re,
+        // l = A e^{iωt} + c.c. swings between ±2|A|.
+        amplitude_squared_slope: 4.0 * square,
+        period_slope: -2.0 * PI * omega_slope / critical.omega.powi(2),
+        omega_slope,
+    };
+    let usable = square.is_finite() && omega_slope.is_finite() && square.abs() > 0.0;
+    if usable { Ok(onset) } else { Err(StabilityError::DegenerateOnset { r: critical.r }) }
+}
+
+/// D_λ, D_α and N at the critical point.
+struct Coefficients {
+    slope_lambda: Complex64,
+    slope_alpha: Complex64,
+    cubic: Complex64,
+}
+
+impl Coefficients {
+    /// Φ_n(Λ) = ∫_0^∞ F^{(n)}(rτ) e^{-Λrτ}dτ, from G by parts: Φ1 = -κG, Φ2 = -κ(ΛG - f''(0)),
+    /// Φ3 = -κΛ(ΛG - f''(0)), with κ = α/r.
+    fn new(tip: &TipFunction, critical: &Critical) -> Self {
+        let transform = CurvatureTransform::new(tip);
+        let kappa = critical.alpha / critical.r;
+        let curvature = tip.slope_and_curvature(0.0).1;
+        let i_omega = Complex64::new(0.0, critical.omega / critical.r);
+        let first = transform.at(i_omega);
+        let double = transform.at(i_omega * 2.0);
+        let second = |z: Complex64, g: Complex64| -(z * g - curvature) * kappa;
+        let (p2, p2_double) = (second(i_omega, first.value), second(i_omega * 2.0, double.value));
+        let p2_zero = kappa * curvature;
+        // F''' at Λ = 0: -κ·0, as f'''(0) = 0.
+        let (p3, p3_double) = (i_omega * p2, i_omega * 2.0 * p2_double);
+
+        // Second harmonic: D(2iω) B = b A².
+        let b = (p2_double - p2 * 2.0 + p2_zero) * 0.5;
+        let d_double = i_omega * (2.0 * critical.r) + 1.0 + double.value * kappa;
+        let quadratic = b / d_double * (p2 - p2.conj() - p2_double + p2_zero);
+        let cubic = quadratic + (p3 * 3.0 + p3.conj() - p3_double) * 0.5;
+        Self {
+            slope_lambda: first.derivative * (kappa / critical.r) + 1.0,
+            slope_alpha: first.value / critical.r,
+            cubic,
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy, the transform that the characteristic equation (30) is made of.
+
+mod panels;
+
+use super::scaled_erfc::scaled_erfc;
+use num_complex::Complex64;
+use panels::Panels;
+use std::f64::consts::{PI, SQRT_2};
+use stickslip_tip::Gaussian;
+use stickslip_tip::TipFunction;
+
+/// Sums of more Gaussians than this are integrated by quadrature: a table has hundreds.
+const MOST_CLOSED_FORMS: usize = 16;
+/// Exponents above this are carried in [`Scaled::log_scale`].
+const LARGEST_EXPONENT: f64 = 300.0;
+/// |Λ| times the largest width below which Λ²f̃ and Λf(0) do not cancel.
+const NEAR_ORIGIN: f64 = 0.5;
+/// An exponent of 1 is rounded by so much of what else rounds e to it: 3 × 2.2e-16 of 3e-14.
+const ROUNDING_OF_EXPONENT: f64 = 0.02;
+
+/// A value and its derivative with respect to Λ, both times e^`log_scale`.
+///
+/// G grows like e^{Λ²w²/2} to the left, beyond the range of floating point at |Λ| ≈ 40/w.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scaled {
+    pub(super) value: Complex64,
+    pub(super) derivative: Complex64,
+    pub(super) log_scale: f64,
+}
+
+/// G for one tip function.
+///
+/// Gaussian sums: closed form by the scaled complementary error function, or, for the many narrow
+/// Gaussians of a table, Gauss-Legendre quadrature. J0: closed form (44), √(Λ²+1) = √(Λ+i)√(Λ-i)
+/// with principal roots, that is, analytic for Re Λ > 0 and continued to the left with cuts that run
+/// from ±i straight to the left.
+#[derive(Debug, Clone)]
+pub(super) struct CurvatureTransform {
+    kind: Kind,
+}
+
+#[derive(Debug, Clone)]
+enum Kind {
+    ClosedForms(Vec<Gaussian>, Origin),
+    Quadrature(Panels, Vec<Gaussian>),
+    Bessel,
+}
+
+impl CurvatureTransform {
+    pub(super) fn new(tip: &TipFunction) -> Self {
+        let kind = match tip {
+            TipFunction::Bessel => Kind::Bessel,
+            TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
+                Kind::ClosedForms(sum.terms().to_vec(), Origin::of(sum.terms()))
+            }
+            TipFunction::Gaussians(sum) => {
+                Kind::Quadrature(Panels::new(sum.terms(), tip.band()), sum.terms().to_vec())
+            }
+        };
+        Self { kind }
+    }
+
+    /// Whether G comes from closed forms, so that its real part on the axis is best had from f̂.
+    pub(super) fn is_closed_form(&self) -> bool {
+        !matches!(self.kind, Kind::Quadrature(..))
+    }
+
+    /// G(Λ) and G'(Λ).
+    pub(super) fn at(&self, lambda: Complex64) -> Scaled {
+        match &self.kind {
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => origin.at(terms, lambda),
+            Kind::ClosedForms(terms, _) => closed_forms(terms, lambda),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
+            Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
+            Kind::Bessel => bessel(lambda),
+        }
+    }
+
+    /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
+    ///
+    /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
+    /// times what they leave.
+    pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        match &self.kind {
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+                origin.size(terms, lambda)
+            }
+            Kind::ClosedForms(terms, _) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
+            Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
+            Kind::Bessel => bessel(lambda).value.norm(),
+        }
+    }
+}
+
+/// Σ over Gaussians of Λ²f̃ - Λf(0) - f'(0). With z = (Λw² - c)/(w√2) and R of [`scaled_erfc`], one of
+/// them contributes, free of the cancellation between these three,
+///
+/// ```text
+///     a e^{-c²/2w²} [ (Λ + c/w²) R(z) + (c²/w³) √(π/2) erfcx(z) ]
+/// ```
+///
+/// and where Re z < 0, the same with erfcx(z), R(z) replaced by -erfcx(-z), R(-z), plus
+/// a w √(2π) Λ² exp(Λ²w²/2 - cΛ).
+fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
+    let largest = terms
+        .iter()
+        .filter(|g| is_left(g, lambda))
+        .map(|g| exponent(g, lambda).re)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
+    let down = (-log_scale).exp();
+    let mut value = Complex64::ZERO;
+    let mut derivative = Complex64::ZERO;
+    for g in terms {
+        let (v, d) = algebraic_part(g, lambda);
+        value += v * down;
+        derivative += d * down;
+        if is_left(g, lambda) {
+            let growth = two_sided(g, lambda, log_scale);
+            value += growth * lambda * lambda;
+            derivative +=
+                growth * lambda * (2.0 + lambda * (lambda * (g.width * g.width) - g.center));
+        }
+    }
+    Scaled { value, derivative, log_scale }
+}
+
+/// Where Λ is small against 1/width: Λ(Λf̃ - f(0)), whose terms do not cancel there. Those of the bracket
+/// above are of the size of f'(0) of each Gaussian, while G falls like Λ.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    radius: f64,
+    height: f64,
+    /// Σ of the sizes of what `height` adds up.
+    size: f64,
+}
+
+impl Origin {
+    fn of(terms: &[Gaussian]) -> Self {
+        let height = |g: &Gaussian| g.amplitude * (-0.5 * (g.center / g.width).powi(2)).exp();
+        Self {
+            radius: NEAR_ORIGIN / terms.iter().map(|g| g.width).fold(0.0, f64::max),
+            height: terms.iter().map(height).sum(),
+            size: terms.iter().map(|g| height(g).abs()).sum(),
+        }
+    }
+
+    fn is_near(&self, lambda: Complex64) -> bool {
+        lambda.norm_sqr() < self.radius * self.radius
+    }
+
+    fn at(&self, terms: &[Gaussian], lambda: Complex64) -> Scaled {
+        let (mut transform, mut slope) = (Complex64::ZERO, Complex64::ZERO);
+        for g in terms {
+            let (value, derivative) = laplace(g, lambda);
+            transform += value;
+            slope += derivative;
+        }
+        let bracket = lambda * transform - self.height;
+        let derivative = bracket + lambda * (transform + lambda * slope);
+        Scaled { value: lambda * bracket, derivative, log_scale: 0.0 }
+    }
+
+    fn size(&self, terms: &[Gaussian], lambda: Complex64) -> f64 {
+        let transform: f64 = terms.iter().map(|g| laplace(g, lambda).0.norm()).sum();
+        lambda.norm() * (lambda.norm() * transform + self.size)
+    }
+}
+
+/// f̃ = a w √(π/2) e^{-c²/2w²} erfcx(z) of one Gaussian, and its derivative.
+fn laplace(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
+    let (c, w) = (g.center, g.width);
+    let z = (lambda * w - c / w) / SQRT_2;
+    let at_origin = (-0.5 * (c / w).powi(2)).exp();
+    let scale = g.amplitude * w * (PI / 2.0).sqrt();
+    // erfcx' = 2z erfcx - 2/√π = 2R/√π
+    let (k, remainder) = scaled_erfc(if z.re < 0.0 { -z } else { z });
+    let edge = remainder * (SQRT_2 * w / PI.sqrt()) * at_origin;
+    if z.re >= 0.0 {
+        return (k * at_origin * scale, edge * scale);
+    }
+    let growth = exponent(g, lambda).exp() * 2.0;
+    let value = growth - k * at_origin;
+    (value * scale, (growth * (lambda * (w * w) - c) + edge) * scale)
+}
+
+/// Λ²w²/2 - cΛ
+fn exponent(g: &Gaussian, lambda: Complex64) -> Complex64 {
+    lambda * (lambda * (0.5 * g.width * g.width) - g.center)
+}
+
+/// Σ|terms| of [`exponent`].
+fn exponent_size(g: &Gaussian, lambda: Complex64) -> f64 {
+    0.5 * lambda.norm_sqr() * g.width * g.width + lambda.norm() * g.center.abs()
+}
+
+/// Re z < 0
+fn is_left(g: &Gaussian, lambda: Complex64) -> bool {
+    lambda.re * g.width * g.width < g.center
+}
+
+/// a w √(2π) exp(Λ²w²/2 - cΛ) e^{-`log_scale`}
+fn two_sided(g: &Gaussian, lambda: Complex64, log_scale: f64) -> Complex64 {
+    (exponent(g, lambda) - log_scale).exp() * (g.amplitude * g.width * (2.0 * PI).sqrt())
+}
+
+/// Σ|terms| of [`closed_forms`].
+fn size_of_closed_forms(terms: &[Gaussian], lambda: Complex64, log_scale: f64) -> f64 {
+    let down = (-log_scale).exp();
+    let size = |g: &Gaussian| {
+        let algebraic = algebraic_part(g, lambda).0.norm() * down;
+        if !is_left(g, lambda) {
+            return algebraic;
+        }
+        let (squared, rounded) = (lambda.norm_sqr(), exponent_size(g, lambda));
+        let rounding = 1.0 + ROUNDING_OF_EXPONENT * rounded;
+        algebraic + two_sided(g, lambda, log_scale).norm() * squared * rounding
+    };
+    terms.iter().map(size).sum()
+}
+
+/// The bracket above with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
+/// erfcx' = 2R/√π, R' = √π erfcx + 2zR (the same in both half-planes).
+fn algebraic_part(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
+    let (c, w) = (g.center, g.width);
+    let at_origin = g.amplitude * (-0.5 * (c / w).powi(2)).exp();
+    if at_origin.abs() < f64::MIN_POSITIVE {
+        return (Complex64::ZERO, Complex64::ZERO);
+    }
+    let z = (lambda * w - c / w) / SQRT_2;
+    let (k, remainder) = if z.re < 0.0 {
+        let (k, remainder) = scaled_erfc(-z);
+        (-k, remainder)
+    } else {
+        scaled_erfc(z)
+    };
+    let shifted = lambda + c / (w * w);
+    let lobe = (c / w).powi(2) / w * (PI / 2.0).sqrt();
+    let remainder_slope = k * PI.sqrt() + z * remainder * 2.0;
+    let value = shifted * remainder + k * lobe;
+    let derivative = remainder
+        + (shifted * remainder_slope + remainder * (2.0 / PI.sqrt() * lobe)) * (w / SQRT_2);
+    (value * at_origin, derivative * at_origin)
+}
+
+/// G = Λ²/√(Λ²+1) - Λ = -Λ/(s(s + Λ)) with s = √(Λ²+1), (44).
+fn bessel(lambda: Complex64) -> Scaled {
+    let s = bessel_root(lambda);
+    // s - Λ = 1/(s + Λ) avoids the cancellation where they are close, which is where s ≈ Λ.
+    let difference = if (s + lambda).norm_sqr() > 1.0 { (s + lambda).inv() } else { s - lambda };
+    let value = -lambda * difference / s;
+    let derivative = lambda * (lambda * lambda + 2.0) / (s * s * s) - 1.0;
+    Scaled { value, derivative, log_scale: 0.0 }
+}
+
+/// √(Λ²+1), positive for positive Λ, with cuts from ±i straight to the left.
+pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
+    (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_derivative_agrees_with_differences() {
+        let tips = [
+            TipFunction::gaussian(1.0).unwrap(),
+            TipFunction::triple_gaussian(0.7, 0.4).unwrap(),
+            TipFunction::Bessel,
+        ];
+        let points = [(0.0, 0.75), (0.3, 0.2), (-2.0, 1.0), (-3.5, 0.3), (4.0, 7.0), (0.0, 3.0)];
+        for tip in &tips {
+            let transform = CurvatureTransform::new(tip);
+            for lambda in points.map(|(re, im)| Complex64::new(re, im)) {
+                let at = |h: f64| transform.at(lambda + h).value;
+                let h = 1e-3;
+                let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
+                let g = transform.at(lambda);
+                assert!(
+                    (difference - g.derivative).norm() < 1e-9 * g.derivative.norm(),
+                    "{tip:?} {lambda}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Maxima and minima of l(t), the latest of them.
+
+use crate::collocation::{RADAU, STAGES, apply};
+use crate::roots::zero_between;
+use crate::state::{Damaged, Reader, State};
+use crate::{Step, Trajectory};
+use std::collections::VecDeque;
+
+/// A time and the value of l there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremum {
+    /// In Γ/k.
+    pub t: f64,
+    /// l there, in σ.
+    pub l: f64,
+    /// Whether l falls on both sides.
+    pub is_maximum: bool,
+}
+
+/// Where in a step an extremum lies: it is found more exactly only where it is needed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    pub step: Step,
+    /// Fractions of the step.
+    between: (f64, f64),
+    is_maximum: bool,
+}
+
+/// The latest extrema of l, in order.
+#[derive(Debug, Clone, Default)]
+pub struct Extrema {
+    latest: VecDeque<Turn>,
+}
+
+/// So many are enough to compare three cycles of up to eight slips.
+const MOST: usize = 64;
+
+impl Extrema {
+    /// Adds those of a step; says whether there were any.
+    pub fn observe(&mut self, step: &Step, r: f64) -> bool {
+        let mut found = false;
+        turns(step, r, |turn| {
+            self.latest.push_back(turn);
+            found = true;
+        });
+        while self.latest.len() > MOST {
+            self.latest.pop_front();
+        }
+        found
+    }
+
+    /// Forgets those of steps before t.
+    pub fn forget_before(&mut self, t: f64) {
+        while self.latest.front().is_some_and(|turn| turn.step.t < t) {
+            self.latest.pop_front();
+        }
+    }
+
+    /// The earliest one kept, if as many are kept as are needed.
+    pub fn earliest_needed(&self) -> Option<&Turn> {
+        self.latest.front().filter(|_| self.latest.len() == MOST)
+    }
+
+    /// All that are kept, latest first.
+    pub fn latest_first(&self, r: f64) -> Vec<Extremum> {
+        self.latest.iter().rev().map(|turn| turn.extremum(r)).collect()
+    }
+
+    /// Writes down all that it holds.
+    pub fn save(&self, state: &mut State) {
+        state.count(self.latest.len() as u64);
+        for turn in &self.latest {
+            state.step(&turn.step);
+            state.number(turn.between.0);
+            state.number(turn.between.1);
+            state.flag(turn.is_maximum);
+        }
+    }
+
+    /// Takes up what [`save`](Self::save) wrote.
+    ///
+    /// # Errors
+    /// A state of something else.
+    pub fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        let one = |state: &mut Reader| {
+            let (step, between) = (state.step()?, (state.finite()?, state.finite()?));
+            Ok(Turn { step, between, is_maximum: state.flag()? })
+        };
+        self.latest = (0..state.length(1)?).map(|_| one(state)).collect::<Result<_, _>>()?;
+        Ok(())
+    }
+}
+
+/// The last extrema of a trajectory, latest first.
+pub fn latest_extrema(trajectory: &Trajectory) -> Vec<Extremum> {
+    let mut extrema = Extrema::default();
+    for step in trajectory.steps() {
+        extrema.observe(step, trajectory.r());
+    }
+    extrema.latest_first(trajectory.r())
+}
+
+impl Turn {
+    fn extremum(&self, r: f64) -> Extremum {
+        let Self { step, between, is_maximum } = *self;
+        let at_nodes = apply(&RADAU.derivative, &step.displacement);
+        let l_slope = |tau: f64| r - RADAU.between(&at_nodes, tau) / step.h;
+        let t = step.t + zero_between(l_slope, between.0, between.1) * step.h;
+        Extremum { t, l: step.l(r, t), is_maximum }
+    }
+}
+
+/// Where l' = r - x0' changes sign between collocation nodes of the step.
+fn turns(step: &Step, r: f64, mut found: impl FnMut(Turn)) {
+    let at_start: f64 =
+        (0..STAGES).map(|j| RADAU.derivative_at_start[j] * step.displacement[j]).sum();
+    let mut before = (0.0, r - at_start / step.h);
+    for (c, moving) in RADAU.c.iter().zip(apply(&RADAU.derivative, &step.displacement)) {
+        let after = (*c, r - moving / step.h);
+        if before.1 * after.1 < 0.0 {
+            found(Turn { step: *step, between: (before.0, *c), is_maximum: before.1 > 0.0 });
+        }
+        before = after;
+    }
+}

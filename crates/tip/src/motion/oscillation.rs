@@ -1,0 +1,80 @@
+//! Period and amplitude of a motion that repeats itself.
+
+use super::extrema::Extremum;
+use crate::Trajectory;
+use crate::roots::zero_between;
+
+/// The periodic motion at the end of a run. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillation {
+    /// Period of l(t).
+    pub period: f64,
+    /// Wavelength of the surface behind the tip: the way of the support in one period.
+    pub wavelength: f64,
+    /// Half peak-to-peak of l, that is of x0 less its steady advance.
+    pub amplitude_x0: f64,
+    /// Maxima of l in one period: 2 after a period doubling.
+    pub slips: usize,
+    /// Largest change of a maximum of l from one period to the next, over the amplitude: how far the
+    /// motion still is from repeating itself.
+    pub drift: f64,
+    /// Time at which the last whole period begins.
+    pub last_period_from: f64,
+}
+
+/// Changes from cycle to cycle below this fraction of the amplitude count as repetition.
+const REPEATS_WITHIN: f64 = 1e-3;
+const MOST_SLIPS: usize = 8;
+/// Cycles that must repeat each other.
+const CYCLES: usize = 3;
+
+impl Oscillation {
+    /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
+    pub fn of(trajectory: &Trajectory, latest_first: &[Extremum]) -> Option<Self> {
+        let maxima: Vec<_> = latest_first.iter().filter(|e| e.is_maximum).copied().collect();
+        (1..=MOST_SLIPS)
+            .find_map(|slips| Self::with_slips(trajectory, latest_first, &maxima, slips))
+    }
+
+    fn with_slips(
+        trajectory: &Trajectory,
+        latest_first: &[Extremum],
+        maxima: &[Extremum],
+        slips: usize,
+    ) -> Option<Self> {
+        let compared = maxima.get(..CYCLES * slips + 1)?;
+        let (last, before) = (compared[0], compared[slips]);
+        let cycle = latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
+        let (low, high) = cycle.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| {
+            (low.min(e.l), high.max(e.l))
+        });
+        let amplitude_x0 = 0.5 * (high - low);
+        let rough = last.t - before.t;
+        let pairs = compared.iter().zip(&compared[slips..]);
+        let drift =
+            pairs.clone().map(|(a, b)| (a.l - b.l).abs()).fold(0.0, f64::max) / amplitude_x0;
+        let uneven = pairs.map(|(a, b)| (a.t - b.t - rough).abs()).fold(0.0, f64::max);
+        if drift > REPEATS_WITHIN || uneven > REPEATS_WITHIN * rough {
+            return None;
+        }
+        // A crossing of the mean level is better defined than the time of a flat maximum.
+        let middle = 0.5 * (high + low);
+        let crossing = |e: &Extremum| last_rise_through(trajectory, latest_first, middle, e.t);
+        let (end, start) = (crossing(&last)?, crossing(&before)?);
+        let period = end - start;
+        let wavelength = trajectory.r() * period;
+        Some(Self { period, wavelength, amplitude_x0, slips, drift, last_period_from: start })
+    }
+}
+
+/// The last time before t at which l rises through a level.
+fn last_rise_through(
+    trajectory: &Trajectory,
+    latest_first: &[Extremum],
+    level: f64,
+    t: f64,
+) -> Option<f64> {
+    let earlier: Vec<_> = latest_first.iter().filter(|e| e.t <= t).collect();
+    let rise = earlier.windows(2).find(|e| e[0].l > level && e[1].l <= level)?;
+    Some(zero_between(|t| trajectory.l(t) - level, rise[1].t, rise[0].t))
+}

@@ -1,0 +1,230 @@
+//! SI quantities to the dimensionless numbers of the model, and back.
+//!
+//! A tip of width σ and friction Γ on a spring k, dragged at v0, indents at the rate N and is pushed
+//! down slopes with strength a, (1) to (7). In units of σ and Γ/k
+//!
+//! ```text
+//!     r = Γ v0/(kσ)    (12)        α = Γ N a/(σ²k²)    (13)        D = (Γ v0 + N a/v0)/k    (23)
+//! ```
+
+mod quantity;
+
+pub use quantity::Unit;
+
+use stickslip_stability::{StabilityError, critical, critical_r};
+use stickslip_tip::{Model, ModelError, TipFunction};
+use thiserror::Error;
+
+/// What is measured, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Physical {
+    /// Γ in kg/s: friction of the tip, (1).
+    pub damping: f64,
+    /// k in N/m: spring constant, (3).
+    pub stiffness: f64,
+    /// σ in m: width of the tip, (7).
+    pub tip_width: f64,
+    /// N in m/s: indentation rate, (7).
+    pub indentation_rate: f64,
+    /// a in N: force per slope, (4).
+    pub slope_force: f64,
+    /// v0 in m/s: velocity of the support, (3).
+    pub velocity: f64,
+}
+
+/// What one unit of the model is in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// σ in m, for x, l and x0.
+    pub length: f64,
+    /// Γ/k in s.
+    pub time: f64,
+    /// kσ²/a in m, for the surface u.
+    pub height: f64,
+    /// kσ in N, for Fext.
+    pub force: f64,
+}
+
+/// Why SI quantities were refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum UnitsError {
+    /// Not a number with a unit.
+    #[error("`{text}` is not a quantity in {unit}: write a number and a unit, such as {example}")]
+    Syntax {
+        /// As given.
+        text: String,
+        /// What was expected.
+        unit: Unit,
+        /// One that will do.
+        example: &'static str,
+    },
+    /// A quantity that must be positive.
+    #[error("{name} is {value} in SI units: it must be a finite number > 0")]
+    NotPositive {
+        /// Which.
+        name: &'static str,
+        /// As given.
+        value: f64,
+    },
+    /// The dimensionless numbers are out of range.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// No critical point.
+    #[error(transparent)]
+    Stability(#[from] StabilityError),
+}
+
+impl Physical {
+    /// # Errors
+    /// [`UnitsError::NotPositive`]; N may be 0.
+    pub fn validated(self) -> Result<Self, UnitsError> {
+        let positive = [
+            ("the damping Γ", self.damping),
+            ("the spring constant k", self.stiffness),
+            ("the tip width σ", self.tip_width),
+            ("the slope force a", self.slope_force),
+            ("the velocity v0", self.velocity),
+        ];
+        for (name, value) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(UnitsError::NotPositive { name, value });
+            }
+        }
+        if !(self.indentation_rate.is_finite() && self.indentation_rate >= 0.0) {
+            let (name, value) = ("the indentation rate N", self.indentation_rate);
+            return Err(UnitsError::NotPositive { name, value });
+        }
+        Ok(self)
+    }
+
+    /// r, (12).
+    #[must_use]
+    pub fn r(&self) -> f64 {
+        self.damping * self.velocity / (self.stiffness * self.tip_width)
+    }
+
+    /// α, (13).
+    #[must_use]
+    pub fn alpha(&self) -> f64 {
+        self.damping * self.indentation_rate * self.slope_force
+            / (self.tip_width * self.stiffness).powi(2)
+    }
+
+    /// The dimensionless model with this tip function.
+    ///
+    /// # Errors
+    /// α or r beyond the range of floating point.
+    pub fn model(&self, tip: TipFunction) -> Result<Model, UnitsError> {
+        Ok(Model::new(tip, self.alpha(), self.r())?)
+    }
+
+    /// D in m, (23): by how much the tip lags behind the support in steady motion. The paper's Na/v0 is
+    /// N a f(0)/v0 where f(0) is not 1.
+    #[must_use]
+    pub fn lag(&self, tip: &TipFunction) -> f64 {
+        let groove = self.indentation_rate * self.slope_force * tip.value(0.0) / self.velocity;
+        (self.damping * self.velocity + groove) / self.stiffness
+    }
+
+    /// SI values of the model's units.
+    #[must_use]
+    pub fn scales(&self) -> Scales {
+        Scales {
+            length: self.tip_width,
+            time: self.damping / self.stiffness,
+            height: self.stiffness * self.tip_width.powi(2) / self.slope_force,
+            force: self.stiffness * self.tip_width,
+        }
+    }
+
+    /// The indentation rate N in m/s at which stick-slip sets in, all else as it is.
+    ///
+    /// # Errors
+    /// As [`critical`].
+    pub fn critical_indentation_rate(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
+        let alpha = critical(tip, self.r())?.alpha;
+        Ok(self.with_alpha_r(alpha, self.r()).indentation_rate)
+    }
+
+    /// The velocity v0 in m/s below which stick-slip sets in, all else as it is.
+    ///
+    /// # Errors
+    /// As [`critical_r`].
+    pub fn critical_velocity(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
+        let r = critical_r(tip, self.alpha())?.r;
+        Ok(self.with_alpha_r(self.alpha(), r).velocity)
+    }
+
+    /// The way back: N and v0 that give α and r, with Γ, k, σ and a as they are.
+    #[must_use]
+    pub fn with_alpha_r(&self, alpha: f64, r: f64) -> Self {
+        let stiffness_length = self.stiffness * self.tip_width;
+        Self {
+            indentation_rate: alpha * stiffness_length * stiffness_length
+                / (self.damping * self.slope_force),
+            velocity: r * stiffness_length / self.damping,
+            ..*self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, wanted: f64) {
+        assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{found} for {wanted}");
+    }
+
+    fn example() -> Physical {
+        Physical {
+            damping: 1e-6,
+            stiffness: 0.5,
+            tip_width: 50e-9,
+            indentation_rate: 20e-9,
+            slope_force: 30e-9,
+            velocity: 1e-6,
+        }
+    }
+
+    /// (12), (13), (23) worked out by hand for the example.
+    #[test]
+    fn dimensionless_numbers_follow_their_definitions() {
+        let physical = example().validated().unwrap();
+        close(physical.r(), 4e-5);
+        close(physical.alpha(), 9.6e-7);
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        close(physical.lag(&tip), 1.2e-9 + 2e-12);
+        // The same lag from the model: r + l0, in units of σ.
+        let model = physical.model(tip).unwrap();
+        close(model.steady_lag() * physical.scales().length, 1.202e-9);
+    }
+
+    #[test]
+    fn the_way_back_gives_the_quantities_again() {
+        let there = example();
+        let back = Physical { indentation_rate: 1.0, velocity: 1.0, ..there }
+            .with_alpha_r(there.alpha(), there.r());
+        close(back.indentation_rate, there.indentation_rate);
+        close(back.velocity, there.velocity);
+    }
+
+    #[test]
+    fn at_the_critical_rate_and_velocity_the_model_is_critical() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let physical = example().with_alpha_r(0.9, 0.7);
+        let rate = physical.critical_indentation_rate(&tip).unwrap();
+        let at = Physical { indentation_rate: rate, ..physical };
+        close(at.alpha(), critical(&tip, at.r()).unwrap().alpha);
+        let velocity = physical.critical_velocity(&tip).unwrap();
+        let at = Physical { velocity, ..physical };
+        assert!((critical(&tip, at.r()).unwrap().alpha / at.alpha() - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn a_quantity_that_is_not_positive_is_named() {
+        let wrong = Physical { stiffness: 0.0, ..example() };
+        let error = wrong.validated().unwrap_err();
+        assert!(error.to_string().contains("spring constant k is 0"), "{error}");
+    }
+}

@@ -1,0 +1,148 @@
+//! Quantities as people write them: a number, a prefix and a unit.
+
+use crate::UnitsError;
+
+/// The units that quantities are read in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// kg/s, or N·s/m
+    Damping,
+    /// N/m
+    Stiffness,
+    /// m
+    Length,
+    /// m/s
+    Velocity,
+    /// N
+    Force,
+}
+
+impl std::fmt::Display for Unit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.spellings()[0])
+    }
+}
+
+impl Unit {
+    fn spellings(self) -> &'static [&'static str] {
+        match self {
+            Self::Damping => &["kg/s", "Ns/m", "N s/m", "N*s/m", "N·s/m"],
+            Self::Stiffness => &["N/m"],
+            Self::Length => &["m"],
+            Self::Velocity => &["m/s"],
+            Self::Force => &["N"],
+        }
+    }
+
+    fn example(self) -> &'static str {
+        match self {
+            Self::Damping => "20ug/s or 1e-8kg/s",
+            Self::Stiffness => "0.5N/m",
+            Self::Length => "50nm",
+            Self::Velocity => "1um/s",
+            Self::Force => "10nN",
+        }
+    }
+
+    /// The value in SI units of a number with this unit and prefixes, such as `50nm`, `0.5 N/m`,
+    /// `1um/s`, `3µm/s` or `2mN/mm`. A bare number is taken to be in SI units.
+    ///
+    /// # Errors
+    /// [`UnitsError::Syntax`].
+    pub fn parse(self, text: &str) -> Result<f64, UnitsError> {
+        let error =
+            || UnitsError::Syntax { text: text.to_owned(), unit: self, example: self.example() };
+        let trimmed = text.trim();
+        let (number, suffix) = number_and_suffix(trimmed).ok_or_else(error)?;
+        if suffix.is_empty() {
+            return Ok(number);
+        }
+        let scale = self.spellings().iter().find_map(|unit| scale_of(suffix, unit));
+        scale.map(|scale| number * scale).filter(|v| v.is_finite()).ok_or_else(error)
+    }
+}
+
+/// The longest start of `text` that reads as a finite number, and what follows it.
+fn number_and_suffix(text: &str) -> Option<(f64, &str)> {
+    let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
+    let end = text.find(|c| !plain(c)).unwrap_or(text.len());
+    (1..=end).rev().find_map(|end| {
+        let number: f64 = text[..end].parse().ok()?;
+        number.is_finite().then(|| (number, text[end..].trim_start()))
+    })
+}
+
+/// The factor that turns `suffix` into `unit`: a prefix before the numerator, and before the
+/// denominator, where there is one.
+fn scale_of(suffix: &str, unit: &str) -> Option<f64> {
+    match (suffix.split_once('/'), unit.split_once('/')) {
+        (Some((above, below)), Some((unit_above, unit_below))) => {
+            Some(prefixed(above.trim(), unit_above)? / prefixed(below.trim(), unit_below)?)
+        }
+        (None, None) => prefixed(suffix, unit),
+        _ => None,
+    }
+}
+
+/// The factor of an SI prefix before `unit`. Grams are taken as 1e-3 kg.
+fn prefixed(text: &str, unit: &str) -> Option<f64> {
+    if unit == "kg" {
+        return Some(prefixed(text, "g")? * 1e-3);
+    }
+    // The prefix of a product is that of its first factor, and of a second, that of the unit.
+    match text.strip_suffix(unit)? {
+        "" => Some(1.0),
+        "f" => Some(1e-15),
+        "p" => Some(1e-12),
+        "n" => Some(1e-9),
+        "u" | "µ" | "μ" => Some(1e-6),
+        "m" => Some(1e-3),
+        "c" => Some(1e-2),
+        "k" => Some(1e3),
+        "M" => Some(1e6),
+        "G" => Some(1e9),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, wanted: f64) {
+        assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{found} for {wanted}");
+    }
+
+    #[test]
+    fn quantities_are_read_with_prefixes() {
+        let read = [
+            (Unit::Length, "50nm", 50e-9),
+            (Unit::Length, " 0.05 µm ", 50e-9),
+            (Unit::Length, "5e-8m", 50e-9),
+            (Unit::Length, "5e-8", 50e-9),
+            (Unit::Stiffness, "0.5N/m", 0.5),
+            (Unit::Stiffness, "0.5 nN/nm", 0.5),
+            (Unit::Stiffness, "500mN/m", 0.5),
+            (Unit::Velocity, "1um/s", 1e-6),
+            (Unit::Velocity, "2mm/ms", 2.0),
+            (Unit::Force, "10nN", 1e-8),
+            (Unit::Force, "-3pN", -3e-12),
+            (Unit::Damping, "20ug/s", 2e-8),
+            (Unit::Damping, "1e-8kg/s", 1e-8),
+            (Unit::Damping, "1uNs/m", 1e-6),
+            (Unit::Damping, "1 mN s/m", 1e-3),
+        ];
+        for (unit, text, wanted) in read {
+            close(unit.parse(text).unwrap(), wanted);
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        for text in ["", "nm", "50 apples", "50N", "50nm/s", "1e999m", "NaN m", "inf"] {
+            assert!(Unit::Length.parse(text).is_err(), "{text}");
+        }
+        let message = Unit::Length.parse("50 apples").unwrap_err().to_string();
+        assert!(message.contains("50 apples") && message.contains("50nm"), "{message}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Figures: from a document to a figure as data, and from that to SVG, PNG and PDF.
 //!
-//! [`of`] makes the figure of any saved document, a [`FigureDocument`]: panels of curves, maps and cells with
+//! [`of`] makes the figure of any saved document, a `FigureDocument`: panels of curves, maps and cells with
 //! their axes, which can be saved and drawn again. [`draw`] makes the bytes of a file of it, [`svg`] an SVG
 //! document. Nothing here knows of files or arguments. The same document gives the same bytes.
 //!
@@ -10,6 +10,7 @@
 mod axis;
 mod cells;
 mod colours;
+mod compose;
 mod curve;
 mod encode;
 mod error;
@@ -33,6 +34,7 @@ mod ticks;
 #[cfg(any(feature = "png", feature = "pdf"))]
 mod vector;
 
+pub use compose::{Drawn, FORMATS, View, judge_sweep, of, onset_of, saved};
 pub use encode::{draw, svg};
 pub use error::FigureError;
 pub use format::FigureFormat;

@@ -19,6 +19,7 @@ use stickslip_documents::{
 };
 
 pub use boundary::onset_of;
+pub use sweep::judge_sweep;
 
 /// What is asked of a figure beyond what its document says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,17 +1,18 @@
 //! A run: spring, velocity, force, surface.
 
+mod ground;
+
 use super::dense::{Part, Quantity};
 use super::tip::model_name;
 use super::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
+use ground::{Ground, MARGIN};
 use stickslip_documents::{
-    CurveDocument, FigureDocument, NoteDocument, PanelDocument, RunDocument, StyleName,
+    CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters, StyleName,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Trajectory};
-
-mod ground;
 
 pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x_0 (σ)");
 pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ_0 (kσ/Γ)");
@@ -31,7 +32,6 @@ impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model.clone();
         let mut figure = FigureDocument::new("run", &title(self), vec![model]);
-        let scenario = self.parameters.scenario()?;
         if self.history.is_none() {
             figure.remarks.push("drawn from the samples: without its history, a run has no more".into());
             figure.panels = sampled(self);
@@ -41,47 +41,61 @@ impl Drawn for RunDocument {
         let part = Part::of(&trajectory, view.x_range);
         let r = trajectory.r();
         let (l, velocity) = (move |step: &Step, t| step.l(r, t), |step: &Step, t| step.velocity(t));
-        let oscillations = part.maxima(&l);
+        let shown = Shown::of(self, part, &l);
         let steady = self.steady_state.l;
-        let quantities: [(_, Quantity, _, _); 2] = [
-            (L, &l, "l(t)", (steady, format!("steady state, l_0 = {}", short(steady)))),
-            (VELOCITY, &velocity, "ẋ_0(t)", (r, format!("support, r = {}", short(r)))),
+        let mut rows = vec![
+            shown.motion(&trajectory, (L, &l, "l(t)"), (steady, format!("steady state, l_0 = {}", short(steady)))),
+            shown.motion(&trajectory, (VELOCITY, &velocity, "ẋ_0(t)"), (r, format!("support, r = {}", short(r)))),
         ];
-        let many = oscillations > MANY;
-        let period = self.oscillation.as_ref().map(|o| o.period);
-        let period = period.unwrap_or((part.span.1 - part.span.0) / oscillations.max(1) as f64);
-        for (labels, of, name, (constant, constant_name)) in quantities {
-            let whole = if many {
-                part.envelope(&format!("{name}, from lowest to highest"), of, oscillations)
-            } else {
-                part.line(name, of)
-            };
-            figure.panels.push(against(labels, whole, constant, &constant_name));
-            if many {
-                let last = part.tail(&trajectory, SHOWN * period);
-                let mut panel = against((labels.0, ""), last.line("the end", of), constant, "");
-                panel.x_range = Some([last.span.0, last.span.1]);
-                figure.panels.push(panel);
-            }
-        }
-        let columns = if many { 3 } else { 1 };
-        if let Some(force) = force(&scenario, part.span) {
-            figure.panels.push(force);
-        }
-        figure.panels.extend(surfaces(&scenario, &trajectory, part, many.then_some(period))?);
-        figure.columns = columns;
-        for (i, panel) in figure.panels.iter_mut().enumerate() {
-            // Of each pair the first is the wider one; a force stands alone.
-            panel.span = match (many, panel.y_label.as_str()) {
-                (false, _) | (true, "") => 1,
-                (true, _) => 2,
-            };
-            if panel.y_label == FORCE.1 {
-                panel.span = columns;
-            }
-            let _ = i;
+        rows.extend(force(&self.parameters, part.span).map(|panel| (panel, None)));
+        rows.push(surfaces(&self.parameters.scenario()?, &trajectory, shown)?);
+        figure.columns = if shown.detail.is_some() { COLUMNS } else { 1 };
+        for (mut whole, detail) in rows {
+            whole.span = if detail.is_some() { COLUMNS - 1 } else { figure.columns };
+            figure.panels.push(whole);
+            figure.panels.extend(detail);
         }
         Ok(figure)
+    }
+}
+
+/// Columns of a figure of two: the whole is wider than the detail.
+const COLUMNS: usize = 3;
+
+/// What of a run is shown, and the length in time of the detail beside it if its oscillations are many.
+#[derive(Debug, Clone, Copy)]
+struct Shown<'a> {
+    part: Part<'a>,
+    oscillations: usize,
+    detail: Option<f64>,
+}
+
+/// The whole, and the end of it beside it.
+type Row = (PanelDocument, Option<PanelDocument>);
+
+impl<'a> Shown<'a> {
+    fn of(run: &RunDocument, part: Part<'a>, l: Quantity) -> Self {
+        let oscillations = part.maxima(l);
+        let mean = (part.span.1 - part.span.0) / oscillations.max(1) as f64;
+        let period = run.oscillation.as_ref().map_or(mean, |o| o.period);
+        Self { part, oscillations, detail: (oscillations > MANY).then_some(SHOWN * period) }
+    }
+
+    fn motion(
+        &self,
+        trajectory: &Trajectory,
+        (labels, of, name): ((&str, &str), Quantity, &str),
+        (constant, constant_name): (f64, String),
+    ) -> Row {
+        let Some(length) = self.detail else {
+            return (against(labels, self.part.line(name, of), constant, &constant_name), None);
+        };
+        let name = format!("{name}, lowest to highest");
+        let band = self.part.envelope(&name, of, self.oscillations);
+        let end = self.part.tail(trajectory, length);
+        let mut detail = against((labels.0, ""), end.line("at the end", of), constant, "");
+        detail.x_range = Some([end.span.0, end.span.1]);
+        (against(labels, band, constant, &constant_name), Some(detail))
     }
 }
 
@@ -119,17 +133,17 @@ fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
 }
 
 /// The force, if there is one.
-fn force(scenario: &Scenario, (from, to): (f64, f64)) -> Option<PanelDocument> {
-    let force = &scenario.force;
-    if force.is_none() {
+fn force(run: &RunParameters, (from, to): (f64, f64)) -> Option<PanelDocument> {
+    if run.pulses.is_empty() && run.force.is_none() {
         return None;
     }
+    let force = run.scenario().ok()?.force;
     let evenly = |from: f64, to: f64, n: usize| {
         (0..=n).map(move |i| from + (to - from) * i as f64 / n as f64)
     };
-    let near = |time: f64, width: f64| evenly(time - 5.0 * width, time + 5.0 * width, PULSE_POINTS);
-    let pulses = force.pulses().iter().flat_map(|pulse| near(pulse.time, pulse.width));
-    let table = force.table().map_or(&[][..], |(t, _)| t).iter().copied();
+    let near = |p: &PulseParameters| evenly(p.time - 5.0 * p.width, p.time + 5.0 * p.width, PULSE_POINTS);
+    let table = run.force.iter().flat_map(|table| table.t.iter().copied());
+    let pulses = run.pulses.iter().flat_map(near);
     let mut t: Vec<f64> = evenly(from, to, FORCE_POINTS).chain(pulses).chain(table).collect();
     t.retain(|t| (from..=to).contains(t));
     t.sort_by(f64::total_cmp);
@@ -140,31 +154,18 @@ fn force(scenario: &Scenario, (from, to): (f64, f64)) -> Option<PanelDocument> {
 }
 
 /// The surface at the end of what is shown: all of it, and, where there are many ripples, the last of them.
-fn surfaces(
-    scenario: &Scenario,
-    trajectory: &Trajectory,
-    part: Part,
-    period: Option<f64>,
-) -> Result<Vec<PanelDocument>, FigureError> {
+fn surfaces(scenario: &Scenario, trajectory: &Trajectory, shown: Shown) -> Result<Row, FigureError> {
     let initial = scenario.initial_surface().map_err(|e| FigureError::Damaged(e.to_string()))?;
     let surface = Surface::new(&scenario.model, &initial, trajectory);
-    let end = part.span.1;
-    let tip = trajectory.x0(end);
-    let ground = ground::Ground { surface, start: trajectory.start(), end, tip };
-    let from = trajectory.x0(part.span.0);
-    let (low, high) = (from.min(tip) - ground::MARGIN, from.max(tip) + ground::MARGIN);
-    let Some(period) = period else {
-        return Ok(vec![ground.lines((low, high), true)?]);
+    let (from, end) = shown.part.span;
+    let (from, tip) = (trajectory.x0(from), trajectory.x0(end));
+    let ground = Ground { surface, start: trajectory.start(), end, tip };
+    let all = (from.min(tip) - MARGIN, from.max(tip) + MARGIN);
+    let Some(length) = shown.detail else {
+        return Ok((ground.lines(all, true)?, None));
     };
-    let wavelength = period * trajectory.r();
-    let near = (tip - SHOWN * wavelength, tip + ground::MARGIN);
-    Ok(vec![ground.envelope((low, high), wavelength)?, {
-        let mut panel = ground.lines(near, false)?;
-        panel.y_label.clear();
-        panel
-    }])
-}
-
-fn note_at(text: String, place: (f64, f64)) -> NoteDocument {
-    NoteDocument::new(&text, place)
+    let length = length * trajectory.r();
+    let mut detail = ground.lines((tip - length, tip + MARGIN), false)?;
+    detail.y_label.clear();
+    Ok((ground.envelope(all, length / SHOWN, shown.oscillations)?, Some(detail)))
 }

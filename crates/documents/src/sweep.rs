@@ -3,8 +3,8 @@
 use crate::{RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_cycles::{Cycle, Motion};
-use stickslip_outcome::Outcome;
+use stickslip_cycles::Cycle;
+use stickslip_outcome::{Motion, Outcome};
 
 /// What the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

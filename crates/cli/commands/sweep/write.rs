@@ -1,12 +1,12 @@
 //! A sweep on its way out: JSON, columns, picture.
 
-use super::diagram;
 use crate::commands::figure::Figure;
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat, place};
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
+use stickslip_figures::judge_sweep;
 
 /// Where it goes, known to be writable.
 pub(super) struct Writer {
@@ -40,7 +40,7 @@ impl Writer {
     ) -> Result<(), Failure> {
         OutputFormat::of(output)?;
         if plot.is_some() {
-            diagram::judge(parameters)?;
+            judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
         }
         place("--output", output)?;
         Figure::asked("--plot", plot).map(drop)
@@ -56,7 +56,7 @@ impl Writer {
 
     pub(super) fn write(self, document: &SweepDocument) -> Result<(), Failure> {
         if let Some(figure) = self.figure {
-            figure.write(&diagram::draw(&document.parameters, &document.points))?;
+            figure.draw(document)?;
         }
         match self.format {
             OutputFormat::Json => self.output.write_json(document),

@@ -27,3 +27,4 @@ mod supply_chain;
 mod sweep;
 mod verification;
 mod verified_lines;
+mod written_files;

@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
+use crate::message::say;
 use start::Start;
 use std::path::Path;
 use std::time::Instant;
@@ -43,7 +44,7 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     }
     write(&document, format, output)?;
     if arguments.output != Path::new("-") {
-        eprintln!("{}", summary(&document));
+        say(summary(&document));
     }
     Ok(())
 }

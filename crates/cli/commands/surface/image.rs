@@ -3,6 +3,7 @@
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
 use crate::failure::{Failure, Typed};
+use crate::message::say;
 use stickslip_documents::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, TipFunction};
@@ -49,10 +50,10 @@ impl Images {
             } else {
                 "certain for no transverse spring k'".into()
             };
-            eprintln!(
+            say(format_args!(
                 "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
                  may push it off: in steady motion y0 = 0 is stable for {bound}"
-            );
+            ));
         }
     }
 

@@ -323,7 +323,7 @@ impl End<'_> {
 impl Oscillation {
     /// On a cycle, as far off it as the motion is.
     fn on(near: Reference) -> Self {
-        let (error, measured) = (near.error(), near.measured);
+        let (error, measured) = (near.cycle.error(), near.measured);
         let round_off = 4.0 * f64::EPSILON * (measured.last_period_from.abs() + measured.period);
         let period_error =
             (measured.period - near.cycle.period()).abs() + 2.0 * error + round_off;

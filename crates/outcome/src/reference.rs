@@ -8,11 +8,6 @@ use stickslip_tip::{Model, Trajectory};
 const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
-/// Error of period and amplitude over the residual: within a step the motion errs by less than its residual would
-/// make it, at the ends of steps by far less; and what a slow multiplier makes of the latter. Measured against
-/// residuals of 1e-11 from αc + 1e-5 to relaxation, with a margin of ten.
-const ERROR_OVER_RESIDUAL: f64 = 0.1;
-const ERROR_PER_GAP: f64 = 0.01;
 
 /// A cycle beside a motion.
 pub(crate) struct Reference {
@@ -46,8 +41,7 @@ impl Reference {
     pub(crate) fn beside(cycle: Cycle, tail: &Trajectory, extrema: &[Extremum]) -> Option<Self> {
         let measured = Oscillation::with_slips(tail, extrema, cycle.slips())?;
         let off = difference(&cycle, extrema)?;
-        let moduli = cycle.nontrivial_multipliers().map(|m| m.norm());
-        let multiplier = moduli.fold(0.0, f64::max);
+        let multiplier = cycle.leading_multiplier();
         Some(Self { cycle, measured, off, multiplier })
     }
 
@@ -68,12 +62,6 @@ impl Reference {
         let ratio = self.cycle.amplitude_x0() / self.measured.amplitude_x0;
         let away = (ratio * ratio - 1.0).abs().max(2.0 * self.distance());
         ((0.5 * away / near).ln() / -self.multiplier.ln()).max(0.0)
-    }
-
-    /// Error of the period and the amplitude of the cycle.
-    pub(crate) fn error(&self) -> f64 {
-        let gap = self.gap().abs().max(f64::EPSILON);
-        self.cycle.residual() * (ERROR_OVER_RESIDUAL + ERROR_PER_GAP / gap)
     }
 }
 

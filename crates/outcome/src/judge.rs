@@ -22,6 +22,10 @@ const BESIDE: f64 = 0.3;
 const STANDS_STILL: f64 = 0.2;
 /// What the tolerance may displace a cycle by, over the tolerance and the gap of the multiplier.
 const DISPLACED: f64 = 300.0;
+/// Swings below this many widths may be those of linear theory,
+const SMALL: f64 = 0.3;
+/// and are, where they grow or decay at its rate within this part.
+const AS_FORETOLD: f64 = 0.2;
 /// Changes below so many tolerances from period to period are those of the steps.
 const NOISE: f64 = 30.0;
 /// Multipliers closer to the unit circle than this cannot be told from it.
@@ -159,6 +163,9 @@ impl End<'_> {
         if swing <= self.scenario.tolerance && !matches!(self.linear, Linear::Unstable(_)) {
             return None;
         }
+        if self.is_linear() {
+            return None;
+        }
         let Scenario { model, tolerance, .. } = self.scenario;
         let mut unstable: Option<Reference> = None;
         for slips in sequence.likely_slips(SETTLED * swing) {
@@ -175,6 +182,19 @@ impl End<'_> {
             return Some(self.beside_unstable(&unstable));
         }
         self.extrapolated(&sequence)
+    }
+
+    /// Whether small swings about l0 grow or decay as linear theory has it: then no cycle is near.
+    fn is_linear(&self) -> bool {
+        let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
+        let small = SMALL * 8.7 / self.scenario.model.tip().band();
+        let agrees = |expected: f64| (rate / expected - 1.0).abs() < AS_FORETOLD;
+        swing < small
+            && match self.linear {
+                Linear::Stable(slow) => agrees(-slow),
+                Linear::Unstable(fast) => agrees(fast),
+                Linear::Unknown => false,
+            }
     }
 
     /// Near a stable cycle: on it, as near as the tolerance lets the run come, or on the way.

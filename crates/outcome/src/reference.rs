@@ -1,6 +1,6 @@
 //! The cycle that a motion is on or near, by which it is judged.
 
-use stickslip_cycles::{Cycle, cycle_within};
+use stickslip_cycles::{Cycle, cycle_near, cycle_within};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
@@ -30,11 +30,14 @@ impl Reference {
         slips: usize,
     ) -> Option<Self> {
         let span = last_period(extrema, slips)?;
-        let fine = (tolerance <= FINE_RUN).then_some(FINE_RESIDUAL);
-        let residuals = fine.into_iter().chain([RESIDUAL]);
-        let cycle =
-            residuals.into_iter().find_map(|r| cycle_within(model, tail, span, r).ok())?;
-        Self::beside(cycle, tail, extrema)
+        let near = cycle_within(model, tail, span, RESIDUAL).ok()?;
+        let near = Self::beside(near, tail, extrema)?;
+        if tolerance > FINE_RUN || near.off > FINE_RESIDUAL.sqrt() {
+            return Some(near);
+        }
+        let (period, fine) = (near.cycle.motion(), FINE_RESIDUAL);
+        let finer = cycle_near(model, period, fine).ok();
+        finer.and_then(|finer| Self::beside(finer, tail, extrema)).or(Some(near))
     }
 
     /// A cycle beside a motion.

@@ -37,24 +37,23 @@ impl Sequence<'_> {
     }
 
     /// The numbers of maxima that may make a period, the likeliest first: the fewest of which the period repeats
-    /// itself within `near`, those that repeat themselves best, one and two.
+    /// itself within `near`, else those that repeat themselves best, one, and two where every other slip is alike.
     pub(crate) fn likely_slips(&self, near: f64) -> Vec<usize> {
         let changes: Vec<(usize, f64)> = (1..=MOST_SLIPS)
             .map_while(|slips| self.change(slips, 0).map(|change| (slips, change)))
             .collect();
-        let repeats = changes.iter().find(|(_, change)| *change <= near);
         let least = changes.iter().map(|(_, change)| *change).fold(f64::INFINITY, f64::min);
-        let best = changes.iter().find(|(_, change)| *change <= 2.0 * least);
-        let mut likely: Vec<usize> =
-            repeats.into_iter().chain(best).map(|(slips, _)| *slips).collect();
-        likely.extend([1, 2]);
-        let mut unlike = vec![];
-        for slips in likely {
-            if !unlike.contains(&slips) && self.0.len() > 2 * slips {
-                unlike.push(slips);
+        let repeats = |most: f64| changes.iter().find(|(_, change)| *change <= most);
+        let best = repeats(near).or_else(|| repeats(2.0 * least));
+        let mut likely: Vec<usize> = best.map(|(slips, _)| *slips).into_iter().collect();
+        let alternates = changes.len() > 1 && changes[1].1 < changes[0].1;
+        let others = [Some(1), alternates.then_some(2)].into_iter().flatten();
+        for slips in others {
+            if !likely.contains(&slips) && self.0.len() > 2 * slips {
+                likely.push(slips);
             }
         }
-        unlike
+        likely
     }
 
     /// Half the latest swing of l, and the rate at which the swings have grown over the last periods.

@@ -166,6 +166,14 @@ fn no_run_is_contradicted_by_one_ten_times_as_long() {
         let Some(scenario) = scenario(&mut random, place) else { continue };
         let (short, seconds) = outcome(&scenario);
         (slowest, spent) = (slowest.max(seconds), spent + seconds);
+        if std::env::var("TELL").is_ok() {
+            let Scenario { model, kick, tolerance, .. } = &scenario;
+            println!(
+                "{case} {place:?} {:?} {:?} {:.1} ms, α = {}, r = {}, kick {kick:.1e}, tolerance {tolerance:.1e}, length {:.0} {:?} {:?}",
+                short.regime, short.prospect.map(|p| (p.towards, p.time)), 1e3 * seconds, model.alpha(), model.r(), scenario.until - scenario.start_time(),
+                short.oscillation.as_ref().map(|o| (o.period, o.period_error, o.amplitude_x0, o.amplitude_x0_error, o.slips)), short.remarks
+            );
+        }
         *regimes.entry(format!("{place:?} {:?}", short.regime)).or_insert(0) += 1;
         let length = scenario.until - scenario.start_time();
         let until = scenario.start_time() + 10.0 * length;

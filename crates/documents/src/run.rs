@@ -1,8 +1,8 @@
 //! `stickslip/run`.
 
 use crate::{
-    CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters, SampleLine, Software, TransientDocument,
-    Unusable,    VerificationDocument,
+    CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters,
+    SampleLine, Software, TransientDocument, Unusable, VerificationDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,8 @@
 //! `stickslip/run-lines`.
 
 use crate::{
-    CreepDocument, FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, TransientDocument, Software, SteadyState,
-    WorkDocument,
+    CreepDocument, FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, Software,
+    SteadyState, TransientDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

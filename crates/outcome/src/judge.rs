@@ -1,7 +1,7 @@
 //! The decision: which regime a run has reached, or what it seems to go to.
 
 use crate::creep::{Fate, Stuck, measured};
-use crate::linear::Linear;
+use crate::linear::{Linear, Slowest};
 use crate::reference::Reference;
 use crate::sequence::Sequence;
 use crate::{Observer, Oscillation, Outcome, Prospect, Regime, Remark};
@@ -28,6 +28,10 @@ const SMALL: f64 = 0.3;
 const AS_FORETOLD: f64 = 0.2;
 /// Changes below so many tolerances from period to period are those of the steps.
 const NOISE: f64 = 30.0;
+/// Errors of steps push l away from steady motion by this part of the tolerance in a period.
+const PUSHED: f64 = 0.6;
+/// Below this part of the tolerance l is steady motion itself, of which steps make no error.
+const UNDISTURBED: f64 = 1e-3;
 /// Multipliers closer to the unit circle than this cannot be told from it.
 const ON_THE_CIRCLE: f64 = 1e-7;
 
@@ -106,17 +110,30 @@ impl End<'_> {
     /// Distance of l from l0: at the end, or the latest swing if that is larger.
     fn deviation(&self) -> f64 {
         let steady = self.scenario.model.steady_l();
-        let now = (self.last.l(self.tail.r(), self.last.end()) - steady).abs();
+        let end = self.last.end();
+        let now = (self.last.l(self.tail.r(), end) - steady).abs();
         // An extremum long ago says nothing of now.
-        let swings = self.extrema.iter().take(2).filter(|e| e.t > self.observer.steady_since());
+        let [latest, before, ..] = self.extrema[..] else { return now };
+        let recent = end - latest.t < 2.0 * (latest.t - before.t);
+        let swings = [latest, before].into_iter().filter(|_| recent);
         swings.map(|e| (e.l - steady).abs()).fold(now, f64::max)
     }
 
     fn is_steady(&self) -> bool {
         let (start, end) = (self.start(), self.last.end());
         let share = self.observer.steady_since() < end - STEADY_SHARE * (end - start);
-        let near = self.deviation() <= self.observer.near_steady();
-        share && near && matches!(self.linear, Linear::Stable(_)) && !self.grows()
+        let deviation = self.deviation();
+        let near = deviation <= self.observer.near_steady();
+        let itself = deviation <= UNDISTURBED * self.scenario.tolerance;
+        let stable = matches!(self.linear, Linear::Stable(_));
+        let kept = self.is_kept_steady() || (stable && itself);
+        share && near && kept && !self.grows()
+    }
+
+    /// Whether steady motion is stable, and attracts by more than the errors of steps push away.
+    fn is_kept_steady(&self) -> bool {
+        let Linear::Stable(Slowest { rate, period }) = self.linear else { return false };
+        PUSHED * self.scenario.tolerance / (rate * period).min(1.0) < self.observer.near_steady()
     }
 
     /// Whether swings above the tolerance grow.
@@ -170,7 +187,13 @@ impl End<'_> {
         let mut unstable: Option<Reference> = None;
         for slips in sequence.likely_slips(SETTLED * swing) {
             let found = Reference::of(model, *tolerance, &self.tail, &self.extrema, slips);
-            let Some(found) = found else { continue };
+            let Some(found) = found else {
+                let repeats = self.extrapolated(&sequence, slips);
+                if repeats.is_some() {
+                    return repeats;
+                }
+                continue;
+            };
             if found.gap() > ON_THE_CIRCLE && found.distance() < BESIDE {
                 return Some(self.beside_stable(found));
             }
@@ -181,20 +204,24 @@ impl End<'_> {
         if let Some(unstable) = unstable {
             return Some(self.beside_unstable(&unstable));
         }
-        self.extrapolated(&sequence)
+        None
     }
 
     /// Whether small swings about l0 grow or decay as linear theory has it: then no cycle is near.
     fn is_linear(&self) -> bool {
         let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
-        let small = SMALL * 8.7 / self.scenario.model.tip().band();
         let agrees = |expected: f64| (rate / expected - 1.0).abs() < AS_FORETOLD;
-        swing < small
+        swing < self.small()
             && match self.linear {
-                Linear::Stable(slow) => agrees(-slow),
-                Linear::Unstable(fast) => agrees(fast),
+                Linear::Stable(slowest) => agrees(-slowest.rate),
+                Linear::Unstable(slowest) => agrees(slowest.rate),
                 Linear::Unknown => false,
             }
+    }
+
+    /// Swings below this may be those of linear theory.
+    fn small(&self) -> f64 {
+        SMALL * 8.7 / self.scenario.model.tip().band()
     }
 
     /// Near a stable cycle: on it, as near as the tolerance lets the run come, or on the way.
@@ -225,24 +252,28 @@ impl End<'_> {
     /// Near a cycle that repels: inside of it the way leads to steady motion, or else one cannot tell.
     fn beside_unstable(&self, near: &Reference) -> Outcome {
         let inside = near.measured.amplitude_x0 < near.cycle.amplitude_x0();
+        let flips = near.cycle.nontrivial_multipliers().any(|m| m.re < -1.0);
         match self.linear {
             Linear::Stable(_) if inside && !self.grows() => {
                 Outcome::transient(Some(Regime::Steady), None)
             }
+            // Beyond a period doubling, to a cycle of twice the slips, as a rule.
+            _ if flips => Outcome::transient(Some(Regime::StickSlip), None),
             _ => Outcome::transient(None, None),
         }
     }
 
     /// Where no cycle is to be had, an oscillation whose changes from period to period die out.
-    fn extrapolated(&self, sequence: &Sequence) -> Option<Outcome> {
-        let (swing, rate) = sequence.swing()?;
+    fn extrapolated(&self, sequence: &Sequence, slips: usize) -> Option<Outcome> {
+        let (_, growth) = sequence.swing()?;
         let tolerance = self.scenario.tolerance;
-        let slips = *sequence.likely_slips(SETTLED * swing).first()?;
         let found = motion::Oscillation::with_slips(&self.tail, &self.extrema, slips)?;
-        let change = (0..3).map(|back| sequence.change(slips, back)).try_fold(0.0_f64, |a, b| Some(a.max(b?)))?;
+        let change = (0..3)
+            .map(|back| sequence.change(slips, back))
+            .try_fold(0.0_f64, |a, b| Some(a.max(b?)))?;
         // Near onset a cycle attracts at twice the rate at which steady motion repels or attracts.
         let slowest = match self.linear {
-            Linear::Stable(rate) | Linear::Unstable(rate) => {
+            Linear::Stable(Slowest { rate, .. }) | Linear::Unstable(Slowest { rate, .. }) => {
                 -(-2.0 * rate * found.period).exp_m1()
             }
             Linear::Unknown => return None,
@@ -257,25 +288,40 @@ impl End<'_> {
             return None;
         };
         let amplitude = found.amplitude_x0;
-        // Small swings about stable steady motion decay, however slowly.
-        let decays = matches!(self.linear, Linear::Stable(_)) && rate < 0.0 && change > noise;
-        if rest > SETTLED * amplitude || decays {
+        // Swings about stable steady motion decay, however slowly.
+        let decays = matches!(self.linear, Linear::Stable(_)) && growth < 0.0 && change > noise;
+        if rest > SETTLED * amplitude || decays || !self.may_be_a_cycle(amplitude) {
             return None;
         }
         let oscillation = Some(Oscillation::within(&found, rest));
         Some(Outcome { oscillation, ..Outcome::settled(Regime::StickSlip) })
     }
 
+    /// A small cycle has the amplitude that the leading order at onset gives it.
+    fn may_be_a_cycle(&self, amplitude: f64) -> bool {
+        let model = &self.scenario.model;
+        if amplitude > self.small() {
+            return true;
+        }
+        let onset = onset(model.tip(), model.r());
+        let square = onset.map(|o| o.amplitude_squared_slope * (model.alpha() - o.critical.alpha));
+        square.is_ok_and(|square| (amplitude / square.max(0.0).sqrt() - 1.0).abs() < BESIDE)
+    }
+
     /// Neither on a cycle nor stuck: on the way to steady motion or away from it.
     fn beside_steady(&self) -> Outcome {
         let (deviation, near) = (self.deviation(), self.observer.near_steady());
         match self.linear {
-            Linear::Stable(rate) if self.decays() => {
+            Linear::Stable(_) if deviation <= near.min(self.small()) && !self.is_kept_steady() => {
+                Outcome::transient(Some(Regime::Steady), None).remarked(Remark::TooCoarse)
+            }
+            Linear::Stable(Slowest { rate, .. }) if self.decays() => {
                 let share = STEADY_SHARE / (1.0 - STEADY_SHARE) * (self.last.end() - self.start());
                 let time = ((deviation / near).ln() / rate).max(0.0) + share;
-                Outcome::transient(Some(Regime::Steady), Some(time))
+                let time = self.is_kept_steady().then_some(time);
+                Outcome::transient(Some(Regime::Steady), time)
             }
-            Linear::Unstable(rate) => self.leaves(deviation, rate),
+            Linear::Unstable(Slowest { rate, .. }) => self.leaves(deviation, rate),
             _ => Outcome::transient(None, None),
         }
     }
@@ -304,7 +350,8 @@ impl End<'_> {
     fn remarks(&self, regime: Regime) -> Vec<Remark> {
         let Scenario { model, force, .. } = self.scenario;
         let mut remarks = vec![];
-        if let (Linear::Unstable(rate), true) = (self.linear, self.is_undisturbed()) {
+        if let (Linear::Unstable(Slowest { rate, .. }), true) = (self.linear, self.is_undisturbed())
+        {
             remarks.push(Remark::RoundOffGrows { rate });
         }
         match regime {
@@ -345,8 +392,7 @@ impl Oscillation {
     fn on(near: Reference) -> Self {
         let (error, measured) = (near.cycle.error(), near.measured);
         let round_off = 4.0 * f64::EPSILON * (measured.last_period_from.abs() + measured.period);
-        let period_error =
-            (measured.period - near.cycle.period()).abs() + 2.0 * error + round_off;
+        let period_error = (measured.period - near.cycle.period()).abs() + 2.0 * error + round_off;
         let amplitude = near.cycle.amplitude_x0();
         let amplitude_error = (measured.amplitude_x0 - amplitude).abs() + 2.0 * error;
         let cycle = Some(Box::new(near.cycle));

@@ -8,9 +8,9 @@ use stickslip_tip::{Model, Step, Trajectory};
 
 /// l within this distance of l0 is steady;
 const STEADY_WITHIN: f64 = 1e-6;
-/// or within a hundred tolerances, but not more than that.
+/// or within a hundred tolerances, but not beyond this part of the tip's width.
 const STEADY_TOLERANCES: f64 = 100.0;
-const STEADY_AT_MOST: f64 = 1e-3;
+const STEADY_AT_MOST: f64 = 0.03;
 /// Steps kept at the end at most; a slip takes some fifty of them, on noise of a fine grid a thousand.
 const LONGEST_TAIL: usize = 1 << 15;
 
@@ -37,10 +37,11 @@ impl Observer {
     /// Before the first step.
     #[must_use]
     pub fn new(model: &Model, tolerance: f64) -> Self {
+        let most = STEADY_AT_MOST * 8.7 / model.tip().band();
         Self {
             r: model.r(),
             steady_l: model.steady_l(),
-            far: STEADY_WITHIN.max((STEADY_TOLERANCES * tolerance).min(STEADY_AT_MOST)),
+            far: STEADY_WITHIN.max((STEADY_TOLERANCES * tolerance).min(most)),
             reaches: 2.0 * model.tip().reach().unwrap_or(0.0),
             span: None,
             unsteady: f64::NEG_INFINITY,

@@ -32,8 +32,10 @@ impl Oscillation {
     /// The error of an amplitude of the surface left behind, measured on the run.
     #[must_use]
     pub fn amplitude_u_error(&self, amplitude_u: f64) -> f64 {
-        let relative = self.amplitude_x0_error / self.amplitude_x0 + self.period_error / self.period;
-        let off = self.cycle.as_ref().map_or(0.0, |cycle| (cycle.amplitude_u() - amplitude_u).abs());
+        let relative =
+            self.amplitude_x0_error / self.amplitude_x0 + self.period_error / self.period;
+        let off =
+            self.cycle.as_ref().map_or(0.0, |cycle| (cycle.amplitude_u() - amplitude_u).abs());
         off + 3.0 * relative * amplitude_u.abs()
     }
 }

@@ -9,6 +9,9 @@ const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
 
+/// Periods that are tried.
+const TRIES: usize = 2;
+
 /// A cycle beside a motion.
 pub(crate) struct Reference {
     pub(crate) cycle: Cycle,
@@ -29,9 +32,12 @@ impl Reference {
         extrema: &[Extremum],
         slips: usize,
     ) -> Option<Self> {
-        let span = last_period(extrema, slips)?;
-        let near = cycle_within(model, tail, span, RESIDUAL).ok()?;
-        let near = Self::beside(near, tail, extrema)?;
+        // Where a step of the run ends decides whether Newton's method likes its mesh: one period or another.
+        let spans =
+            (0..TRIES).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
+        let near =
+            spans.into_iter().find_map(|span| cycle_within(model, tail, span, RESIDUAL).ok());
+        let near = Self::beside(near?, tail, extrema)?;
         if tolerance > FINE_RUN || near.off > FINE_RESIDUAL.sqrt() {
             return Some(near);
         }
@@ -71,8 +77,7 @@ impl Reference {
 /// Between two maxima a period apart, the highest of the last period and the one before it.
 fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = extrema.iter().filter(|e| e.is_maximum).collect();
-    let (i, end) =
-        maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
+    let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
     let start = maxima.get(i + slips)?;
     Some((start.t, end.t))
 }

@@ -28,6 +28,8 @@ pub enum Remark {
         /// Largest difference of an extremum of l, in σ.
         off: f64,
     },
+    /// Steady motion attracts by less than the errors of steps at this tolerance push away.
+    TooCoarse,
     /// An external force acts at the end of the run.
     ForceActs,
     /// An external force acts after the end of the run.
@@ -73,6 +75,11 @@ impl fmt::Display for Remark {
                 out,
                 "the tolerance is coarse for this motion: the run repeats itself {off:.1e} off the periodic motion of \
                  the equation"
+            ),
+            Self::TooCoarse => write!(
+                out,
+                "so near onset steady motion, though stable, holds the tip by less than the errors of steps at this \
+                 tolerance push it away: what is left of a disturbance is theirs; ask for a smaller tolerance"
             ),
             Self::ForceActs => write!(out, "the external force still acts at the end of the run"),
             Self::ForceToCome { until } => write!(

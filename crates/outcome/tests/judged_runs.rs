@@ -160,7 +160,7 @@ fn no_run_is_contradicted_by_one_ten_times_as_long() {
     let places = [Place::Onset, Place::Onset, Place::Doubling, Place::Trapping, Place::Between];
     let (mut wrong, mut late, mut slowest, mut spent) = (0, 0, 0.0_f64, 0.0);
     let mut regimes = std::collections::BTreeMap::new();
-    for case in 0..cases {
+    for case in number("FROM", 0)..cases {
         let mut random = Random(ChaCha8Rng::seed_from_u64(1000 * seed + case));
         let place = places[(case % places.len() as u64) as usize];
         let Some(scenario) = scenario(&mut random, place) else { continue };
@@ -170,8 +170,20 @@ fn no_run_is_contradicted_by_one_ten_times_as_long() {
             let Scenario { model, kick, tolerance, .. } = &scenario;
             println!(
                 "{case} {place:?} {:?} {:?} {:.1} ms, α = {}, r = {}, kick {kick:.1e}, tolerance {tolerance:.1e}, length {:.0} {:?} {:?}",
-                short.regime, short.prospect.map(|p| (p.towards, p.time)), 1e3 * seconds, model.alpha(), model.r(), scenario.until - scenario.start_time(),
-                short.oscillation.as_ref().map(|o| (o.period, o.period_error, o.amplitude_x0, o.amplitude_x0_error, o.slips)), short.remarks
+                short.regime,
+                short.prospect.map(|p| (p.towards, p.time)),
+                1e3 * seconds,
+                model.alpha(),
+                model.r(),
+                scenario.until - scenario.start_time(),
+                short.oscillation.as_ref().map(|o| (
+                    o.period,
+                    o.period_error,
+                    o.amplitude_x0,
+                    o.amplitude_x0_error,
+                    o.slips
+                )),
+                short.remarks
             );
         }
         *regimes.entry(format!("{place:?} {:?}", short.regime)).or_insert(0) += 1;
@@ -183,11 +195,27 @@ fn no_run_is_contradicted_by_one_ten_times_as_long() {
             .as_ref()
             .and_then(|o| beside_cycle(o, &cycle(&scenario.model, 1e-11).ok()?));
         for problem in contradicted(&short, &long, 9.0 * length).into_iter().chain(by_cycle) {
-            if problem.starts_with("PROSPECT") { late += 1 } else { wrong += 1 }
+            if problem.starts_with("PROSPECT") {
+                late += 1
+            } else {
+                wrong += 1
+            }
             let Scenario { model, kick, tolerance, .. } = &scenario;
             println!(
                 "case {case} {place:?}: {:?} {:?} {:?} by {problem}\n    α = {}, r = {}, kick {kick:.2e}, tolerance {tolerance:.1e}, length {length:.0}, {:?}\n    {:?}",
-                short.regime, short.prospect, short.oscillation.as_ref().map(|o| (o.period, o.period_error, o.amplitude_x0, o.amplitude_x0_error, o.slips)), model.alpha(), model.r(), model.tip(), short.remarks,
+                short.regime,
+                short.prospect,
+                short.oscillation.as_ref().map(|o| (
+                    o.period,
+                    o.period_error,
+                    o.amplitude_x0,
+                    o.amplitude_x0_error,
+                    o.slips
+                )),
+                model.alpha(),
+                model.r(),
+                model.tip(),
+                short.remarks,
             );
         }
     }

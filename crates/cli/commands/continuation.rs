@@ -32,7 +32,8 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let start = &arguments.start;
     let read =
         [("--tip-file", start.model.tip.tip_file.as_deref()), ("--from", start.from.as_deref())];
-    apart(&[("--output", Some(&*arguments.output))], &read)?;
+    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
+    apart(&written, &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
     let output = Output::open("--output", &arguments.output)?;

@@ -26,9 +26,13 @@ const DRAWN_WAVELENGTHS: f64 = 2.0;
 
 pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    let model = &arguments.start.model;
+    // Another cycle may take the place of the one that it came from; the same one again would be for nothing.
+    let is_another = model.r.or(model.alpha).or(model.alpha_above).is_some();
+    let from = arguments.start.from.as_deref().filter(|_| !is_another);
     apart(
-        &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.start.model.tip.tip_file.as_deref())],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
+        &[("--tip-file", model.tip.tip_file.as_deref()), ("--from", from)],
     )?;
     let start = Start::asked(&arguments.start)?;
     if !(1..=MOST_POINTS).contains(&arguments.points) {

@@ -28,7 +28,7 @@ const WIDTHS_OF_PULSE: f64 = 5.5;
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
-        &[("--output", Some(&*arguments.output))],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
         &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
     )?;
     let asked = Asked::of(arguments)?;

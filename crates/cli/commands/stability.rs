@@ -24,7 +24,7 @@ const DEFAULT_ROOTS: usize = 10;
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
-        &[("--output", Some(&*arguments.output))],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
         &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
     )?;
     let point = Point::asked(arguments)?;

@@ -62,7 +62,7 @@ pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
-pub use read::{Kind, Unusable, read};
+pub use read::{Kind, Unusable, kind_of, read, read_from};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub use run::{RunDocument, Samples, SteadyState, WorkDocument};

@@ -45,7 +45,8 @@ pub(super) fn all(
     let end = document::end(scenario, initial, &travelled)?;
     // Nobody reads it beside a document on standard output.
     let said = (order.output != Path::new("-")).then(|| summary(&end));
-    end.remarks.iter().for_each(|remark| eprintln!("stickslip: remark: {remark}"));
+    end.remarks.iter().for_each(|remark| say(format_args!("remark: {remark}")));
+    let reached = end.end;
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let (mut failure, mut verified) = (None, String::new());
@@ -72,7 +73,7 @@ pub(super) fn all(
             let found = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
             verified = document.verification.as_ref().map_or(String::new(), verify::kept);
-            write(&document, order.format, output)?;
+            write(&document, order.format, output, travelled.signal.map(|_| reached))?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 figure.write(&draw(&document, scenario, initial, trajectory)?)?;
             }
@@ -89,11 +90,19 @@ pub(super) fn all(
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 
-fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<(), Failure> {
+/// What holds less than was asked for says so, in every format: JSON by its `interrupted`.
+fn write(
+    document: &RunDocument,
+    format: RunFormat,
+    output: Output,
+    interrupted: Option<f64>,
+) -> Result<(), Failure> {
     let samples = &document.samples;
+    let until = document.parameters.until;
+    let remark = interrupted.map(|t| format!("interrupted at t = {t} of {until}"));
     match format {
         RunFormat::Json | RunFormat::Jsonl => output.write_json(document),
-        RunFormat::Csv => output.write_csv(
+        RunFormat::Csv => output.with_remark(remark).write_csv(
             "t,l,x0,velocity",
             &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
         ),
@@ -103,6 +112,9 @@ fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<()
             npz.vector("l", &samples.l)?;
             npz.vector("x0", &samples.x0)?;
             npz.vector("velocity", &samples.velocity)?;
+            if let Some(t) = interrupted {
+                npz.vector("interrupted", &[t])?;
+            }
             if let Some(history) = &document.history {
                 npz.vector("history_nodes", &history.nodes)?;
                 npz.vector("history_weights", &history.weights)?;

@@ -84,11 +84,11 @@ impl fmt::Display for Remark {
             Self::ForceActs => write!(out, "the external force still acts at the end of the run"),
             Self::ForceToCome { until } => write!(
                 out,
-                "an external force acts after the end of the run, until t = {until}: it is not counted with"
+                "an external force acts after the end of the run, until t = {until:?}: it is not counted with"
             ),
             Self::UnevenAhead { until } => write!(
                 out,
-                "the surface ahead of the tip is uneven as far as x = {until}: as long as it meets that, no motion \
+                "the surface ahead of the tip is uneven as far as x = {until:?}: as long as it meets that, no motion \
                  repeats itself exactly"
             ),
         }

@@ -1,6 +1,5 @@
 //! `stickslip sweep`.
 
-pub(crate) mod diagram;
 mod finished;
 mod grid;
 pub(crate) mod merge;

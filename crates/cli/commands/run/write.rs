@@ -4,15 +4,13 @@ use super::document;
 use super::journey::Travelled;
 use super::record::{Record, Sink};
 use crate::commands::figure::Figure;
-use crate::commands::{surface, verify};
+use crate::commands::verify;
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::message::say;
-use crate::plot;
 use std::path::Path;
 use stickslip_documents::{Order, RunDocument, RunEnd, RunFormat, RunHead, to_its_digits};
-use stickslip_surface::{Surface, SurfaceError};
 use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -75,7 +73,9 @@ pub(super) fn all(
             verified = document.verification.as_ref().map_or(String::new(), verify::kept);
             write(&document, order.format, output, travelled.signal.map(|_| reached))?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
-                figure.write(&draw(&document, scenario, initial, trajectory)?)?;
+                // Drawn from the history, whether or not it is written.
+                document.history = Some(trajectory.into());
+                figure.draw(&document)?;
             }
             failure = match found {
                 Err(failure) => Some(failure),
@@ -125,43 +125,6 @@ fn write(
             output.write_bytes(&npz.bytes()?)
         }
     }
-}
-
-/// Points of the drawn surface.
-const DRAWN_POINTS: usize = 4000;
-
-fn draw(
-    document: &RunDocument,
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    trajectory: &Trajectory,
-) -> Result<String, Failure> {
-    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
-    let (end, start) = (trajectory.end(), trajectory.start());
-    let (low, high) = surface::default_range(trajectory);
-    let x = surface::evenly(low, high, DRAWN_POINTS);
-    let surface = Surface::new(&scenario.model, initial, trajectory);
-    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
-    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
-    let title = title(document);
-    Ok(plot::run(&plot::RunFigure {
-        title: &title,
-        t: &document.samples.t,
-        l: &document.samples.l,
-        velocity: &document.samples.velocity,
-        steady_l: document.steady_state.l,
-        r: scenario.model.r(),
-        x: &x,
-        u: &u,
-        u_initial: Some(&before),
-        t_of_surface: end,
-    }))
-}
-
-fn title(document: &RunDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    format!("α = {alpha}, r = {r}: {}", document.regime)
 }
 
 /// One line for a person who sent the run to a file.

@@ -20,6 +20,7 @@ mod experiment;
 mod extreme_numbers;
 mod figures;
 mod image_files;
+mod outcomes;
 mod pictures;
 mod refusals;
 mod resume;

@@ -221,20 +221,9 @@ mod tests {
 
     fn point(index: usize) -> SweepPoint {
         SweepPoint {
-            index,
-            beta: None,
-            r: 1.0,
-            alpha: Some(1.2),
             critical_alpha: Some(1.069_036_174_947_265),
-            regime: None,
-            source: None,
             period: Some(7.25),
-            wavelength: None,
-            amplitude_x0: None,
-            amplitude_u: None,
-            slips: None,
-            multiplier: None,
-            error: None,
+            ..SweepPoint::at(index, None, 1.0, Some(1.2))
         }
     }
 

@@ -7,12 +7,12 @@ CASES ?= 1670000
 MOTIONS ?= 25000
 
 comma := ,
-# Builds by the profile of the second argument, shows the command as a user would type it, and runs it.
-stickslip = $(CARGO) build --locked --profile $(or $(2),release) && echo 'stickslip $(1)' \
-	&& $(CARGO) run --locked --profile $(or $(2),release) --quiet -- $(1)
+# Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
+trial := --locked --profile trial --no-default-features
+stickslip = $(CARGO) build $(trial) && echo 'stickslip $(1)' && $(CARGO) run $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive check bench work-precision figures peers fuzz doc install clean
+.PHONY: help run test survive check outputs bench work-precision figures peers fuzz doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -34,6 +34,10 @@ check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) bench --workspace --locked --no-run
 
+outputs: ## do two builds write the same bytes: OLD=path of the other program
+	$(CARGO) build --release --locked
+	tests/outputs/compare.py $(OLD) target/release/stickslip
+
 bench: ## measure: cost per step, whole runs, surfaces
 	@echo "memory: cost of a step against the history within reach; fft is flat, direct is linear"
 	$(CARGO) bench --locked --bench memory
@@ -48,7 +52,7 @@ work-precision: ## measure time against error, into data/work_precision.json, wh
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
-	@$(call stickslip,figures --out-dir target/figures,quick)
+	@$(call stickslip,figures --out-dir target/figures)
 
 peers: ## race other programs on one problem at matched error: data/peers.json, data/peers.md
 	python3 peers/race.py data

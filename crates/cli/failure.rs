@@ -37,6 +37,16 @@ pub(crate) enum Failure {
         /// Why.
         error: io::Error,
     },
+    /// The same, but what was to be written is kept in another place. Status 1.
+    #[error("cannot write {target}: {error}; what it was to hold is in {kept}")]
+    Elsewhere {
+        /// File name.
+        target: String,
+        /// Why.
+        error: io::Error,
+        /// A file among the system's temporary ones.
+        kept: String,
+    },
     /// A run of which the end is missing, and nothing else is wrong. Status 3.
     #[error("{0}")]
     CutOff(String),
@@ -64,7 +74,7 @@ impl Failure {
     pub(crate) fn status(&self) -> u8 {
         match self {
             Self::Input { .. } => 2,
-            Self::Run(_) | Self::Write { .. } => 1,
+            Self::Run(_) | Self::Write { .. } | Self::Elsewhere { .. } => 1,
             Self::CutOff(_) => 3,
             Self::Interrupted(signal) | Self::Stopped(signal) | Self::Unfinished { signal, .. } => {
                 128 + signal

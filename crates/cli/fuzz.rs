@@ -5,6 +5,7 @@
 //! `PROPTEST_CASES` sets the number of cases of each target; `make fuzz` runs millions.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
 use crate::arguments::{Cli, Command, ModelArguments};
 use crate::commands::sweep::{diagram, merge};

@@ -4,6 +4,9 @@
 //! status is 0, 1 for what failed at run time, 2 for unusable input, 3 for a run to be verified that is
 //! right as far as it goes but has no end, 130 (143) when interrupted by SIGINT (SIGTERM).
 
+// All that is said goes through `message`.
+#![deny(clippy::print_stderr, clippy::print_stdout)]
+
 mod arguments;
 mod commands;
 mod failure;
@@ -11,15 +14,21 @@ mod files;
 #[cfg(test)]
 mod fuzz;
 mod interrupt;
+mod message;
 mod plot;
 
 use arguments::{Cli, Command};
 use clap::Parser;
 use failure::Failure;
+use message::{say, say_lines};
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return answered(&error),
+    };
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
         Command::Verify(arguments) => commands::verify::verify(arguments),
@@ -39,10 +48,22 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if !failure.is_silent() {
-                eprintln!("stickslip: {failure}");
+                say(format_args!("stickslip: {failure}"));
             }
             failure.exit_code()
         }
+    }
+}
+
+/// Help and version, to standard output; or what is wrong with the command line.
+fn answered(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() {
+        say_lines(&error.render().to_string());
+        return ExitCode::from(2);
+    }
+    match error.print() {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        _ => ExitCode::SUCCESS,
     }
 }
 

@@ -26,3 +26,4 @@ mod supply_chain;
 mod sweep;
 mod verification;
 mod verified_lines;
+mod written_files;

@@ -13,6 +13,7 @@ use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
+use crate::message::say_lines;
 use crate::plot;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -48,7 +49,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     }
     write(&document, format, output)?;
     if arguments.output != Path::new("-") {
-        eprint!("{}", summary::summary(&document));
+        say_lines(&summary::summary(&document));
     }
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }

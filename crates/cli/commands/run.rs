@@ -16,17 +16,18 @@ pub(crate) use order::{explain, option_at_fault};
 use super::figure::Figure;
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
-use crate::files::apart::resting_place;
-use crate::files::output::{Output, Place, place};
+use crate::files::output::Output;
+use crate::files::place::{Place, Target as File, place};
+use crate::files::rows::journal_of;
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
 use journey::Journey;
-use record::{Record, Sink};
-use std::path::{Path, PathBuf};
+use record::{Record, SAMPLE_NUMBERS, Sink};
+use std::path::Path;
 use stickslip_documents::RunFormat;
 use stickslip_documents::{Order, Unusable};
 use stickslip_outcome::Watched;
-use stickslip_tip::{RunError, Scenario};
+use stickslip_tip::{RunError, STEP_NUMBERS, Scenario};
 use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -44,8 +45,9 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let surface = scenario.initial_surface().map_err(explained)?;
     let running = Watched::new(&scenario, &surface).map_err(explained)?;
     // All places are judged before the work, so that it is not in vain.
-    let checkpoint = arguments.checkpoint.as_deref().map(checkpoint_place).transpose()?;
-    let (target, sink) = open(&arguments.output, &order, checkpoint.as_deref())?;
+    let checkpoint = arguments.checkpoint.as_deref();
+    let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
+    let (target, sink) = open(&arguments.output, &order, checkpoint.as_ref().map(File::path))?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
     let mut record = record(&order, &scenario, sink);
@@ -56,7 +58,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
         record,
         checkpoints: checkpoint
             .zip(order.checkpoint_every)
-            .map(|(path, every)| Checkpoints::new(&path, &order, start, every, start)),
+            .map(|(file, every)| Checkpoints::new(file, &order, start, every, start)),
         seconds: 0.0,
     };
     journey.checkpoint()?;
@@ -67,6 +69,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
 /// Goes on where a checkpoint was made.
 fn resume(path: &Path) -> Result<(), Failure> {
     let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let checkpoint = file("--resume", path)?;
     let (head, state) = checkpoint::read(path)?;
     let order = head.order;
     let scenario = order.parameters.scenario().map_err(|error| named(error.to_string()))?;
@@ -75,33 +78,33 @@ fn resume(path: &Path) -> Result<(), Failure> {
     let running = running.map_err(|error| named(error.to_string()))?;
     let figure = Figure::asked("--plot", order.plot.as_deref())?;
     let (target, record) = if order.format == RunFormat::Jsonl {
-        let stream = Stream::resume(&order.output, head.written)?;
+        let target = file("--output", &order.output)?;
+        let whole = target.path().to_path_buf();
+        let stream = Stream::resume(target, head.written, &[whole])?;
         let mut record = record(&order, &scenario, Sink::Lines(stream));
         record.taken = head.samples;
         (Target::Lines, record)
     } else {
         let output = Output::open("--output", &order.output)?;
         let mut record = record(&order, &scenario, Sink::Memory);
-        record.resume(&checkpoint::journal_of(path), head.written)?;
+        record.resume(&journal_of(checkpoint.path()), head.written)?;
         (Target::Document(output), record)
     };
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
-    let checkpoints = Some(Checkpoints::new(path, &order, start, every, head.t));
+    let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, head.t));
     let journey = Journey { running, record, checkpoints, seconds: head.seconds };
     let travelled = journey.travel(&scenario)?;
     write::all(&order, &scenario, &surface, travelled, target, figure)
 }
 
-/// The file that a checkpoint goes to.
-fn checkpoint_place(path: &Path) -> Result<PathBuf, Failure> {
-    // Its folder must take new files.
-    drop(Output::open("--checkpoint", path)?);
-    match place("--checkpoint", path)? {
-        Place::File(path) => Ok(resting_place(&path)),
-        Place::Stdout | Place::Special(_) => Err(Failure::input(
-            format!("--checkpoint {}", path.display()),
-            "must be a file, which is replaced by each checkpoint",
-        )),
+/// A place that must be a file.
+fn file(option: &str, path: &Path) -> Result<File, Failure> {
+    match place(option, path)? {
+        Place::File(file) => Ok(file),
+        Place::Stdout | Place::Special(_) => {
+            let message = "must be a file, which is replaced or goes on growing";
+            Err(Failure::input(format!("{option} {}", path.display()), message))
+        }
     }
 }
 
@@ -123,11 +126,16 @@ fn open(
         return Ok((Target::Lines, Sink::Lines(stream)));
     }
     let target = Target::Document(Output::open("--output", output)?);
-    Ok((target, checkpoint.map_or(Ok(Sink::Memory), record::journal)?))
+    let numbers = if keeps_history(order) { STEP_NUMBERS } else { SAMPLE_NUMBERS };
+    let journal = |path| record::journal(path, numbers);
+    Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
 }
 
 fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {
+    Record::new(scenario.model.r(), order.samples.clone(), keeps_history(order), sink)
+}
+
+fn keeps_history(order: &Order) -> bool {
     let is_written = order.history && matches!(order.format, RunFormat::Json | RunFormat::Npz);
-    let keeps_history = is_written || order.plot.is_some() || order.verify;
-    Record::new(scenario.model.r(), order.samples.clone(), keeps_history, sink)
+    is_written || order.plot.is_some() || order.verify
 }

@@ -12,14 +12,14 @@ use crate::arguments::{SweepArguments, SweepThen};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
+use crate::message::say;
 use finished::Finished;
 use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashSet;
 use std::io;
-use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
+use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint};
 use write::Writer;
 
 const MOST_THREADS: usize = 4096;
@@ -32,11 +32,10 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let threads = threads(arguments)?;
     apart(&[("--output", Some(output))], &[("--tip-file", arguments.tip_file.as_deref())])?;
-    Writer::check(output, plot, &grid.parameters)?;
-    let finished = if output == Path::new("-") {
-        Finished::in_memory()
-    } else {
-        Finished::beside(output, &grid.parameters)?
+    let writer = Writer::asked(output, plot, &grid.parameters)?;
+    let finished = match writer.file() {
+        Some(file) => Finished::beside(file, &grid.parameters)?,
+        None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
@@ -44,15 +43,29 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }
-    Writer::asked(output, plot)?.write(&SweepDocument {
+    writer.write(&sealed(grid.parameters, finished.in_order())?)?;
+    finished.remove();
+    Ok(())
+}
+
+/// The document of a finished sweep, with its checksum.
+fn sealed(parameters: SweepParameters, points: Vec<SweepPoint>) -> Result<SweepDocument, Failure> {
+    let mut document = SweepDocument {
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
-        parameters: grid.parameters,
-        points: finished.in_order(),
-    })?;
-    finished.remove();
-    Ok(())
+        parameters,
+        points,
+        crc32: None,
+    };
+    document.crc32 = Some(checksum(&document)?);
+    Ok(document)
+}
+
+/// CRC-32 of parameters and points as this program writes them, however the document is laid out.
+fn checksum(document: &SweepDocument) -> Result<u32, Failure> {
+    let text = serde_json::to_vec(&(&document.parameters, &document.points));
+    Ok(crc32fast::hash(&text.map_err(|error| Failure::Run(error.to_string()))?))
 }
 
 /// 0: as many as there are cores.
@@ -95,7 +108,7 @@ fn compute(
     let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
     let count = done.len() + missing.len();
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
-        eprintln!("stickslip: {} of {count} points are in {}", done.len(), path.display());
+        say(format_args!("stickslip: {} of {count} points are in {}", done.len(), path.display()));
     }
     let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
     let state = Mutex::new(State { finished, progress, kept: Ok(()) });

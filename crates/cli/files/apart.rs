@@ -1,7 +1,8 @@
 //! Files of one command line that must not be the same.
 
+use super::place::resolved;
 use crate::failure::Failure;
-use std::path::{Path, PathBuf, absolute};
+use std::path::Path;
 
 /// An option, and the file that it names, if it was given.
 pub(crate) type Named<'a> = (&'static str, Option<&'a Path>);
@@ -15,23 +16,14 @@ pub(crate) fn apart(written: &[Named], read: &[Named]) -> Result<(), Failure> {
     for (place, (option, path)) in written.iter().enumerate() {
         let Some(path) = path.filter(|path| is_file(path)) else { continue };
         let others = read.iter().chain(&written[..place]);
-        let same = |(_, other): &&Named| {
-            other.is_some_and(|other| resting_place(other) == resting_place(path))
-        };
+        let same =
+            |(_, other): &&Named| other.is_some_and(|other| resolved(other) == resolved(path));
         if let Some((other, _)) = others.into_iter().find(same) {
             let message = format!("is the file of {other}: give it a name of its own");
             return Err(Failure::input(format!("{option} {}", path.display()), message));
         }
     }
     Ok(())
-}
-
-/// The same file from wherever it is looked at.
-pub(crate) fn resting_place(path: &Path) -> PathBuf {
-    if path == Path::new("-") {
-        return path.into();
-    }
-    path.canonicalize().or_else(|_| absolute(path)).unwrap_or_else(|_| path.into())
 }
 
 /// Neither a standard stream nor a device or a pipe, which may well be named twice.

@@ -1,13 +1,15 @@
 //! A file that only grows, and knows what it holds: whoever takes it up again cuts it back to where a
 //! checkpoint says, and goes on.
 
+use super::beside;
+use super::replace::Looks;
 use crc32fast::Hasher;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
 use stickslip_documents::Mark;
 
-/// A growing file.
+/// A growing file, locked.
 #[derive(Debug)]
 pub(crate) struct Journal {
     file: BufWriter<File>,
@@ -16,27 +18,45 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// A new one, in place of whatever has that name.
-    pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        Ok(Self { file: BufWriter::new(File::create(path)?), bytes: 0, hasher: Hasher::new() })
+    /// A new one, which will begin with `magic`, in place of another such.
+    ///
+    /// # Errors
+    /// As [`beside::create`].
+    pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Self> {
+        let file = beside::create(path, magic, looks)?;
+        Ok(Self { file: BufWriter::new(file), bytes: 0, hasher: Hasher::new() })
     }
 
     /// The one at `path`, cut back to the mark.
     ///
     /// # Errors
-    /// It cannot be read and written, or does not begin with what the mark says.
-    pub(crate) fn resume(path: &Path, mark: Mark) -> io::Result<Self> {
-        let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-        let mut hasher = Hasher::new();
-        let mut beginning = BufReader::new(&file).take(mark.bytes);
-        let bytes = io::copy(&mut beginning, &mut Hashing(&mut hasher))?;
-        if (Mark { bytes, crc32: hasher.clone().finalize() }) != mark {
-            let message = "it does not begin with what was there at the checkpoint";
-            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    /// As [`beside::ours`]; it does not begin with what the mark says.
+    pub(super) fn resume(path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
+        let mut file = beside::ours(path, magic)?.ok_or(io::ErrorKind::NotFound)?;
+        let hasher = verified(&file, mark)?;
+        if beside::has_other_names(&file)? {
+            // It is locked again under the name alone.
+            file.unlock()?;
+            return Self::copy(&file, path, magic, mark);
         }
         file.set_len(mark.bytes)?;
         file.seek(io::SeekFrom::End(0))?;
-        Ok(Self { file: BufWriter::new(file), bytes, hasher })
+        Ok(Self { file: BufWriter::new(file), bytes: mark.bytes, hasher })
+    }
+
+    /// A new one that begins as another file does up to the mark.
+    ///
+    /// # Errors
+    /// As [`beside::create`]; the other does not begin with what the mark says.
+    pub(super) fn copy(from: &File, path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
+        verified(from, mark)?;
+        let looks = Looks::of_file(from);
+        // The other may be the one that is replaced.
+        let from = from.try_clone()?;
+        let mut journal = Self::create(path, magic, &looks)?;
+        (&from).rewind()?;
+        io::copy(&mut from.take(mark.bytes), &mut journal)?;
+        Ok(journal)
     }
 
     /// Puts all that was written on the disk.
@@ -45,6 +65,19 @@ impl Journal {
         self.file.get_ref().sync_data()?;
         Ok(Mark { bytes: self.bytes, crc32: self.hasher.clone().finalize() })
     }
+}
+
+/// Whether a file begins with what the mark says.
+fn verified(mut file: &File, mark: Mark) -> io::Result<Hasher> {
+    file.rewind()?;
+    let mut hasher = Hasher::new();
+    let mut beginning = BufReader::new(file).take(mark.bytes);
+    let bytes = io::copy(&mut beginning, &mut Hashing(&mut hasher))?;
+    if (Mark { bytes, crc32: hasher.clone().finalize() }) == mark {
+        return Ok(hasher);
+    }
+    let message = "it does not begin with what was there at the checkpoint";
+    Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 
 impl Write for Journal {
@@ -73,42 +106,58 @@ impl Write for Hashing<'_> {
     }
 }
 
-/// Rows of N numbers, their bits in little-endian order, from the beginning of a file.
-pub(crate) fn rows<const N: usize>(path: &Path) -> io::Result<Vec<[f64; N]>> {
-    let mut bytes = vec![];
-    File::open(path)?.read_to_end(&mut bytes)?;
-    let (words, _) = bytes.as_chunks::<8>();
-    let (rows, _) = words.as_chunks::<N>();
-    Ok(rows.iter().map(|row| row.map(f64::from_le_bytes)).collect())
-}
-
-/// One such row.
-pub(crate) fn write_row<const N: usize>(out: &mut impl Write, row: [f64; N]) -> io::Result<()> {
-    out.write_all(row.map(f64::to_le_bytes).as_flattened())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+
+    const MAGIC: &[u8] = b"journal ";
+
+    fn written(path: &Path) -> (Mark, Mark) {
+        let mut journal = Journal::create(path, MAGIC, &Looks::default()).unwrap();
+        journal.write_all(b"journal of a run").unwrap();
+        let mark = journal.sync().unwrap();
+        journal.write_all(b" that went on").unwrap();
+        (mark, journal.sync().unwrap())
+    }
 
     #[test]
     fn a_journal_is_cut_back_to_its_mark_and_goes_on() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("journal");
-        let mut journal = Journal::create(&path).unwrap();
-        write_row(&mut journal, [1.0, -0.0]).unwrap();
-        let mark = journal.sync().unwrap();
-        write_row(&mut journal, [2.0, 3.0]).unwrap();
-        journal.sync().unwrap();
-        let mut journal = Journal::resume(&path, mark).unwrap();
-        write_row(&mut journal, [4.0, f64::INFINITY]).unwrap();
+        let (mark, _) = written(&path);
+        let mut journal = Journal::resume(&path, MAGIC, mark).unwrap();
+        journal.write_all(b", resumed").unwrap();
         let longer = journal.sync().unwrap();
-        let bits = |row: &[f64; 2]| row.map(f64::to_bits);
-        let found: Vec<_> = rows(&path).unwrap().iter().map(bits).collect();
-        assert_eq!(found, [bits(&[1.0, -0.0]), bits(&[4.0, f64::INFINITY])]);
+        drop(journal);
+        assert_eq!(fs::read(&path).unwrap(), b"journal of a run, resumed");
         let other = Mark { crc32: mark.crc32 ^ 1, ..mark };
-        assert!(Journal::resume(&path, other).is_err());
-        assert!(Journal::resume(&path, Mark { bytes: 33, ..longer }).is_err());
-        Journal::resume(&path, longer).unwrap();
+        assert!(Journal::resume(&path, MAGIC, other).is_err());
+        assert!(Journal::resume(&path, MAGIC, Mark { bytes: 33, ..longer }).is_err());
+        Journal::resume(&path, MAGIC, longer).unwrap();
+    }
+
+    #[test]
+    fn its_beginning_may_come_from_another_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let [whole, part] = ["whole", "part"].map(|name| folder.path().join(name));
+        let (mark, _) = written(&whole);
+        Journal::copy(&File::open(&whole).unwrap(), &part, MAGIC, mark).unwrap().sync().unwrap();
+        assert_eq!(fs::read(&part).unwrap(), b"journal of a run");
+        assert_eq!(fs::read(&whole).unwrap(), b"journal of a run that went on");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_second_name_of_a_journal_keeps_what_it_has() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, backup] = ["journal", "backup"].map(|name| folder.path().join(name));
+        let (mark, _) = written(&path);
+        fs::hard_link(&path, &backup).unwrap();
+        let mut journal = Journal::resume(&path, MAGIC, mark).unwrap();
+        journal.write_all(b"!").unwrap();
+        journal.sync().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"journal of a run!");
+        assert_eq!(fs::read(&backup).unwrap(), b"journal of a run that went on");
     }
 }

@@ -1,11 +1,17 @@
 //! Files that come in and go out.
 
 pub(crate) mod apart;
+pub(crate) mod beside;
 pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;
 pub(crate) mod lines;
+mod lock;
 pub(crate) mod npz;
 pub(crate) mod output;
+pub(crate) mod place;
+mod replace;
+pub(crate) mod rows;
+mod special;
 pub(crate) mod stream;
 mod temporary;

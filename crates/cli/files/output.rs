@@ -1,10 +1,12 @@
 //! Results on their way out: their places are judged before the work, and take their names when complete.
 
-use super::temporary::{beside, may_be_made_in, remove_left_behind};
+use super::place::{Place, place};
+use super::replace::through;
+use super::special::is_special;
+use super::temporary::kept_elsewhere;
 use crate::failure::Failure;
 use serde::Serialize;
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// What is written, by the extension of the file.
@@ -46,115 +48,28 @@ impl OutputFormat {
     }
 }
 
-/// A place to write to, known to be writable.
+/// A place to write to, known to be writable, and nobody else's as long as this lives.
 #[derive(Debug)]
 pub(crate) struct Output {
     path: PathBuf,
-    sink: Sink,
-}
-
-#[derive(Debug)]
-enum Sink {
-    Stdout,
-    /// A device or a pipe, written to as it is.
-    Special(File),
-    /// A file: written beside itself and renamed once it is complete. A reader never sees half a
-    /// document, and a failure leaves what was there before.
-    Named,
-}
-
-/// What a name on the command line stands for.
-pub(crate) enum Place {
-    Stdout,
-    /// A device or a pipe.
-    Special(File),
-    /// A file that is there and can be written, or that may be made.
-    File(PathBuf),
-}
-
-/// Finds out, before the work, whether the place that `option` named (`-`: standard output) can be
-/// written.
-pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
-    writable(path).map_err(|error| refused(option, path, &error))
-}
-
-pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
-    let advice = "choose a place that exists and can be written to";
-    let said = match error.kind() {
-        io::ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
-        io::ErrorKind::NotFound => "there is no such folder".into(),
-        kind => kind.to_string(),
-    };
-    Failure::input(format!("{option} {}", path.display()), format!("{said}; {advice}"))
-}
-
-fn writable(path: &Path) -> io::Result<Place> {
-    if path == Path::new("-") {
-        return Ok(Place::Stdout);
-    }
-    if is_special(path) {
-        return OpenOptions::new().write(true).open(path).map(Place::Special);
-    }
-    if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    // A name that is too long, say, is no name that a file can get later.
-    match path.symlink_metadata() {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    // The file itself where the name is a link.
-    let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    if path.exists() {
-        OpenOptions::new().write(true).open(&path)?;
-    }
-    Ok(Place::File(path))
-}
-
-/// The folder of a file.
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
-/// Puts on the disk that a file has got its name. Not every system can sync a folder: then the name is as
-/// safe as that system makes it.
-pub(super) fn sync_folder(path: &Path) {
-    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).ok();
-}
-
-/// Writes a file in one go: at any time its name stands for what was there before or for all of the new.
-pub(crate) fn replace(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut new = path.as_os_str().to_owned();
-    new.push(".new");
-    let done = File::create(&new)
-        .and_then(|file| through(&file, write).and_then(|()| file.sync_all()))
-        .and_then(|()| std::fs::rename(&new, path));
-    if done.is_err() {
-        std::fs::remove_file(&new).ok();
-    }
-    sync_folder(path);
-    done
+    place: Place,
 }
 
 impl Output {
     /// Finds the file (`-`: standard output) that `option` named, and whether it can be written.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// It cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
-        let sink = match place(option, path)? {
-            Place::Stdout => Sink::Stdout,
-            Place::Special(file) => Sink::Special(file),
-            Place::File(target) => {
-                may_be_made_in(folder_of(&target))
-                    .map_err(|error| refused(option, path, &error))?;
-                return Ok(Self { path: target, sink: Sink::Named });
-            }
-        };
-        Ok(Self { path: path.into(), sink })
+        Ok(Self { path: path.into(), place: place(option, path)? })
+    }
+
+    /// Where it goes, links resolved; `None` for what is no file.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match &self.place {
+            Place::File(target) => Some(target.path()),
+            Place::Stdout | Place::Special(_) => None,
+        }
     }
 
     /// Writes the document as JSON, with a line break at its end.
@@ -172,62 +87,42 @@ impl Output {
 
     /// Writes columns of equal length as CSV under their headings.
     pub(crate) fn write_csv(self, headings: &str, columns: &[&[f64]]) -> Result<(), Failure> {
-        self.write_with(|out| {
-            writeln!(out, "{headings}")?;
-            let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
-            let mut line = String::new();
-            for row in 0..rows {
-                line.clear();
-                for column in columns {
-                    line.push_str(if line.is_empty() { "" } else { "," });
-                    line.push_str(&column[row].to_string());
-                }
-                line.push('\n');
-                out.write_all(line.as_bytes())?;
-            }
-            Ok(())
-        })
+        self.write_with(|out| csv(out, headings, columns))
     }
 
-    /// Writes what the function writes, through a buffer.
+    /// Writes what the function writes, through a buffer. What no file could be made of is kept elsewhere: it may
+    /// have taken hours.
     pub(crate) fn write_with(
         self,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        write: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let target = match self.sink {
-            Sink::Stdout => "standard output".into(),
-            _ => self.path.display().to_string(),
+        let (target, done) = match &self.place {
+            Place::Stdout => ("standard output".into(), through(io::stdout().lock(), &write)),
+            Place::Special(file) => (self.path.display().to_string(), through(file, &write)),
+            Place::File(target) => (self.path.display().to_string(), target.replace(&write)),
         };
-        let done = match self.sink {
-            Sink::Stdout => through(io::stdout().lock(), write),
-            Sink::Special(file) => through(file, write),
-            Sink::Named => named(&self.path, write),
-        };
-        done.map_err(|error| Failure::Write { target, error })
+        let Err(error) = done else { return Ok(()) };
+        match self.file().and_then(|path| kept_elsewhere(path, &write)) {
+            Some(kept) => {
+                Err(Failure::Elsewhere { target, error, kept: kept.display().to_string() })
+            }
+            None => Err(Failure::Write { target, error }),
+        }
     }
 }
 
-/// Writes a file under a temporary name, and gives it its own.
-fn named(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut file = beside(path, folder_of(path))?;
-    through(file.as_file_mut(), write)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    sync_folder(path);
-    remove_left_behind(path, folder_of(path));
+fn csv(out: &mut dyn Write, headings: &str, columns: &[&[f64]]) -> io::Result<()> {
+    writeln!(out, "{headings}")?;
+    let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
+    let mut line = String::new();
+    for row in 0..rows {
+        line.clear();
+        for column in columns {
+            line.push_str(if line.is_empty() { "" } else { "," });
+            line.push_str(&column[row].to_string());
+        }
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
+    }
     Ok(())
-}
-
-fn through(
-    sink: impl Write,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut buffered = BufWriter::new(sink);
-    write(&mut buffered)?;
-    buffered.flush()
-}
-
-/// Whether the path is a device or a pipe, which must not be renamed over.
-fn is_special(path: &Path) -> bool {
-    path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }

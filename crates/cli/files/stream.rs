@@ -1,7 +1,9 @@
 //! Output that grows line by line while the work goes on.
 
+use super::beside;
 use super::journal::Journal;
-use super::output::{Place, place, refused, sync_folder};
+use super::place::{Place, Target, place, refused};
+use super::replace::{Looks, sync_folder};
 use crate::failure::Failure;
 use serde::Serialize;
 use std::fs::{self, File};
@@ -27,7 +29,7 @@ enum Sink {
 struct Part {
     journal: Journal,
     part: PathBuf,
-    target: PathBuf,
+    target: Target,
     /// Left where it is when the work fails: a checkpoint knows how to go on with it.
     is_kept: bool,
 }
@@ -35,11 +37,12 @@ struct Part {
 /// What was written is seen by others after this time at the latest.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// How the first line begins.
+const MAGIC: &[u8] = b"{\"format\":\"stickslip/run-lines\"";
+
 /// The name under which a file grows.
 pub(crate) fn part_of(target: &Path) -> PathBuf {
-    let mut name = target.as_os_str().to_owned();
-    name.push(".part");
-    name.into()
+    beside::with(target, ".part")
 }
 
 impl Stream {
@@ -52,8 +55,8 @@ impl Stream {
             Place::Stdout => Sink::Stdout(BufWriter::new(io::stdout())),
             Place::Special(file) => Sink::Special(path.into(), BufWriter::new(file)),
             Place::File(target) => {
-                let part = part_of(&target);
-                let journal = Journal::create(&part);
+                let part = part_of(target.path());
+                let journal = Journal::create(&part, MAGIC, &Looks::of(target.path()));
                 let journal = journal.map_err(|error| refused(option, path, &error))?;
                 Sink::Part(Part { journal, part, target, is_kept })
             }
@@ -61,22 +64,28 @@ impl Stream {
         Ok(Self::through(sink))
     }
 
-    /// Goes on with a file that held what the mark says: its part or, where an interrupted run has given it
-    /// its name, a copy of the beginning.
-    pub(crate) fn resume(target: &Path, mark: Mark) -> Result<Self, Failure> {
-        let part = part_of(target);
-        let journal = Journal::resume(&part, mark).or_else(|unusable| {
-            if !target.exists() {
-                return Err(unusable);
+    /// Goes on with a file that held what the mark says: its part or a copy of the beginning of another, be it that
+    /// to which an interrupted run has given its name.
+    pub(crate) fn resume(target: Target, mark: Mark, others: &[PathBuf]) -> Result<Self, Failure> {
+        let part = part_of(target.path());
+        let mut journal = Journal::resume(&part, MAGIC, mark);
+        for other in others {
+            let is_another = |error: &io::Error| error.kind() == io::ErrorKind::WouldBlock;
+            if journal.is_ok() || journal.as_ref().is_err_and(is_another) {
+                break;
             }
-            fs::copy(target, &part)?;
-            Journal::resume(&part, mark)
-        });
+            if let Ok(file) = File::open(other) {
+                journal = Journal::copy(&file, &part, MAGIC, mark);
+            }
+        }
         let journal = journal.map_err(|error| {
-            let files = format!("{} nor {}", part.display(), target.display());
+            if error.kind() == io::ErrorKind::WouldBlock {
+                return refused("--output", target.path(), &error);
+            }
+            let names = [&part].into_iter().chain(others).map(|path| path.display().to_string());
+            let files = names.collect::<Vec<_>>().join(" nor ");
             Failure::Run(format!("cannot go on with the output, neither with {files}: {error}"))
         })?;
-        let target = target.to_path_buf();
         Ok(Self::through(Sink::Part(Part { journal, part, target, is_kept: true })))
     }
 
@@ -129,10 +138,10 @@ impl Stream {
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.sync()?;
         let Sink::Part(part) = &mut self.sink else { return Ok(()) };
-        let done = fs::rename(&part.part, &part.target);
+        let done = fs::rename(&part.part, part.target.path());
         if done.is_ok() {
             part.is_kept = true;
-            sync_folder(&part.target);
+            sync_folder(part.target.path());
         }
         done.map_err(|error| self.failed(error))
     }

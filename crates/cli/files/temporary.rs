@@ -2,8 +2,10 @@
 //! process killed at its work leaves none; one that is killed as it writes leaves one, which the next to write
 //! the same file removes. A lock, which ends with its process, tells the two apart.
 
+use super::replace::through;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
@@ -24,6 +26,22 @@ pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> 
             return Ok(file);
         }
     }
+}
+
+/// Writes among the system's temporary files what could not be written where it should be; where it is. Open to
+/// nobody else.
+pub(super) fn kept_elsewhere(
+    target: &Path,
+    write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+) -> Option<PathBuf> {
+    let name = target.file_name().unwrap_or_default();
+    let short = if name.len() < 100 { name } else { OsStr::new("result") };
+    let mut suffix = OsString::from("-");
+    suffix.push(short);
+    let mut file = Builder::new().prefix("stickslip-").suffix(&suffix).tempfile().ok()?;
+    through(file.as_file_mut(), write).ok()?;
+    file.as_file().sync_all().ok()?;
+    file.keep().ok().map(|(_, path)| path)
 }
 
 /// Ours, for this target: of a length that any file system allows, however long its name.

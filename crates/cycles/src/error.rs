@@ -1,6 +1,6 @@
 //! Why a cycle could not be had.
 
-use stickslip_outcome::{Outcome, Regime};
+use crate::Ended;
 use stickslip_stability::StabilityError;
 use stickslip_tip::RunError;
 use stickslip_tip::memory::FitError;
@@ -36,7 +36,7 @@ pub enum CycleError {
     /// Runs did not come near a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
-        how(ended.as_ref())
+        Ended::told(*ended)
     )]
     NoCycleReached {
         /// As asked.
@@ -44,7 +44,7 @@ pub enum CycleError {
         /// As asked.
         r: f64,
         /// What the longest run ended as.
-        ended: Option<Outcome>,
+        ended: Option<Ended>,
     },
     /// Newton's method did not converge from the cycle given.
     #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
@@ -76,14 +76,5 @@ impl From<FitError> for CycleError {
             FitError::NeverFades => Self::NeverFades,
             error => Self::Fit(error),
         }
-    }
-}
-
-fn how(ended: Option<&Outcome>) -> &'static str {
-    match ended.map(|outcome| outcome.regime) {
-        Some(Regime::Steady) => "in steady motion",
-        Some(Regime::StickSlip) => "in stick-slip that no cycle near it closes",
-        Some(Regime::Trapped) => "trapped: the groove holds the tip for ever",
-        Some(Regime::Transient) | None => "without having settled",
     }
 }

@@ -20,6 +20,7 @@
 
 mod continuation;
 mod embedding;
+mod ended;
 mod error;
 mod linearisation;
 mod mesh;
@@ -35,9 +36,10 @@ mod step;
 
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
+pub use ended::{Ended, Tried};
 pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
-pub use search::{Motion, cycle, cycle_near, motion};
+pub use search::{Settled, cycle, cycle_near, cycle_within, settle, small_cycle};
 
 use num_complex::Complex;
 use ripple::Ripple;
@@ -78,7 +80,9 @@ impl Cycle {
         let motion = closed.orbit.trajectory(r);
         let extrema = latest_extrema(&motion);
         let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);
-        let extremes = (lowest, motion.l(0.0));
+        // The maximum at the seam was the highest of the guess; another may have overtaken it.
+        let highest = extrema.iter().map(|e| e.l).fold(motion.l(0.0), f64::max);
+        let extremes = (lowest, highest);
         // Around a period there are as many maxima as minima; the first maximum is at the seam.
         let slips = extrema.iter().filter(|e| !e.is_maximum).count();
         Ok(Self { model, closed, motion, multipliers, extremes, slips })

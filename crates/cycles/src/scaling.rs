@@ -2,10 +2,10 @@
 //!
 //! Near the critical point the square of the amplitude and the wavelength are linear in the distance from it.
 
-use super::{CycleError, Parameter, cycle};
-use stickslip_outcome::run_and_judge;
+use super::{CycleError, Parameter, Tried, cycle};
 use stickslip_stability::{Onset, critical, critical_r, onset_at};
-use stickslip_tip::{Model, Scenario, TipFunction};
+use stickslip_tip::motion::{Oscillation, latest_extrema};
+use stickslip_tip::{Model, Scenario, TipFunction, run};
 
 /// A law near onset, measured at some distances from it.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,10 +124,13 @@ fn of_run(
     let decay = 2.0 * (onset.growth_slope * above).abs();
     let settling = FOLDINGS / decay + 10.0 * onset.critical.period;
     scenario.until = scenario.start_time() + settling;
-    let (_, outcome) = run_and_judge(&scenario)?;
+    let run = run(&scenario)?;
     let (alpha, r) = (model.alpha(), model.r());
-    let oscillation =
-        outcome.oscillation.ok_or(CycleError::NoCycleReached { alpha, r, ended: Some(outcome) })?;
+    let found = Oscillation::of(&run.trajectory, &latest_extrema(&run.trajectory));
+    let oscillation = found.ok_or_else(|| {
+        let ended = Some(Tried { scenario, run }.ended());
+        CycleError::NoCycleReached { alpha, r, ended }
+    })?;
     let amplitude_x0 = oscillation.amplitude_x0;
     Ok(ScalingPoint {
         distance,

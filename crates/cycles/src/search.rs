@@ -3,42 +3,41 @@
 use super::embedding::Embedding;
 use super::orbit::Orbit;
 use super::solve::{Condition, close};
-use super::start::{from_onset, from_runs, small_cycle_exists};
-use super::{Cycle, CycleError, TOLERANCES};
-use stickslip_outcome::Outcome;
+use super::start::{from_onset, from_runs, part, small_cycle_exists};
+use super::{Cycle, CycleError, TOLERANCES, Tried};
 use stickslip_stability::{Critical, StabilityError, critical, onset_at};
 use stickslip_tip::{Model, Trajectory};
 
 /// Halves of a cycle that differ by less, in σ, are the same.
 const REPEATS_WITHIN: f64 = 1e-7;
 
-/// What a tip comes to when steady motion is disturbed a little.
+/// What a search for the motion that attracts a tip set going from beside steady motion came to.
 #[derive(Debug, Clone)]
-pub enum Motion {
+pub enum Settled {
     /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
     Steady,
     /// A stable cycle.
     Cycle(Box<Cycle>),
-    /// What a run ended as, that came near no stable cycle: trapped, or without end in sight.
-    Run(Outcome),
+    /// A run that came near no stable cycle: trapped, or without end in sight.
+    Run(Box<Tried>),
 }
 
 /// What the motion at the parameters of the model comes to: by linear stability, by [`cycle`], by a run.
 ///
 /// # Errors
 /// A tolerance out of range, or a run that fails.
-pub fn motion(model: &Model, tolerance: f64) -> Result<Motion, CycleError> {
+pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
     judge(tolerance)?;
     let critical = match critical(model.tip(), model.r()) {
         Ok(critical) if model.alpha() > critical.alpha => critical,
-        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Motion::Steady),
+        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Settled::Steady),
         Err(error) => return Err(error.into()),
     };
     let Search { stable, ended, .. } = Search::above_onset(model, critical, tolerance)?;
     Ok(match (stable, ended) {
-        (Some(cycle), _) => Motion::Cycle(Box::new(cycle)),
-        (None, Some(outcome)) => Motion::Run(outcome),
-        (None, None) => Motion::Steady,
+        (Some(cycle), _) => Settled::Cycle(Box::new(cycle)),
+        (None, Some(run)) => Settled::Run(Box::new(run)),
+        (None, None) => Settled::Steady,
     })
 }
 
@@ -57,6 +56,7 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let critical = critical(model.tip(), r)?;
     if alpha > critical.alpha {
         let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
+        let ended = ended.map(|run| run.ended());
         return stable.or(unstable).ok_or(CycleError::NoCycleReached { alpha, r, ended });
     }
     let small =
@@ -79,6 +79,33 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     solve(&equation, guess, tolerance).ok_or(CycleError::NotConverged { alpha, r })
 }
 
+/// As [`cycle_near`], for the stretch of a motion between two times, a period apart, at which l is at its
+/// maximum.
+///
+/// # Errors
+/// As [`cycle_near`].
+pub fn cycle_within(
+    model: &Model,
+    motion: &Trajectory,
+    (from, to): (f64, f64),
+    tolerance: f64,
+) -> Result<Cycle, CycleError> {
+    let equation = embedding(model, tolerance)?;
+    let (alpha, r) = (model.alpha(), model.r());
+    solve(&equation, part(motion, from, to), tolerance).ok_or(CycleError::NotConverged { alpha, r })
+}
+
+/// The small cycle that is born at αc, on the side of it where it exists; `None` where its leading order leads
+/// Newton's method to none.
+///
+/// # Errors
+/// A tolerance out of range, a footprint that never fades, or no critical point.
+pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, CycleError> {
+    let equation = embedding(model, tolerance)?;
+    let guess = born(&equation, model, critical(model.tip(), model.r())?);
+    Ok(guess.and_then(|guess| solve(&equation, guess, tolerance)))
+}
+
 pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
     judge(tolerance)?;
     Ok(Embedding::new(model, tolerance)?)
@@ -93,8 +120,8 @@ fn judge(tolerance: f64) -> Result<(), CycleError> {
 struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
-    /// What the longest run ended as, if one was needed.
-    ended: Option<Outcome>,
+    /// The longest run, if one was needed.
+    ended: Option<Tried>,
 }
 
 impl Search {
@@ -116,7 +143,7 @@ impl Search {
         };
         let small = equation.as_ref().and_then(|e| born(e, model, critical));
         if !small.is_some_and(&mut take) {
-            found.ended = Some(from_runs(model, take)?);
+            found.ended = from_runs(model, take)?;
         }
         Ok(found)
     }

@@ -1,14 +1,13 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
-use super::CycleError;
 use super::embedding::Embedding;
 use super::mesh::{equidistributed, longest_displacement};
 use super::orbit::{Orbit, even_mesh};
+use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
-use stickslip_outcome::{Outcome, Regime, run_and_judge};
 use stickslip_stability::{Criticality, Onset};
-use stickslip_tip::motion::{Extremum, latest_extrema};
-use stickslip_tip::{Model, Run, Scenario, Trajectory};
+use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
+use stickslip_tip::{Model, Scenario, Trajectory, run};
 
 const FEWEST_STEPS: f64 = 18.0;
 /// Amplitude to which the leading order is a guess, in widths.
@@ -60,29 +59,30 @@ const TOLERANCE_OF_A_RUN: f64 = 1e-6;
 /// What sets the tip going, in widths.
 const KICK: f64 = 0.3;
 
-/// Offers the last period of ever longer runs until `take` is content, and says what the last run ended as.
+/// Offers the last period of ever longer runs until `take` is content; the last of them.
 pub(super) fn from_runs(
     model: &Model,
     mut take: impl FnMut(Orbit) -> bool,
-) -> Result<Outcome, CycleError> {
+) -> Result<Option<Tried>, CycleError> {
     let mut scenario = Scenario::new(model.clone(), 0.0);
     scenario.kick = KICK * 8.7 / model.tip().band();
     scenario.tolerance = TOLERANCE_OF_A_RUN;
     let mut ended = None;
     for length in RUNS {
         scenario.until = scenario.start_time() + length;
-        let (Run { trajectory, .. }, outcome) = run_and_judge(&scenario)?;
+        let run = run(&scenario)?;
+        let trajectory = &run.trajectory;
         // Where none is seen yet, a period may have one slip or two.
-        let slips = outcome.oscillation.map_or(1..=2, |o| o.slips..=o.slips);
-        let periods: Vec<_> = slips.filter_map(|slips| last_period(&trajectory, slips)).collect();
-        let taken = periods.into_iter().any(|(from, to)| take(part(&trajectory, from, to)));
-        let over = matches!(outcome.regime, Regime::Steady | Regime::Trapped);
-        ended = Some(outcome);
-        if taken || over {
+        let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
+        let slips = repeats.map_or(1..=2, |o| o.slips..=o.slips);
+        let periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
+        let taken = periods.into_iter().any(|(from, to)| take(part(trajectory, from, to)));
+        ended = Some(Tried { scenario: scenario.clone(), run });
+        if taken {
             break;
         }
     }
-    Ok(ended.unwrap_or(Outcome { regime: Regime::Transient, oscillation: None }))
+    Ok(ended)
 }
 
 /// Between two maxima a period apart: the highest within the period, and the one before it.
@@ -95,7 +95,7 @@ fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
 }
 
 /// A period of a run, with steps as long as those of the run.
-fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
+pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
     let period = to - from;
     let steps = trajectory.steps().iter().filter(|step| step.t < to && step.end() > from);
     let (mut mesh, mut density) = (vec![0.0], vec![]);

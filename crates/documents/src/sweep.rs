@@ -4,8 +4,8 @@ use crate::table::{Column, Named, Tabular};
 use crate::{RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_cycles::{Cycle, Motion};
-use stickslip_outcome::Outcome;
+use stickslip_cycles::Cycle;
+use stickslip_outcome::{Motion, Outcome};
 
 /// What the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -21,6 +21,10 @@ pub struct SweepDocument {
     pub parameters: SweepParameters,
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
+    /// CRC-32 (IEEE) of the JSON `[parameters,points]`, without spaces and with the shortest digits: tells `merge`
+    /// whether anything was changed.
+    #[serde(default)]
+    pub crc32: Option<u32>,
 }
 
 impl SweepDocument {
@@ -116,6 +120,17 @@ pub struct SweepPoint {
 }
 
 impl SweepParameters {
+    /// The part that is here, be it the whole.
+    pub fn part(&self) -> ShardDocument {
+        self.shard.unwrap_or(ShardDocument { index: 1, of: 1 })
+    }
+
+    /// Whether the point of this index is one of this part.
+    pub fn has(&self, index: usize) -> bool {
+        let ShardDocument { index: part, of } = self.part();
+        index < self.points() && index.checked_rem(of).is_some_and(|rest| rest + 1 == part)
+    }
+
     /// Points of the whole grid.
     pub fn points(&self) -> usize {
         let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);

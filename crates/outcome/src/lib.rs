@@ -2,10 +2,12 @@
 
 mod classifier;
 mod creep;
+mod motion;
 mod thinned;
 mod watched;
 
 pub use classifier::Classifier;
+pub use motion::{Motion, motion};
 pub use watched::{Watched, run_and_judge};
 
 use stickslip_tip::motion::Oscillation;

@@ -22,6 +22,8 @@ mod work_precision;
 use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
+use crate::files::place;
+use crate::message::say;
 use crate::plot::{self, PlotFormat};
 use clap::ValueEnum;
 use std::io;
@@ -40,13 +42,14 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
         };
         Failure::input(named, format!("{said}; name a folder that can be made"))
     })?;
+    let _reserved = place::folder("--out-dir", folder)?;
     let asked = arguments.only.as_deref().unwrap_or(FigureName::value_variants());
     let names = FigureName::value_variants().iter().filter(|name| asked.contains(name));
     for name in names {
         let started = Instant::now();
         let files = make(*name, folder)?;
         let seconds = started.elapsed().as_secs_f64();
-        eprintln!("{} in {seconds:.1} s", files.join(", "));
+        say(format_args!("{} in {seconds:.1} s", files.join(", ")));
     }
     Ok(())
 }

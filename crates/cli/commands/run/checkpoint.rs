@@ -2,10 +2,10 @@
 
 use super::record::Record;
 use crate::failure::{Failure, Typed};
-use crate::files::output::replace;
+use crate::files::place::Target;
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stickslip_documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
@@ -17,7 +17,7 @@ const LARGEST: u64 = 1 << 30;
 
 /// When and where checkpoints are made.
 pub(super) struct Checkpoints {
-    path: PathBuf,
+    file: Target,
     order: Order,
     start: f64,
     every: f64,
@@ -26,17 +26,9 @@ pub(super) struct Checkpoints {
     last: Option<f64>,
 }
 
-/// The file beside a checkpoint that holds the history, or the samples, of a run that keeps them in memory.
-pub(super) fn journal_of(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".journal");
-    name.into()
-}
-
 impl Checkpoints {
-    pub(super) fn new(path: &Path, order: &Order, start: f64, every: f64, t: f64) -> Self {
-        let mut checkpoints =
-            Self { path: path.into(), order: order.clone(), start, every, due: t, last: None };
+    pub(super) fn new(file: Target, order: &Order, start: f64, every: f64, t: f64) -> Self {
+        let mut checkpoints = Self { file, order: order.clone(), start, every, due: t, last: None };
         checkpoints.plan(t);
         checkpoints
     }
@@ -72,8 +64,10 @@ impl Checkpoints {
                 words: state.words().len() as u64,
             };
             let bytes = bytes(&head, &state).map_err(|error| Failure::Run(error.to_string()))?;
-            replace(&self.path, |out| out.write_all(&bytes))
-                .map_err(|error| Failure::Write { target: self.path.display().to_string(), error })
+            self.file.replace(&|out| out.write_all(&bytes)).map_err(|error| {
+                let target = self.file.path().display().to_string();
+                Failure::Write { target, error }
+            })
         });
         self.plan(running.t());
         match (&done, self.last) {

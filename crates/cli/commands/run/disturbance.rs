@@ -4,6 +4,7 @@ use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::Named;
 use crate::files::input::{Columns, read_columns, read_profile};
+use crate::message::say;
 use std::path::Path;
 use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario};
 
@@ -99,7 +100,7 @@ fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, 
     } else {
         return;
     };
-    eprintln!("stickslip: {option} has no effect: {advice}");
+    say(format_args!("stickslip: {option} has no effect: {advice}"));
 }
 
 fn explain(error: &ForceError, arguments: &DisturbanceArguments) -> Failure {

@@ -7,8 +7,9 @@ use super::limits::within_range;
 use super::samples::sample_times;
 use crate::arguments::{DisturbanceArguments, HistoryName, RunArguments, StartArguments};
 use crate::failure::{Failure, Typed};
-use crate::files::apart::{apart, resting_place};
+use crate::files::apart::apart;
 use crate::files::output::OutputFormat;
+use crate::files::place::resolved;
 use std::path::Path;
 use stickslip_documents::{Order, RunFormat, RunParameters};
 use stickslip_tip::{RunError, Scenario};
@@ -30,10 +31,10 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let order = Order {
         samples: sample_times(&arguments.sampling, span, "the run", are_kept)?,
         parameters: RunParameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
-        output: resting_place(&arguments.output),
+        output: resolved(&arguments.output),
         format,
         history: arguments.history == HistoryName::All,
-        plot: arguments.plot.as_deref().map(resting_place),
+        plot: arguments.plot.as_deref().map(resolved),
         verify: arguments.verify,
         checkpoint_every: arguments.checkpoint.is_some().then_some(every),
     };
@@ -71,7 +72,7 @@ fn files(arguments: &RunArguments) -> Result<(), Failure> {
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
     apart(&written, &files_read(&arguments.model, &arguments.disturbance))?;
-    let is_text = |path: &Path| resting_place(path).to_str().is_some();
+    let is_text = |path: &Path| resolved(path).to_str().is_some();
     let odd = written
         .into_iter()
         .find_map(|(option, path)| Some((option, path?)).filter(|n| !is_text(n.1)));

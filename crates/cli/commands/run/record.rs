@@ -1,8 +1,8 @@
 //! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
 
-use super::checkpoint::journal_of;
 use crate::failure::Failure;
-use crate::files::journal::{Journal, rows, write_row};
+use crate::files::place::IN_USE;
+use crate::files::rows::{Rows, journal_of};
 use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -30,10 +30,11 @@ pub(super) enum Sink {
     /// Samples go out as lines.
     Lines(Stream),
     /// Beside a checkpoint: steps where the history is kept, or else samples.
-    Journal(PathBuf, Journal),
+    Journal(PathBuf, Rows),
 }
 
-const SAMPLE_NUMBERS: usize = 4;
+/// Of a sample in a journal.
+pub(super) const SAMPLE_NUMBERS: usize = 4;
 
 impl Record {
     pub(super) fn new(r: f64, times: Times, keeps_history: bool, sink: Sink) -> Self {
@@ -50,7 +51,7 @@ impl Record {
             }
             steps.push(*step);
             if let Sink::Journal(path, journal) = &mut self.sink {
-                write_row(journal, step.numbers()).map_err(|error| failed(path, error))?;
+                journal.write(step.numbers()).map_err(|error| failed(path, error))?;
             }
         }
         // A time at which one step ends is the next one's.
@@ -76,9 +77,8 @@ impl Record {
             match &mut self.sink {
                 Sink::Lines(stream) => stream.line(&sample)?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
-                    let row = [t, l, x0, velocity];
-                    write_row::<SAMPLE_NUMBERS>(journal, row)
-                        .map_err(|error| failed(path, error))?;
+                    let row: [f64; SAMPLE_NUMBERS] = [t, l, x0, velocity];
+                    journal.write(row).map_err(|error| failed(path, error))?;
                     self.samples.push(sample);
                 }
                 _ => self.samples.push(sample),
@@ -111,27 +111,38 @@ impl Record {
             let needed = "the checkpoint cannot be resumed without it";
             Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
         };
-        let journal = Journal::resume(path, mark).map_err(unusable)?;
-        if self.steps.is_some() {
-            for row in rows::<STEP_NUMBERS>(path).map_err(unusable)? {
+        let rows = if self.steps.is_some() {
+            let (rows, steps) = Rows::resume::<STEP_NUMBERS>(path, mark).map_err(unusable)?;
+            for row in steps {
                 self.take(&Step::from_numbers(row))?;
             }
+            rows
         } else {
-            for [t, l, x0, velocity] in rows(path).map_err(unusable)? {
-                self.samples.push(SampleLine { t, l, x0, velocity });
-            }
+            let (rows, samples) = Rows::resume::<SAMPLE_NUMBERS>(path, mark).map_err(unusable)?;
+            let sample = |[t, l, x0, velocity]: [f64; 4]| SampleLine { t, l, x0, velocity };
+            self.samples.extend(samples.into_iter().map(sample));
             self.taken = self.samples.len() as u64;
-        }
-        self.sink = Sink::Journal(path.into(), journal);
+            rows
+        };
+        self.sink = Sink::Journal(path.into(), rows);
         Ok(())
     }
 }
 
-/// A journal for the checkpoint at `path`.
-pub(super) fn journal(path: &Path) -> Result<Sink, Failure> {
-    let path = journal_of(path);
-    let journal = Journal::create(&path).map_err(|error| failed(&path, error))?;
-    Ok(Sink::Journal(path, journal))
+/// A journal for the checkpoint at `path`, of rows of so many numbers.
+pub(super) fn journal(path: &Path, numbers: usize) -> Result<Sink, Failure> {
+    let journal = journal_of(path);
+    match Rows::create(&journal, path, numbers) {
+        Ok(rows) => Ok(Sink::Journal(journal, rows)),
+        Err(error) => {
+            let message = match error.kind() {
+                io::ErrorKind::WouldBlock => IN_USE.into(),
+                io::ErrorKind::AlreadyExists => error.to_string(),
+                _ => return Err(failed(&journal, error)),
+            };
+            Err(Failure::input(format!("--checkpoint {}", path.display()), message))
+        }
+    }
 }
 
 fn failed(path: &Path, error: io::Error) -> Failure {

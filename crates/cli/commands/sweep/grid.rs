@@ -85,7 +85,7 @@ impl Grid {
 
     /// The indices of this part of the points.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
-        let shard = self.parameters.shard.unwrap_or(ShardDocument { index: 1, of: 1 });
+        let shard = self.parameters.part();
         (shard.index - 1..self.parameters.points()).step_by(shard.of)
     }
 

@@ -1,6 +1,7 @@
 //! `stickslip sweep merge`.
 
 use super::write::Writer;
+use super::{checksum, sealed};
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
 use crate::files::input::read_document;
@@ -28,12 +29,20 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     }
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
-    Writer::check(output, plot, &whole.parameters)?;
-    Writer::asked(output, plot)?.write(&whole)
+    let whole = sealed(whole.parameters, whole.points)?;
+    Writer::asked(output, plot, &whole.parameters)?.write(&whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {
-    read_document("PART.json", path, SweepDocument::FORMAT)
+    let part: SweepDocument = read_document("PART.json", path, SweepDocument::FORMAT)?;
+    let refused = |message| Err(Failure::input(format!("PART.json {}", path.display()), message));
+    match part.crc32 {
+        Some(sum) if sum == checksum(&part)? => Ok(part),
+        Some(_) => refused("was changed since it was written: its checksum does not match"),
+        None => {
+            refused("has no checksum `crc32`: it is not as this version writes it, sweep it again")
+        }
+    }
 }
 
 /// Every point of the grid, once.

@@ -1,8 +1,8 @@
 //! What the tip settles into at one point. Depends on the point alone: a sweep may be done in any order.
 
 use super::grid::{Alpha, Place};
-use stickslip_cycles::motion;
 use stickslip_documents::SweepPoint;
+use stickslip_outcome::motion;
 use stickslip_stability::critical;
 use stickslip_tip::Model;
 

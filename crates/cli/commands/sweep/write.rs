@@ -4,7 +4,7 @@ use super::diagram;
 use crate::commands::figure::Figure;
 use crate::failure::Failure;
 use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat, place};
+use crate::files::output::{Output, OutputFormat};
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
@@ -32,21 +32,15 @@ const COLUMNS: [Column; 10] = [
 ];
 
 impl Writer {
-    /// Finds out, before hours of work, whether it can go there. Nothing is left there meanwhile.
-    pub(super) fn check(
+    /// Finds out, before hours of work, whether it can go there, and reserves the place.
+    pub(super) fn asked(
         output: &Path,
         plot: Option<&Path>,
         parameters: &SweepParameters,
-    ) -> Result<(), Failure> {
-        OutputFormat::of(output)?;
+    ) -> Result<Self, Failure> {
         if plot.is_some() {
             diagram::judge(parameters)?;
         }
-        place("--output", output)?;
-        Figure::asked("--plot", plot).map(drop)
-    }
-
-    pub(super) fn asked(output: &Path, plot: Option<&Path>) -> Result<Self, Failure> {
         Ok(Self {
             format: OutputFormat::of(output)?,
             output: Output::open("--output", output)?,
@@ -54,14 +48,20 @@ impl Writer {
         })
     }
 
+    /// The file that it goes to; `None` for a pipe, say.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.output.file()
+    }
+
     pub(super) fn write(self, document: &SweepDocument) -> Result<(), Failure> {
-        if let Some(figure) = self.figure {
-            figure.write(&diagram::draw(&document.parameters, &document.points))?;
-        }
         match self.format {
             OutputFormat::Json => self.output.write_json(document),
             OutputFormat::Csv => self.output.write_bytes(csv(&document.points).as_bytes()),
             OutputFormat::Npz => self.output.write_bytes(&npz(&document.points)?),
+        }?;
+        match self.figure {
+            Some(figure) => figure.write(&diagram::draw(&document.parameters, &document.points)),
+            None => Ok(()),
         }
     }
 }

@@ -1,0 +1,148 @@
+//! Names that were not given but derived from one that was: `FILE.part`, `FILE.partial`, `CHECKPOINT.journal`.
+//! A user may have files of such names, or somebody may have planted them: only what this program made is taken
+//! up or replaced, told by how it begins, and no link is followed.
+
+use super::lock::lock;
+use super::replace::Looks;
+use super::special::not_followed;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Seek};
+use std::path::{Path, PathBuf};
+
+/// The name with something after it.
+pub(crate) fn with(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+/// Opens and locks the file that was made here, which begins with `magic`, or is empty still; `None` where there
+/// is no file.
+///
+/// # Errors
+/// `WouldBlock`: another process has locked it. `AlreadyExists`: it is none that was made here.
+pub(crate) fn ours(path: &Path, magic: &[u8]) -> io::Result<Option<File>> {
+    let mut file = match not_followed(OpenOptions::new().read(true).write(true)).open(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) if error.kind() == ErrorKind::PermissionDenied => return Err(error),
+        // A link, a folder, a pipe.
+        Err(_) => return Err(foreign(path)),
+    };
+    if !file.metadata()?.is_file() {
+        return Err(foreign(path));
+    }
+    lock(&file)?;
+    let mut beginning = vec![];
+    (&mut file).take(magic.len() as u64).read_to_end(&mut beginning)?;
+    // A kill may have left its beginning alone.
+    if !magic.starts_with(&beginning) {
+        return Err(foreign(path));
+    }
+    file.rewind()?;
+    Ok(Some(file))
+}
+
+/// Makes a new file, locked, in place of one that was made here.
+///
+/// # Errors
+/// As [`ours`].
+pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<File> {
+    if let Some(old) = ours(path, magic)? {
+        // The name goes, not the contents: they may have another name.
+        fs::remove_file(path)?;
+        drop(old);
+    }
+    let file = OpenOptions::new().read(true).write(true).create_new(true).open(path);
+    let file = file.map_err(|error| match error.kind() {
+        // Made by another process since.
+        ErrorKind::AlreadyExists => ErrorKind::WouldBlock.into(),
+        _ => error,
+    })?;
+    lock(&file)?;
+    looks.give_to(&file)?;
+    Ok(file)
+}
+
+/// The same, as open to others as the file that it belongs to.
+///
+/// # Errors
+/// As [`ours`].
+pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result<File> {
+    create(path, magic, &Looks::of(owner))
+}
+
+/// Whether the file is known by another name too, under which it must stay what it is.
+#[cfg(unix)]
+pub(crate) fn has_other_names(file: &File) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    Ok(file.metadata()?.nlink() > 1)
+}
+
+#[cfg(not(unix))]
+pub(crate) fn has_other_names(_: &File) -> io::Result<bool> {
+    Ok(false)
+}
+
+fn foreign(path: &Path) -> io::Error {
+    let message = format!(
+        "{} is in the way, which this program did not make: give that another name",
+        path.display()
+    );
+    io::Error::new(ErrorKind::AlreadyExists, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MAGIC: &[u8] = b"stickslip/test";
+
+    fn made(path: &Path) -> io::Result<File> {
+        create(path, MAGIC, &Looks::default())
+    }
+
+    #[test]
+    fn what_a_user_has_is_neither_replaced_nor_taken_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.jsonl.part");
+        for contents in ["my own notes", "stickslip", "stickslip/test and more", ""] {
+            fs::write(&path, contents).unwrap();
+            let is_ours = MAGIC.starts_with(contents.as_bytes()) || contents.len() > MAGIC.len();
+            assert_eq!(made(&path).is_ok(), is_ours, "{contents}");
+            assert_eq!(
+                fs::read(&path).unwrap() == contents.as_bytes(),
+                !is_ours || contents.is_empty()
+            );
+        }
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert_eq!(made(&path).unwrap_err().kind(), ErrorKind::AlreadyExists);
+    }
+
+    #[test]
+    fn two_do_not_have_it_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.jsonl.part");
+        let first = made(&path).unwrap();
+        assert_eq!(made(&path).unwrap_err().kind(), ErrorKind::WouldBlock);
+        drop(first);
+        assert!(ours(&path, MAGIC).unwrap().is_some());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed_and_other_names_keep_their_contents() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, precious] = ["run.jsonl.part", "precious"].map(|name| folder.path().join(name));
+        fs::write(&precious, "stickslip/test, and all of my work").unwrap();
+        let before = fs::read(&precious).unwrap();
+        std::os::unix::fs::symlink(&precious, &path).unwrap();
+        assert_eq!(made(&path).unwrap_err().kind(), ErrorKind::AlreadyExists);
+        fs::remove_file(&path).unwrap();
+        fs::hard_link(&precious, &path).unwrap();
+        assert!(has_other_names(&ours(&path, MAGIC).unwrap().unwrap()).unwrap());
+        made(&path).unwrap();
+        assert_eq!(fs::read(&precious).unwrap(), before);
+    }
+}

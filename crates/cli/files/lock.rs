@@ -1,0 +1,133 @@
+//! One writer a file: whoever writes a name, or will, holds its lock, and the next who wants to is told.
+//!
+//! The lock is advisory and ends with its process, however that ends. It is not on the file, which may not be there
+//! yet and has other contents each time that it is replaced, but on its name: an empty file among the system's
+//! temporary ones stands for it, and goes when the lock does. Folders of outputs stay as they are, even after a kill.
+//! What grows is locked itself as well: other machines see that where the file system tells them.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// The right to write a name, for as long as this lives.
+#[derive(Debug)]
+pub(crate) struct Lock {
+    /// `None` where the system has no locks, or no place for them.
+    held: Option<(PathBuf, File)>,
+}
+
+impl Lock {
+    /// Of the file or folder with this name, links resolved.
+    ///
+    /// # Errors
+    /// `WouldBlock`: another process has it.
+    pub(crate) fn of(target: &Path) -> io::Result<Self> {
+        let place = std::env::temp_dir().join(name(target));
+        loop {
+            // What cannot be locked is written without: a lock is a courtesy among equals.
+            let Ok(file) = open(&place) else { return Ok(Self { held: None }) };
+            lock(&file)?;
+            // Its last holder removes it: the one that was opened may have lost its name since.
+            if stands_for(&place, &file) {
+                return Ok(Self { held: Some((place, file)) });
+            }
+        }
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if let Some((place, _)) = &self.held {
+            fs::remove_file(place).ok();
+        }
+    }
+}
+
+/// Locks an open file, if files can be locked there.
+///
+/// # Errors
+/// `WouldBlock`: another process has locked it.
+pub(super) fn lock(file: &File) -> io::Result<()> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(ErrorKind::WouldBlock.into()),
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
+    }
+}
+
+/// The same for all processes on this machine.
+fn name(target: &Path) -> String {
+    let (folder, name) = (target.parent().unwrap_or(target), target.file_name());
+    let [folder, name] = [folder.as_os_str(), name.unwrap_or_default()]
+        .map(|part| crc32fast::hash(part.as_encoded_bytes()));
+    format!("stickslip-{folder:08x}{name:08x}.lock")
+}
+
+/// Made if it is not there; what somebody planted in its place is not followed, nor waited for.
+fn open(place: &Path) -> io::Result<File> {
+    let mut new = OpenOptions::new();
+    match new.write(true).create_new(true).open(place) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            // That of another user can be read at least, which suffices.
+            super::special::not_followed(OpenOptions::new().read(true)).open(place)
+        }
+        other => other,
+    }
+}
+
+/// Whether the file is still the one at its place.
+#[cfg(unix)]
+fn stands_for(place: &Path, file: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let which = |data: io::Result<fs::Metadata>| data.map(|data| (data.dev(), data.ino())).ok();
+    which(place.symlink_metadata()) == which(file.metadata())
+}
+
+/// What is open keeps its name there.
+#[cfg(not(unix))]
+fn stands_for(place: &Path, _: &File) -> bool {
+    place.exists()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_has_one_holder_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let [a, b] = ["a.json", "b.json"].map(|name| folder.path().join(name));
+        let first = Lock::of(&a).unwrap();
+        assert_eq!(Lock::of(&a).unwrap_err().kind(), ErrorKind::WouldBlock);
+        let _other = Lock::of(&b).unwrap();
+        let (place, _) = first.held.as_ref().unwrap();
+        let place = place.clone();
+        assert!(place.exists());
+        drop(first);
+        assert!(!place.exists(), "nothing is left of it");
+        Lock::of(&a).unwrap();
+        assert_eq!(folder.path().read_dir().unwrap().count(), 0, "beside the target is nothing");
+    }
+
+    /// As a kill leaves it.
+    #[test]
+    fn the_lock_of_a_dead_process_is_taken_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.json");
+        let place = std::env::temp_dir().join(name(&target));
+        fs::write(&place, "").unwrap();
+        drop(Lock::of(&target).unwrap());
+        assert!(!place.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_planted_link_is_not_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (target, precious) = (folder.path().join("a.json"), folder.path().join("precious"));
+        let place = std::env::temp_dir().join(name(&target));
+        std::os::unix::fs::symlink(&precious, &place).unwrap();
+        drop(Lock::of(&target).unwrap());
+        assert!(!precious.exists());
+        fs::remove_file(&place).unwrap();
+    }
+}

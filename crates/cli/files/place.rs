@@ -1,0 +1,125 @@
+//! What a name on the command line stands for, found out before the work.
+
+use super::lock::Lock;
+use super::replace::{Looks, replace};
+use super::special::{self, is_special};
+use super::temporary::may_be_made_in;
+use crate::failure::Failure;
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Where something is written to.
+#[derive(Debug)]
+pub(crate) enum Place {
+    Stdout,
+    /// A device or a pipe, written to as it is.
+    Special(File),
+    File(Target),
+}
+
+/// A file that is there and can be written, or that may be made; nobody else writes it as long as this lives.
+#[derive(Debug)]
+pub(crate) struct Target {
+    path: PathBuf,
+    _lock: Lock,
+}
+
+impl Target {
+    /// Links resolved.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes it in one go.
+    pub(crate) fn replace(
+        &self,
+        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        replace(&self.path, &Looks::of(&self.path), write)
+    }
+}
+
+/// Finds out, before the work, whether the place that `option` named (`-`: standard output) can be
+/// written, and reserves it.
+///
+/// # Errors
+/// It cannot be written, or another process writes it.
+pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
+    writable(path).map_err(|error| refused(option, path, &error))
+}
+
+/// Reserves a folder that is there, for a command that fills it.
+///
+/// # Errors
+/// Another process fills it.
+pub(crate) fn folder(option: &str, path: &Path) -> Result<Lock, Failure> {
+    Lock::of(&resolved(path)).map_err(|_| Failure::input(named(option, path), IN_USE))
+}
+
+pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
+    let advice = "choose a place that exists and can be written to";
+    let said = match error.kind() {
+        ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
+        ErrorKind::NotFound => "there is no such folder".into(),
+        ErrorKind::WouldBlock => return Failure::input(named(option, path), IN_USE),
+        ErrorKind::NotConnected => {
+            let message = "nobody reads from this pipe: start its reader first";
+            return Failure::input(named(option, path), message);
+        }
+        // The file that is there, and is not ours, is named.
+        ErrorKind::AlreadyExists => return Failure::input(named(option, path), error),
+        kind => kind.to_string(),
+    };
+    Failure::input(named(option, path), format!("{said}; {advice}"))
+}
+
+/// Said where a lock is another's.
+pub(crate) const IN_USE: &str = "is being written by another stickslip: wait until it has ended, or \
+                                 choose another name";
+
+fn named(option: &str, path: &Path) -> String {
+    format!("{option} {}", path.display())
+}
+
+fn writable(path: &Path) -> io::Result<Place> {
+    if path == Path::new("-") {
+        return Ok(Place::Stdout);
+    }
+    if is_special(path) {
+        return special::open(path).map(Place::Special);
+    }
+    if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    // A name that is too long, say, is no name that a file can get later.
+    match path.symlink_metadata() {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let path = resolved(path);
+    if path.exists() {
+        OpenOptions::new().write(true).open(&path)?;
+    }
+    may_be_made_in(folder_of(&path))?;
+    let lock = Lock::of(&path)?;
+    Ok(Place::File(Target { path, _lock: lock }))
+}
+
+/// The file itself where the name is a link; the same from wherever it is looked at.
+pub(crate) fn resolved(path: &Path) -> PathBuf {
+    if path == Path::new("-") {
+        return path.into();
+    }
+    let through_folder = || {
+        let folder = folder_of(path).canonicalize().ok()?;
+        path.file_name().map(|name| folder.join(name))
+    };
+    let found = path.canonicalize().ok().or_else(through_folder);
+    found.or_else(|| std::path::absolute(path).ok()).unwrap_or_else(|| path.into())
+}
+
+/// The folder of a file.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

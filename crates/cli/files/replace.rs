@@ -1,0 +1,101 @@
+//! The one way in which a file is replaced: at any time its name stands for what was there before or for all of
+//! the new.
+
+use super::place::folder_of;
+use super::temporary::{beside, remove_left_behind};
+use std::fs::{File, Metadata};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+/// What of a file is not its contents: its mode and, where that is possible, its owner.
+#[derive(Debug, Default)]
+pub(super) struct Looks(Option<Metadata>);
+
+impl Looks {
+    /// Those of the file at this place; of a new one, if there is none.
+    pub(super) fn of(path: &Path) -> Self {
+        Self(path.metadata().ok())
+    }
+
+    /// Those of an open file.
+    pub(super) fn of_file(file: &File) -> Self {
+        Self(file.metadata().ok())
+    }
+
+    /// Gives them to a file. Before there is anything in it, so that nobody reads who may not.
+    #[cfg(unix)]
+    pub(super) fn give_to(&self, file: &File) -> io::Result<()> {
+        use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+        let Some(old) = &self.0 else { return Ok(()) };
+        let new = file.metadata()?;
+        if (old.uid(), old.gid()) != (new.uid(), new.gid()) {
+            // Only the superuser gives files away; a group may be shared.
+            let group = || fchown(file, None, Some(old.gid()));
+            fchown(file, Some(old.uid()), Some(old.gid())).or_else(|_| group()).ok();
+        }
+        let mut mode = old.mode() & 0o777;
+        if file.metadata()?.gid() != old.gid() {
+            // What one group might do is not for another.
+            mode &= !0o070 | (mode & 0o007) << 3;
+        }
+        file.set_permissions(std::fs::Permissions::from_mode(mode))
+    }
+
+    #[cfg(not(unix))]
+    pub(super) fn give_to(&self, _: &File) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Writes a file under a temporary name, puts it on the disk, and gives it its own.
+pub(super) fn replace(
+    path: &Path,
+    looks: &Looks,
+    write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut file = beside(path, folder_of(path))?;
+    looks.give_to(file.as_file())?;
+    through(file.as_file_mut(), write)?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    sync_folder(path);
+    remove_left_behind(path, folder_of(path));
+    Ok(())
+}
+
+/// Writes through a buffer.
+pub(super) fn through(
+    sink: impl Write,
+    write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::new(sink);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// Puts on the disk that a file has got its name. Not every system can sync a folder: then the name is as
+/// safe as that system makes it.
+pub(super) fn sync_folder(path: &Path) {
+    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).ok();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[cfg(unix)]
+    #[test]
+    fn the_mode_of_a_file_outlives_its_contents() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.json");
+        let mode = || path.metadata().unwrap().permissions().mode() & 0o777;
+        for kept in [0o600, 0o640, 0o666] {
+            fs::write(&path, "before").unwrap();
+            fs::set_permissions(&path, fs::Permissions::from_mode(kept)).unwrap();
+            replace(&path, &Looks::of(&path), &|out| out.write_all(b"after")).unwrap();
+            assert_eq!((fs::read(&path).unwrap(), mode()), (b"after".to_vec(), kept));
+        }
+    }
+}

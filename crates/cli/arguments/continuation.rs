@@ -1,6 +1,6 @@
 //! `stickslip continue`.
 
-use super::CycleStart;
+use super::{CycleStart, OutletArguments};
 use super::named::named;
 use clap::Args;
 use std::path::PathBuf;
@@ -53,9 +53,8 @@ pub(crate) struct ContinueArguments {
     #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Branch")]
     pub(crate) most_points: usize,
 
-    /// File to write: .json for all, .csv or .npz for the branches; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw amplitude and period over what varies, stable cycles solid and unstable ones dashed, to this .svg
     /// or .png; by their logarithm where they become large.

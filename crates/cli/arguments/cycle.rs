@@ -1,6 +1,6 @@
 //! `stickslip cycle`.
 
-use super::ModelArguments;
+use super::{ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -42,9 +42,8 @@ pub(crate) struct CycleArguments {
     #[arg(long, value_name = "N", default_value_t = 400, help_heading = "Output")]
     pub(crate) points: usize,
 
-    /// File to write: .json for all, .csv or .npz for the profile; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw l(t), the tip's velocity and the ripple left behind to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]

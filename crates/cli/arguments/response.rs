@@ -1,6 +1,6 @@
 //! `stickslip response`.
 
-use super::{ModelArguments, SamplingArguments};
+use super::{ModelArguments, SamplingArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -43,10 +43,8 @@ pub(crate) struct ResponseArguments {
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
 
-    /// File to write: .json for all, .csv for the samples, .npz for samples and modes; `-` is JSON on
-    /// standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw l - l0 against t to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]

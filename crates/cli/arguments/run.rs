@@ -104,8 +104,8 @@ pub(crate) struct RunArguments {
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 1, just above onset:
     stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
-  Its own start, noise on the surface:
-    stickslip run --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 457 -o run.json
+  With the paper's own start, noise on a flat surface:
+    stickslip run --alpha-above 0.01 --r 1 --start paper --until 457 -o run.json
   A tip of your own, two pulses, samples as CSV:
     stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:

@@ -1,6 +1,6 @@
 //! `stickslip stability`.
 
-use super::ModelArguments;
+use super::{ModelArguments, OutletArguments};
 use super::named::named;
 use clap::Args;
 use std::path::PathBuf;
@@ -28,10 +28,8 @@ pub(crate) struct StabilityArguments {
     #[arg(long, value_name = "BOUND", allow_hyphen_values = true)]
     pub(crate) re_above: Option<f64>,
 
-    /// File to write: .json for all, .csv or .npz for the growth exponents; `-` is JSON on standard
-    /// output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw the growth exponents in the complex plane to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]

@@ -1,8 +1,7 @@
 //! `stickslip units`.
 
-use super::ModelArguments;
+use super::{ModelArguments, OutletArguments};
 use clap::Args;
-use std::path::PathBuf;
 
 /// Measured quantities to the numbers of the model, and back.
 ///
@@ -75,9 +74,8 @@ pub(crate) struct UnitsArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// File to write: .json or .csv (`quantity,value,unit`); `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 }
 
 const EXAMPLES: &str = "Examples:

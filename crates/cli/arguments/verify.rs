@@ -1,5 +1,6 @@
 //! `stickslip verify`.
 
+use super::OutletArguments;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -21,9 +22,8 @@ pub(crate) struct VerifyArguments {
     #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
 
-    /// File to write, as JSON; `-` is standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 }
 
 const EXAMPLES: &str = "Examples:

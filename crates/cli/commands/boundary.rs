@@ -16,6 +16,7 @@ use stickslip_documents::{
 use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::TipFunction;
 
+const DEFAULT_POINTS: usize = 200;
 const MOST_POINTS: usize = 100_000;
 
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
@@ -28,11 +29,6 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     apart(&written, &[("--tip-file", arguments.tip.tip_file.as_deref())])?;
     let tip = tip(&arguments.tip)?;
     let range = range(arguments)?;
-    let points = arguments.points;
-    if !(2..=MOST_POINTS).contains(&points) {
-        let message = format!("2 to {MOST_POINTS} will do");
-        return Err(Failure::input(format!("--points {points}"), message));
-    }
     let output = Output::open("--output", &arguments.output)?;
     let plot = Figure::asked("--plot", arguments.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
@@ -47,19 +43,28 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     write(&document, format, output)
 }
 
-fn named(arguments: &BoundaryArguments) -> String {
-    let typed: Vec<String> = arguments.r_range.iter().map(|r| Typed(*r).to_string()).collect();
-    format!("--r-range {}", typed.join(","))
-}
+const OPTION: &str = "--r-range";
 
-fn range(arguments: &BoundaryArguments) -> Result<[f64; 2], Failure> {
-    match *arguments.r_range.as_slice() {
-        [low, high] if low > 0.0 && low < high && high.is_finite() => Ok([low, high]),
-        _ => {
-            let advice = "needs two finite numbers LO,HI above 0, LO below HI, such as 0.05,3";
-            Err(Failure::input(named(arguments), advice))
-        }
+/// First and last r, and how many.
+fn range(arguments: &BoundaryArguments) -> Result<([f64; 2], usize), Failure> {
+    let range = &arguments.r_range;
+    let (low, high) = range.ends(OPTION)?;
+    if low <= 0.0 {
+        return Err(range.refused(OPTION, "needs numbers above 0, such as 0.05:3"));
     }
+    let (option, points) = match (range.points(OPTION)?, arguments.points) {
+        (Some(_), Some(_)) => {
+            let message = "says how many values there are, and --points too: leave one out";
+            return Err(range.refused(OPTION, message));
+        }
+        (Some(points), None) => (OPTION, points),
+        (None, points) => ("--points", points.unwrap_or(DEFAULT_POINTS)),
+    };
+    if !(2..=MOST_POINTS).contains(&points) {
+        let message = format!("2 to {MOST_POINTS} will do");
+        return Err(Failure::input(format!("{option} {points}"), message));
+    }
+    Ok(([low, high], points))
 }
 
 /// The r asked for, both ends exactly.

@@ -13,7 +13,7 @@ use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
-use crate::message::say;
+use crate::message::remark;
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip_documents::{
@@ -41,7 +41,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let motion = grid::run(&asked, &x, &interrupt)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
     if arguments.output != std::path::Path::new("-") {
-        say(summary(&document));
+        remark(summary(&document));
     }
     if let Some(figure) = figure {
         figure.write(&draw::draw(&document)?)?;

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::message::say;
+use crate::message::remark;
 use crate::plot;
 use start::Start;
 use std::path::Path;
@@ -51,7 +51,7 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     }
     write(&document, format, output)?;
     if arguments.output != Path::new("-") {
-        say(summary(&document));
+        remark(summary(&document));
     }
     Ok(())
 }

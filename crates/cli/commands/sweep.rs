@@ -12,7 +12,7 @@ use crate::arguments::{SweepArguments, SweepThen};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
-use crate::message::say;
+use crate::message::remark;
 use finished::Finished;
 use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -108,7 +108,7 @@ fn compute(
     let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
     let count = done.len() + missing.len();
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
-        say(format_args!("stickslip: {} of {count} points are in {}", done.len(), path.display()));
+        remark(format_args!("stickslip: {} of {count} points are in {}", done.len(), path.display()));
     }
     let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
     let state = Mutex::new(State { finished, progress, kept: Ok(()) });

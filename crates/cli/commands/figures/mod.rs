@@ -23,7 +23,7 @@ use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::files::place;
-use crate::message::say;
+use crate::message::remark;
 use crate::plot::{self, PlotFormat};
 use clap::ValueEnum;
 use std::io;
@@ -49,7 +49,7 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
         let started = Instant::now();
         let files = make(*name, folder)?;
         let seconds = started.elapsed().as_secs_f64();
-        say(format_args!("{} in {seconds:.1} s", files.join(", ")));
+        remark(format_args!("{} in {seconds:.1} s", files.join(", ")));
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::commands::{surface, verify};
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::Output;
-use crate::message::say;
+use crate::message::remark;
 use crate::plot;
 use std::path::Path;
 use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
@@ -83,7 +83,7 @@ pub(super) fn all(
         }
     }
     if let Some(said) = said {
-        say(format_args!("{said}{verified}"));
+        remark(format_args!("{said}{verified}"));
     }
     let interrupted = travelled.signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)

@@ -4,7 +4,7 @@ use super::places::Places;
 use super::{time_label, title};
 use crate::arguments::SurfaceArguments;
 use crate::failure::{Failure, Typed};
-use crate::message::say;
+use crate::message::remark;
 use crate::plot;
 use stickslip_documents::{AcrossParameters, SurfaceDocument, SurfaceImage};
 use stickslip_surface::Surface;
@@ -52,7 +52,7 @@ impl Images {
             } else {
                 "certain for no transverse spring k'".into()
             };
-            say(format_args!(
+            remark(format_args!(
                 "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
                  may push it off: in steady motion y0 = 0 is stable for {bound}"
             ));

@@ -1,0 +1,146 @@
+//! What every command has in common: where its result goes is judged before the work; after it, it is drawn, written
+//! and told, the same way for all.
+
+use super::fields::Fields;
+use super::figure::Figure;
+use super::told::Told;
+use crate::arguments::{FieldArguments, Format, OutletArguments};
+use crate::failure::Failure;
+use crate::files::apart::apart;
+use crate::files::output::{Output, OutputFormat};
+use crate::files::table::{write_csv, write_npz};
+use crate::message::remark_lines;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+use stickslip_documents::Tabular;
+use stickslip_figures::Drawn;
+
+/// What a command makes: a document, its columns, its figure, and words for it.
+pub(crate) trait Product: Serialize + JsonSchema + Tabular {
+    /// What a person is told.
+    fn told(&self) -> Told;
+}
+
+/// An option and the file that it names.
+pub(crate) type NamedFile<'a> = (&'a str, Option<&'a Path>);
+
+/// Where a result goes, known to be writable.
+pub(crate) struct Job {
+    output: Output,
+    format: Format,
+    figure: Option<Figure>,
+    fields: Fields,
+    is_file: bool,
+}
+
+impl Job {
+    /// The place of a result of type `P`, which is drawn to `plot`; the files that the command reads may not be
+    /// written over.
+    ///
+    /// # Errors
+    /// What cannot be written, or has no such format or field.
+    pub(crate) fn open<P: Product>(
+        outlet: &OutletArguments,
+        plot: Option<&Path>,
+        reads: &[NamedFile],
+    ) -> Result<Self, Failure> {
+        let format = format(outlet, "")?;
+        Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot, reads)
+    }
+
+    /// The same for a command that knows the format.
+    pub(crate) fn of_format<P: Product>(
+        format: Format,
+        output: &Path,
+        fields: &FieldArguments,
+        plot: Option<&Path>,
+        reads: &[NamedFile],
+    ) -> Result<Self, Failure> {
+        apart(&[("--output", Some(output)), ("--plot", plot)], reads)?;
+        Ok(Self {
+            format,
+            fields: Fields::asked::<P>(&fields.print)?,
+            is_file: output != Path::new("-"),
+            figure: Figure::asked("--plot", plot)?,
+            output: Output::open("--output", output)?,
+        })
+    }
+
+    /// Where it goes, links resolved; `None` for what is no file.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.output.file()
+    }
+
+    /// Draws, writes and tells the result.
+    pub(crate) fn finish<P: Product + Drawn>(mut self, product: &P) -> Result<(), Failure> {
+        if let Some(figure) = self.figure.take() {
+            figure.draw(product)?;
+        }
+        self.write(product)
+    }
+
+    /// Writes and tells a result that is not drawn.
+    pub(crate) fn write<P: Product>(self, product: &P) -> Result<(), Failure> {
+        let told = product.told();
+        // Fields take the place of the document.
+        if self.is_file || self.fields.is_empty() {
+            match self.format {
+                Format::Json => self.output.write_json(product)?,
+                Format::Csv => write_csv(product, self.output)?,
+                Format::Npz => write_npz(product, self.output)?,
+                Format::Text => self.output.write_bytes(told.text().as_bytes())?,
+            }
+        }
+        after(product, &told, &self.fields, self.is_file)
+    }
+
+    /// The same where the file is no document, but these bytes.
+    pub(crate) fn write_bytes<P: Product>(
+        self,
+        bytes: &[u8],
+        product: &P,
+    ) -> Result<(), Failure> {
+        self.output.write_bytes(bytes)?;
+        after(product, &product.told(), &self.fields, self.is_file)
+    }
+}
+
+/// What follows the document: fields on standard output, and beside a file what was found.
+pub(crate) fn after(
+    product: &impl Serialize,
+    told: &Told,
+    fields: &Fields,
+    is_file: bool,
+) -> Result<(), Failure> {
+    if !fields.is_empty() {
+        let text = fields.of(product)?;
+        let done = io::stdout().lock().write_all(text.as_bytes());
+        done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
+    }
+    if is_file {
+        remark_lines(told.headline());
+    }
+    Ok(())
+}
+
+/// The format asked for, or that of the file's extension, `more` of which the command has itself.
+pub(crate) fn format(outlet: &OutletArguments, more: &str) -> Result<Format, Failure> {
+    if let Some(format) = outlet.format {
+        return Ok(format);
+    }
+    if outlet.output == Path::new("-") {
+        return Ok(on_standard_output());
+    }
+    Ok(match OutputFormat::or_also(&outlet.output, more)? {
+        OutputFormat::Json => Format::Json,
+        OutputFormat::Csv => Format::Csv,
+        OutputFormat::Npz => Format::Npz,
+    })
+}
+
+/// Text for a person, JSON for a program.
+pub(crate) fn on_standard_output() -> Format {
+    if io::stdout().is_terminal() { Format::Text } else { Format::Json }
+}

@@ -1,12 +1,13 @@
 //! `stickslip boundary`.
 
+use super::examples::examples;
 use super::{Interval, OutletArguments, TipArguments};
 use clap::Args;
 use std::path::PathBuf;
 
 /// The critical α against r, and what is born along it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) tip: TipArguments,

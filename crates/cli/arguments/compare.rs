@@ -1,14 +1,17 @@
 //! `stickslip compare`.
 
 use super::named::named;
-use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments, OutletArguments};
+use super::examples::examples;
+use super::{
+    DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, StartArguments,
+};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::{GridName, MemoryName};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required(true)))]
 pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -96,6 +99,8 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:

@@ -1,5 +1,6 @@
 //! `stickslip cycle`.
 
+use super::examples::examples;
 use super::{ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -32,7 +33,7 @@ pub(crate) struct CycleStart {
 /// Solves for the motion and its period at once; unstable cycles are as good as stable ones. A Floquet
 /// multiplier says by how much a small deviation grows in a period.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) start: CycleStart,
@@ -49,6 +50,9 @@ pub(crate) struct CycleArguments {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip cycle (--alpha <A> | --alpha-above <D>) --r <R> [OPTIONS]
+       stickslip cycle --from <CYCLE.json> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   Just above onset, where a run would need thousands of time units to settle:

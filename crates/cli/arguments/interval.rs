@@ -25,9 +25,8 @@ impl FromStr for Interval {
             }
             _ => None,
         };
-        let ((low, high), points) = parsed.ok_or(
-            "two numbers LO:HI, or LO:HI:N with the number of values, such as 0.05:3:200",
-        )?;
+        let ((low, high), points) = parsed
+            .ok_or("two numbers LO:HI, or LO:HI:N with the number of values, such as 0.05:3:200")?;
         Ok(Self { typed: text.into(), low, high, points })
     }
 }
@@ -76,6 +75,6 @@ mod tests {
             assert!(bad.parse::<Interval>().unwrap_err().contains("LO:HI:N"), "{bad}");
         }
         let refused = "3,1".parse::<Interval>().unwrap().ends("--r-range").unwrap_err();
-        assert!(refused.to_string().starts_with("--r-range 3,1: needs"), "{refused}");
+        assert!(refused.to_string().starts_with("--r-range 3:1: needs"), "{refused}");
     }
 }

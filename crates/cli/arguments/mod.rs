@@ -5,11 +5,13 @@ mod compare;
 mod continuation;
 mod cycle;
 mod disturbance;
+mod examples;
 mod figures;
 mod interval;
 mod model;
 mod named;
 mod outlet;
+mod plot;
 mod response;
 mod run;
 mod sampling;
@@ -29,6 +31,7 @@ pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
+pub(crate) use plot::PlotArguments;
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
@@ -39,6 +42,7 @@ pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
+use examples::examples;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use stickslip_documents::SCHEMAS;
@@ -49,7 +53,7 @@ use stickslip_documents::SCHEMAS;
 /// indentation rate it sticks, slips and writes ripples. All quantities are dimensionless: lengths in
 /// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, after_help = EXAMPLES)]
+#[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
     /// Say nothing but what failed: no progress, no remarks, not what was found.
     #[arg(short, long, global = true)]
@@ -71,6 +75,7 @@ const EXAMPLES: &str = "Examples:
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
   stickslip schema run
 
@@ -89,6 +94,7 @@ pub(crate) enum Command {
     Continue(ContinueArguments),
     Sweep(SweepArguments),
     Units(UnitsArguments),
+    Plot(PlotArguments),
     Figures(FiguresArguments),
     Schema(SchemaArguments),
 }

@@ -35,7 +35,7 @@ mod tests {
     fn every_name_is_there_and_explained() {
         let counts = [
             (schema_for!(MemoryName), 4),
-            (schema_for!(RunFormat), 4),
+            (schema_for!(RunFormat), 5),
             (schema_for!(GridName), 4),
             (schema_for!(OverName), 2),
             (schema_for!(SolveFor), 2),

@@ -1,12 +1,13 @@
 //! `stickslip response`.
 
-use super::{ModelArguments, SamplingArguments, OutletArguments};
+use super::examples::examples;
+use super::{ModelArguments, OutletArguments, SamplingArguments};
 use clap::Args;
 use std::path::PathBuf;
 
 /// The linear response of steady motion to weak pulses, as a sum of modes (A.9).
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required(true)))]
 pub(crate) struct ResponseArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -50,6 +51,8 @@ pub(crate) struct ResponseArguments {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip response (--alpha <A> | --alpha-above <D>) --r <R> --pulse <A,T,W> --until <T> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   One pulse, below the critical point:

@@ -1,7 +1,10 @@
 //! `stickslip run`.
 
 use super::named::named;
-use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
+use super::examples::examples;
+use super::{
+    DisturbanceArguments, FieldArguments, ModelArguments, SamplingArguments, StartArguments,
+};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use stickslip_documents::{MemoryName, RunFormat};
@@ -17,7 +20,7 @@ pub(crate) enum HistoryName {
 
 /// Integrate the tip's motion, and say what became of it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required_unless_present("resume")))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required_unless_present("resume")))]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -62,10 +65,13 @@ pub(crate) struct RunArguments {
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 
-    /// What is written, whatever the name of the file [default: by its extension; json on standard
-    /// output].
+    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
+    /// terminal, else json].
     #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
+
+    #[command(flatten)]
+    pub(crate) fields: FieldArguments,
 
     /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.
     #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
@@ -101,6 +107,9 @@ pub(crate) struct RunArguments {
     pub(crate) resume: Option<PathBuf>,
 }
 
+const USAGE: &str = "stickslip run (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip run --resume <FILE>";
+
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 1, just above onset:
     stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
@@ -110,6 +119,7 @@ const EXAMPLES: &str = "Examples:
     stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:
     stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
-  A long run, its samples written as it passes them, that survives a loss of power:
+  A long run, its samples written as it passes them, that survives a loss of power (errors of the period
+  add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
     stickslip run --resume long.checkpoint";

@@ -1,12 +1,13 @@
 //! `stickslip surface`.
 
+use super::examples::examples;
 use super::{FieldArguments, Format, Interval};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Reconstruct the surface u(x,t) from a run.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct SurfaceArguments {
     /// Document that `stickslip run` wrote; `-` is standard input.
     #[arg(value_name = "RUN.json")]

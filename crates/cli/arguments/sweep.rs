@@ -1,5 +1,6 @@
 //! `stickslip sweep`.
 
+use super::examples::examples;
 use super::{OutletArguments, TipName};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -68,7 +69,7 @@ impl FromStr for Shard {
 /// (FILE.partial): after an interrupt the same command goes on from there.
 #[derive(Debug, Args)]
 #[command(
-    after_help = EXAMPLES,
+    override_usage = USAGE, after_help = examples(EXAMPLES),
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true
 )]
@@ -152,6 +153,9 @@ pub(crate) struct MergeArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip sweep --r <RANGE> (--alpha <RANGE> | --alpha-above <RANGE>) [OPTIONS]
+       stickslip sweep merge <PART.json>... [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The amplitude of stick-slip over α:

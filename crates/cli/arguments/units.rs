@@ -1,5 +1,6 @@
 //! `stickslip units`.
 
+use super::examples::examples;
 use super::{ModelArguments, OutletArguments};
 use clap::Args;
 
@@ -9,7 +10,7 @@ use clap::Args;
 /// solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
 /// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a bare number is in SI units.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct UnitsArguments {
     /// Friction Γ of the tip (kg/s or Ns/m), (1).
     #[arg(
@@ -77,6 +78,9 @@ pub(crate) struct UnitsArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 }
+
+const USAGE: &str = "stickslip units --damping <Γ> --stiffness <k> --tip-width <σ> --indentation-rate <N>
+           --slope-force <a> --velocity <v0> [OPTIONS]; of these one may be left out for --r or --alpha, two for both";
 
 const EXAMPLES: &str = "Examples:
   α, r, the lag, and how far it is to stick-slip:

@@ -1,18 +1,16 @@
 //! `stickslip boundary`.
 
-use super::figure::Figure;
+use super::figure::{Figure, undrawn};
+use super::job::Job;
 use super::model::tip;
 use crate::arguments::BoundaryArguments;
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use std::f64::consts::PI;
 use stickslip_documents::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, FORMAT_VERSION, OnsetColumns, Software,
-    SpacingName,
+    BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Software, SpacingName,
 };
+use stickslip_figures::Size;
 use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::TipFunction;
 
@@ -20,27 +18,24 @@ const DEFAULT_POINTS: usize = 200;
 const MOST_POINTS: usize = 100_000;
 
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
+    let read = [("--tip-file", arguments.tip.tip_file.as_deref())];
     let written = [
-        ("--output", Some(&*arguments.output)),
+        ("--output", Some(&*arguments.outlet.output)),
         ("--plot", arguments.plot.as_deref()),
         ("--plot-onset", arguments.plot_onset.as_deref()),
     ];
-    apart(&written, &[("--tip-file", arguments.tip.tip_file.as_deref())])?;
+    apart(&written, &read)?;
     let tip = tip(&arguments.tip)?;
     let range = range(arguments)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let plot = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
 
     let document = document(arguments, &tip, range)?;
-    if let Some(figure) = plot {
-        figure.write(&draw(&document))?;
-    }
     if let Some(figure) = plot_onset {
-        figure.write(&draw_onset(&document))?;
+        let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
+        figure.write(&onset, &Size::default())?;
     }
-    write(&document, format, output)
+    job.finish(&document)
 }
 
 const OPTION: &str = "--r-range";
@@ -83,31 +78,26 @@ fn abscissas([low, high]: [f64; 2], points: usize, spacing: SpacingName) -> Vec<
 fn document(
     arguments: &BoundaryArguments,
     tip: &TipFunction,
-    range: [f64; 2],
+    (range, points): ([f64; 2], usize),
 ) -> Result<BoundaryDocument, Failure> {
-    let refused = |error: StabilityError| Failure::input(named(arguments), error);
+    let refused = |error: StabilityError| arguments.r_range.refused(OPTION, error);
     let spacing =
         if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
     let boundary = Boundary::new(tip);
-    let asked = abscissas(range, arguments.points, spacing);
+    let asked = abscissas(range, points, spacing);
     let found: Vec<_> = asked.iter().map(|r| boundary.at(*r)).collect();
     let first_error = found.iter().find_map(|at| at.err());
     let along: Vec<Critical> = found.into_iter().filter_map(Result::ok).collect();
     if let (true, Some(error)) = (along.is_empty(), first_error) {
         return Err(refused(error));
     }
-    let left_out = arguments.points - along.len();
-    let branches = boundary.branches(range[0], range[1], arguments.points).map_err(refused)?;
+    let left_out = points - along.len();
+    let branches = boundary.branches(range[0], range[1], points).map_err(refused)?;
     Ok(BoundaryDocument {
         format: BoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
-        parameters: BoundaryParameters {
-            tip: tip.into(),
-            r_range: range,
-            points: arguments.points,
-            spacing,
-        },
+        parameters: BoundaryParameters { tip: tip.into(), r_range: range, points, spacing },
         wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
         r: along.iter().map(|at| at.r).collect(),
         alpha: along.iter().map(|at| at.alpha).collect(),
@@ -118,62 +108,4 @@ fn document(
             .into_iter()
             .collect(),
     })
-}
-
-/// Null as NaN, where a column of numbers must hold something.
-fn numbers(column: &[Option<f64>]) -> Vec<f64> {
-    column.iter().map(|value| value.unwrap_or(f64::NAN)).collect()
-}
-
-fn write(document: &BoundaryDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let BoundaryDocument { wave_number, r, alpha, onset, .. } = document;
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_bytes(csv(document).as_bytes()),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("Omega", wave_number)?;
-            npz.vector("r", r)?;
-            npz.vector("alpha", alpha)?;
-            npz.vector("amplitude_squared_slope", &numbers(&onset.amplitude_squared_slope))?;
-            npz.vector("period_slope", &numbers(&onset.period_slope))?;
-            npz.vector("lyapunov", &numbers(&onset.lyapunov))?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-/// An empty cell where there is no value.
-fn csv(document: &BoundaryDocument) -> String {
-    let BoundaryDocument { wave_number, r, alpha, onset, .. } = document;
-    let cell = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
-    let row = |i: usize| {
-        let (amplitude, period) = (onset.amplitude_squared_slope[i], onset.period_slope[i]);
-        let (amplitude, period, lyapunov) =
-            (cell(amplitude), cell(period), cell(onset.lyapunov[i]));
-        format!("{},{},{},{amplitude},{period},{lyapunov}\n", wave_number[i], r[i], alpha[i])
-    };
-    let heading = "Omega,r,alpha,amplitude_squared_slope,period_slope,lyapunov\n";
-    std::iter::once(heading.to_owned()).chain((0..r.len()).map(row)).collect()
-}
-
-fn draw(document: &BoundaryDocument) -> String {
-    let BoundaryDocument { r, alpha, branches, .. } = document;
-    let turns = |b: &BranchDocument| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
-    let several = branches.len() > 1 || branches.iter().any(turns);
-    let further: Vec<(&[f64], &[f64])> =
-        branches.iter().filter(|_| several).map(|b| (b.r.as_slice(), b.alpha.as_slice())).collect();
-    plot::boundary("Where steady motion is stable", r, alpha, &further)
-}
-
-fn draw_onset(document: &BoundaryDocument) -> String {
-    let slopes = &document.onset.amplitude_squared_slope;
-    // d ln α/d(a²): the excess over αc, in parts of it, for an amplitude of 1.
-    let excess: Vec<f64> = slopes
-        .iter()
-        .zip(&document.alpha)
-        .map(|(slope, alpha)| slope.map_or(f64::NAN, |slope| 1.0 / (slope * alpha)))
-        .collect();
-    let logarithmic = document.parameters.spacing == SpacingName::Logarithmic;
-    plot::onset("What is born at the boundary", &document.r, &excess, logarithmic)
 }

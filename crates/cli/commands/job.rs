@@ -6,7 +6,7 @@ use super::figure::Figure;
 use super::told::Told;
 use crate::arguments::{FieldArguments, Format, OutletArguments};
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::apart::{Named, apart};
 use crate::files::output::{Output, OutputFormat};
 use crate::files::table::{write_csv, write_npz};
 use crate::message::remark_lines;
@@ -23,9 +23,6 @@ pub(crate) trait Product: Serialize + JsonSchema + Tabular {
     fn told(&self) -> Told;
 }
 
-/// An option and the file that it names.
-pub(crate) type NamedFile<'a> = (&'a str, Option<&'a Path>);
-
 /// Where a result goes, known to be writable.
 pub(crate) struct Job {
     output: Output,
@@ -33,6 +30,8 @@ pub(crate) struct Job {
     figure: Option<Figure>,
     fields: Fields,
     is_file: bool,
+    /// Whether what was found is said beside a file.
+    is_told: bool,
 }
 
 impl Job {
@@ -44,25 +43,26 @@ impl Job {
     pub(crate) fn open<P: Product>(
         outlet: &OutletArguments,
         plot: Option<&Path>,
-        reads: &[NamedFile],
+        reads: &[Named],
     ) -> Result<Self, Failure> {
-        let format = format(outlet, "")?;
+        let format = format(outlet.format, &outlet.output, "")?;
         Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot, reads)
     }
 
     /// The same for a command that knows the format.
-    pub(crate) fn of_format<P: Product>(
+    pub(crate) fn of_format<P: JsonSchema>(
         format: Format,
         output: &Path,
         fields: &FieldArguments,
         plot: Option<&Path>,
-        reads: &[NamedFile],
+        reads: &[Named],
     ) -> Result<Self, Failure> {
         apart(&[("--output", Some(output)), ("--plot", plot)], reads)?;
         Ok(Self {
             format,
             fields: Fields::asked::<P>(&fields.print)?,
             is_file: output != Path::new("-"),
+            is_told: output != Path::new("-"),
             figure: Figure::asked("--plot", plot)?,
             output: Output::open("--output", output)?,
         })
@@ -71,6 +71,12 @@ impl Job {
     /// Where it goes, links resolved; `None` for what is no file.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.output.file()
+    }
+
+    /// Says nothing beside a file: something else says what was found.
+    #[must_use]
+    pub(crate) fn silent_if(self, is_silent: bool) -> Self {
+        Self { is_told: self.is_told && !is_silent, ..self }
     }
 
     /// Draws, writes and tells the result.
@@ -83,7 +89,15 @@ impl Job {
 
     /// Writes and tells a result that is not drawn.
     pub(crate) fn write<P: Product>(self, product: &P) -> Result<(), Failure> {
-        let told = product.told();
+        self.write_told(product, &product.told()).map(drop)
+    }
+
+    /// Writes a result and tells of it what is given; what remains is the figure.
+    pub(crate) fn write_told<P: Serialize + Tabular>(
+        self,
+        product: &P,
+        told: &Told,
+    ) -> Result<Option<Figure>, Failure> {
         // Fields take the place of the document.
         if self.is_file || self.fields.is_empty() {
             match self.format {
@@ -93,17 +107,21 @@ impl Job {
                 Format::Text => self.output.write_bytes(told.text().as_bytes())?,
             }
         }
-        after(product, &told, &self.fields, self.is_file)
+        after(product, told, &self.fields, self.is_told)?;
+        Ok(self.figure)
     }
 
-    /// The same where the file is no document, but these bytes.
-    pub(crate) fn write_bytes<P: Product>(
-        self,
+    /// Draws and tells a result of which these bytes are written.
+    pub(crate) fn finish_bytes<P: Product + Drawn>(
+        mut self,
         bytes: &[u8],
         product: &P,
     ) -> Result<(), Failure> {
+        if let Some(figure) = self.figure.take() {
+            figure.draw(product)?;
+        }
         self.output.write_bytes(bytes)?;
-        after(product, &product.told(), &self.fields, self.is_file)
+        after(product, &product.told(), &self.fields, self.is_told)
     }
 }
 
@@ -112,28 +130,28 @@ pub(crate) fn after(
     product: &impl Serialize,
     told: &Told,
     fields: &Fields,
-    is_file: bool,
+    is_told: bool,
 ) -> Result<(), Failure> {
     if !fields.is_empty() {
         let text = fields.of(product)?;
         let done = io::stdout().lock().write_all(text.as_bytes());
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }
-    if is_file {
+    if is_told {
         remark_lines(told.headline());
     }
     Ok(())
 }
 
 /// The format asked for, or that of the file's extension, `more` of which the command has itself.
-pub(crate) fn format(outlet: &OutletArguments, more: &str) -> Result<Format, Failure> {
-    if let Some(format) = outlet.format {
+pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result<Format, Failure> {
+    if let Some(format) = asked {
         return Ok(format);
     }
-    if outlet.output == Path::new("-") {
+    if output == Path::new("-") {
         return Ok(on_standard_output());
     }
-    Ok(match OutputFormat::or_also(&outlet.output, more)? {
+    Ok(match OutputFormat::or_also(output, more)? {
         OutputFormat::Json => Format::Json,
         OutputFormat::Csv => Format::Csv,
         OutputFormat::Npz => Format::Npz,

@@ -6,6 +6,7 @@ pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
 pub(crate) mod model;
+pub(crate) mod plot;
 pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod schema;
@@ -15,6 +16,9 @@ pub(crate) mod sweep;
 pub(crate) mod units;
 pub(crate) mod verify;
 
+mod fields;
 mod figure;
+mod job;
 mod progress;
 mod roots;
+mod told;

@@ -36,7 +36,9 @@ impl Progress {
 
     /// Work of which nobody knows how much there is.
     pub(crate) fn without_end() -> Self {
-        Self { span: None, ..Self::new(0.0, 1.0) }
+        let mut progress = Self::new(0.0, 1.0);
+        progress.span = None;
+        progress
     }
 
     /// For work whose parts take longer than a look at the clock.

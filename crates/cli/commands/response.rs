@@ -1,6 +1,6 @@
 //! `stickslip response`.
 
-use super::figure::Figure;
+use super::job::Job;
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::disturbance::warn_of_idle_pulses;
@@ -9,10 +9,6 @@ use super::run::parse_pulses;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use stickslip_documents::{
     FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
     ResponseSamples, Software,
@@ -26,20 +22,10 @@ const VALID_TO: f64 = 1e-6;
 const WIDTHS_OF_PULSE: f64 = 5.5;
 
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
-    )?;
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     let asked = Asked::of(arguments)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
-
-    let document = document(arguments, &asked)?;
-    if let Some(figure) = figure {
-        figure.write(&draw(&document))?;
-    }
-    write(&document, format, output)
+    let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    job.finish(&document(arguments, &asked)?)
 }
 
 /// The options, judged.
@@ -167,49 +153,4 @@ fn samples(asked: &Asked, response: &Response) -> ResponseSamples {
         l: deviation.iter().map(|d| d.and_then(|d| finite(l0 + d))).collect(),
         deviation,
     }
-}
-
-/// Null as NaN, where a column of numbers must hold something.
-fn numbers(column: &[Option<f64>]) -> Vec<f64> {
-    column.iter().map(|value| value.unwrap_or(f64::NAN)).collect()
-}
-
-fn write(document: &ResponseDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let ResponseSamples { t, l, deviation } = &document.samples;
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_bytes(csv(&document.samples).as_bytes()),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("t", t)?;
-            npz.vector("l", &numbers(l))?;
-            npz.vector("deviation", &numbers(deviation))?;
-            let mut column = |name: &str, of: fn(&ModeDocument) -> f64| {
-                npz.vector(name, &document.modes.iter().map(of).collect::<Vec<_>>())
-            };
-            column("lambda_re", |m| m.lambda.re)?;
-            column("lambda_im", |m| m.lambda.im)?;
-            column("residue_re", |m| m.residue.re)?;
-            column("residue_im", |m| m.residue.im)?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-/// An empty cell where there is no value.
-fn csv(samples: &ResponseSamples) -> String {
-    let cell = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
-    let row = |i: usize| {
-        format!("{},{},{}\n", samples.t[i], cell(samples.l[i]), cell(samples.deviation[i]))
-    };
-    std::iter::once("t,l,deviation\n".to_owned()).chain((0..samples.t.len()).map(row)).collect()
-}
-
-fn draw(document: &ResponseDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    let title = format!("Linear response, α = {alpha}, r = {r}");
-    let deviation = numbers(&document.samples.deviation);
-    let series = [(String::new(), document.samples.t.as_slice(), deviation.as_slice())];
-    plot::lines(&title, "t (Γ/k)", "l − l₀ (σ)", &series)
 }

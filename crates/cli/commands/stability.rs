@@ -1,14 +1,10 @@
 //! `stickslip stability`.
 
-use super::figure::Figure;
+use super::job::Job;
 use super::model::{model, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
     StabilityParameters, TrappingDocument,
@@ -22,21 +18,11 @@ use stickslip_tip::{Model, TipFunction};
 const DEFAULT_ROOTS: usize = 10;
 
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
-    )?;
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
-
-    let document = document(arguments, &point)?;
-    if let Some(figure) = figure {
-        figure.write(&draw(&document))?;
-    }
-    write(&document, format, output)
+    let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    job.finish(&document(arguments, &point)?)
 }
 
 /// The critical point, and the one whose roots are listed.
@@ -179,39 +165,4 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         onset: onset.as_ref().ok().map(OnsetDocument::from),
         remarks: said,
     })
-}
-
-fn columns(document: &StabilityDocument) -> (Vec<f64>, Vec<f64>) {
-    document.roots.iter().map(|z| (z.re, z.im)).unzip()
-}
-
-fn write(
-    document: &StabilityDocument,
-    format: OutputFormat,
-    output: Output,
-) -> Result<(), Failure> {
-    let (re, im) = columns(document);
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_csv("re,im", &[&re, &im]),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("re", &re)?;
-            npz.vector("im", &im)?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-fn draw(document: &StabilityDocument) -> String {
-    let model = &document.parameters.model;
-    let what = match (document.parameters.at_critical_point, document.stable) {
-        (true, _) => "critical",
-        (_, true) => "stable",
-        (_, false) => "unstable",
-    };
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    let title = format!("α = {alpha}, r = {r}: {what}");
-    let (re, im) = columns(document);
-    plot::roots(&title, &re, &im, document.certificate.largest_error)
 }

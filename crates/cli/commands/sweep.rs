@@ -1,16 +1,15 @@
 //! `stickslip sweep`.
 
-pub(crate) mod diagram;
 mod finished;
 mod grid;
 pub(crate) mod merge;
 mod point;
-mod write;
 
+use super::job::Job;
 use super::progress::Progress;
-use crate::arguments::{SweepArguments, SweepThen};
+use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::apart::Named;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
 use finished::Finished;
@@ -18,9 +17,10 @@ use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashSet;
 use std::io;
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint};
-use write::Writer;
+use stickslip_figures::judge_sweep;
 
 const MOST_THREADS: usize = 4096;
 
@@ -29,11 +29,10 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         return merge::merge(merged);
     }
     let grid = Grid::asked(arguments)?;
-    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let threads = threads(arguments)?;
-    apart(&[("--output", Some(output))], &[("--tip-file", arguments.tip_file.as_deref())])?;
-    let writer = Writer::asked(output, plot, &grid.parameters)?;
-    let finished = match writer.file() {
+    let read = [("--tip-file", arguments.tip_file.as_deref())];
+    let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters, &read)?;
+    let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters)?,
         None => Finished::in_memory(),
     };
@@ -43,9 +42,22 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }
-    writer.write(&sealed(grid.parameters, finished.in_order())?)?;
+    job.finish(&sealed(grid.parameters, finished.in_order())?)?;
     finished.remove();
     Ok(())
+}
+
+/// Where a sweep goes, which is found out before hours of work.
+fn job(
+    outlet: &OutletArguments,
+    plot: Option<&Path>,
+    parameters: &SweepParameters,
+    read: &[Named],
+) -> Result<Job, Failure> {
+    if plot.is_some() {
+        judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
+    }
+    Job::open::<SweepDocument>(outlet, plot, read)
 }
 
 /// The document of a finished sweep, with its checksum.
@@ -84,6 +96,8 @@ fn threads(arguments: &SweepArguments) -> Result<usize, Failure> {
 struct State {
     finished: Finished,
     progress: Progress,
+    /// Points in all.
+    count: usize,
     /// Whether all could be written down.
     kept: io::Result<()>,
 }
@@ -92,7 +106,8 @@ impl State {
     /// `None` once a point could not be kept: the others need not be found.
     fn keep(&mut self, point: SweepPoint) -> Option<()> {
         self.kept = self.finished.add(point);
-        self.progress.reached(self.finished.points().len() as f64);
+        let done = self.finished.points().len();
+        self.progress.counted(done as f64, || format!("{done} of {} points", self.count));
         self.kept.is_ok().then_some(())
     }
 }
@@ -108,10 +123,14 @@ fn compute(
     let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
     let count = done.len() + missing.len();
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
-        remark(format_args!("stickslip: {} of {count} points are in {}", done.len(), path.display()));
+        remark(format_args!(
+            "stickslip: {} of {count} points are in {}",
+            done.len(),
+            path.display()
+        ));
     }
     let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
-    let state = Mutex::new(State { finished, progress, kept: Ok(()) });
+    let state = Mutex::new(State { finished, progress, count, kept: Ok(()) });
     let work = |index: &usize| {
         if interrupt.signal().is_some() {
             return None;

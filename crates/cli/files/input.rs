@@ -14,7 +14,7 @@ pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 /// Measured series are small; this is a million rows and more.
 const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
-pub(super) const LARGEST_DOCUMENT: u64 = 4 << 30;
+pub(crate) const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {

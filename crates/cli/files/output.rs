@@ -18,12 +18,6 @@ pub(crate) enum OutputFormat {
 }
 
 impl OutputFormat {
-    /// # Errors
-    /// An extension that none of the formats has.
-    pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
-        Self::or_also(path, "")
-    }
-
     /// For a command that has an extension `more`, such as ", .gsf", which it has looked for itself.
     ///
     /// # Errors
@@ -85,11 +79,6 @@ impl Output {
         self.write_with(|out| out.write_all(bytes))
     }
 
-    /// Writes columns of equal length as CSV under their headings.
-    pub(crate) fn write_csv(self, headings: &str, columns: &[&[f64]]) -> Result<(), Failure> {
-        self.write_with(|out| csv(out, headings, columns))
-    }
-
     /// Writes what the function writes, through a buffer. What no file could be made of is kept elsewhere: it may
     /// have taken hours.
     pub(crate) fn write_with(
@@ -109,20 +98,4 @@ impl Output {
             None => Err(Failure::Write { target, error }),
         }
     }
-}
-
-fn csv(out: &mut dyn Write, headings: &str, columns: &[&[f64]]) -> io::Result<()> {
-    writeln!(out, "{headings}")?;
-    let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
-    let mut line = String::new();
-    for row in 0..rows {
-        line.clear();
-        for column in columns {
-            line.push_str(if line.is_empty() { "" } else { "," });
-            line.push_str(&column[row].to_string());
-        }
-        line.push('\n');
-        out.write_all(line.as_bytes())?;
-    }
-    Ok(())
 }

@@ -82,9 +82,8 @@ impl<'a> Cells<'a> {
 
 /// Writes the arrays as a NumPy archive.
 pub(crate) fn write_npz(table: &impl Tabular, output: Output) -> Result<(), Failure> {
-    let bytes = npz(table).map_err(|error| {
-        Failure::Run(format!("cannot make the .npz archive: {error}"))
-    })?;
+    let bytes = npz(table)
+        .map_err(|error| Failure::Run(format!("cannot make the .npz archive: {error}")))?;
     output.write_bytes(&bytes)
 }
 

@@ -54,8 +54,8 @@ pub use continuation::{
 };
 pub use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub use figure::{
-    ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, FigureParameters,
-    MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
+    ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
+    FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
 pub use history::{FARTHEST, History};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};

@@ -30,7 +30,9 @@ mod tests {
     fn the_ends_and_the_middle_are_what_they_are_called() {
         let lightness = |c: [u8; 3]| c.iter().map(|c| u32::from(*c)).sum::<u32>();
         assert_eq!(at(ColoursName::Grey, 0.0), [0; 3]);
-        assert!(lightness(at(ColoursName::Cividis, 0.0)) < lightness(at(ColoursName::Cividis, 1.0)));
+        assert!(
+            lightness(at(ColoursName::Cividis, 0.0)) < lightness(at(ColoursName::Cividis, 1.0))
+        );
         let [below, zero, above] = [0.0, 0.5, 1.0].map(|part| at(ColoursName::BlueRed, part));
         assert!(below[2] > below[0] && above[0] > above[2] && zero.iter().all(|c| *c > 230));
     }

@@ -49,7 +49,8 @@ impl Frame<'_> {
                 }
             }
             Mark::Point { shape: of, radius, filled } => {
-                let places = curve.x.iter().zip(&curve.y).filter_map(|(x, y)| self.place((*x, (*y)?)));
+                let places =
+                    curve.x.iter().zip(&curve.y).filter_map(|(x, y)| self.place((*x, (*y)?)));
                 let inside = places.filter(|p| self.is_near(*p));
                 let path: String = inside.map(|place| shape(place, of, radius)).collect();
                 svg.path(&path, marked(pen.colour, filled));
@@ -67,9 +68,8 @@ impl Frame<'_> {
     fn stretches(&self, x: &[f64], y: &[Option<f64>]) -> Vec<Vec<Point>> {
         let places: Vec<Option<Point>> =
             x.iter().zip(y).map(|(x, y)| self.place((*x, (*y)?))).collect();
-        let in_reach = |p: &Option<Point>| {
-            p.is_some_and(|p| (self.at.left..=self.at.right).contains(&p.0))
-        };
+        let in_reach =
+            |p: &Option<Point>| p.is_some_and(|p| (self.at.left..=self.at.right).contains(&p.0));
         // What is left and right of the axes shows only where it joins what is within.
         let shows = |i: usize| {
             let crosses = |j: usize| match (places[i], places.get(j).copied().flatten()) {
@@ -83,7 +83,10 @@ impl Frame<'_> {
         let shown: Vec<Option<Point>> =
             (0..places.len()).map(|i| places[i].filter(|_| shows(i))).collect();
         let stretches = shown.split(Option::is_none);
-        stretches.map(|s| s.iter().flatten().copied().collect()).filter(|s: &Vec<_>| !s.is_empty()).collect()
+        stretches
+            .map(|s| s.iter().flatten().copied().collect())
+            .filter(|s: &Vec<_>| !s.is_empty())
+            .collect()
     }
 
     /// The area between a curve and the top of the axes.
@@ -91,7 +94,9 @@ impl Frame<'_> {
         let across = (self.at.left, self.at.right);
         for stretch in self.stretches(&curve.x, &curve.y) {
             let mut area = thin(stretch, across, self.at.width() as usize);
-            let (Some(first), Some(last)) = (area.first().copied(), area.last().copied()) else { continue };
+            let (Some(first), Some(last)) = (area.first().copied(), area.last().copied()) else {
+                continue;
+            };
             area.extend([(last.0, self.at.top), (first.0, self.at.top)]);
             let ground = colour(ColourName::Vermillion);
             let paint = Paint { fill_opacity: Some(SHADE_OPACITY), ..Paint::fill(ground) };
@@ -131,7 +136,8 @@ pub(crate) fn marked(colour: &str, filled: bool) -> Paint<'_> {
 /// The outline of a mark.
 pub(crate) fn shape((x, y): Point, of: Shape, radius: f64) -> String {
     let corners = |corners: &[Point]| {
-        let places: Vec<Point> = corners.iter().map(|c| (x + radius * c.0, y + radius * c.1)).collect();
+        let places: Vec<Point> =
+            corners.iter().map(|c| (x + radius * c.0, y + radius * c.1)).collect();
         polyline(&places) + "Z"
     };
     match of {
@@ -160,7 +166,8 @@ fn smooth(points: &[Point]) -> String {
         let [before, from, to, after] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
         let (a, b) = (handle(before, from, to), handle(after, to, from));
         let n = number;
-        let _ = write!(path, "C{} {} {} {} {} {}", n(a.0), n(a.1), n(b.0), n(b.1), n(to.0), n(to.1));
+        let _ =
+            write!(path, "C{} {} {} {} {} {}", n(a.0), n(a.1), n(b.0), n(b.1), n(to.0), n(to.1));
     }
     path
 }

@@ -13,7 +13,9 @@ pub enum FigureError {
     #[error("this build writes no {0}: name the figure .svg, or build with --features {1}")]
     Missing(&'static str, &'static str),
     /// Not a width; the narrowest and the widest in millimetres and in pixels.
-    #[error("say the width and its unit, such as 85mm or 600px: from {0:.0}mm to {1:.0}mm, {2}px to {3}px")]
+    #[error(
+        "say the width and its unit, such as 85mm or 600px: from {0:.0}mm to {1:.0}mm, {2}px to {3}px"
+    )]
     Width(f64, f64, f64, f64),
     /// Not a resolution; the least and the most.
     #[error("the pixels in an inch may be {0} to {1}")]

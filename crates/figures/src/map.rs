@@ -24,11 +24,7 @@ pub(crate) struct Map<'a> {
 
 impl<'a> Map<'a> {
     /// The cells whose middle lies within the ranges.
-    pub(crate) fn new(
-        document: &'a MapDocument,
-        x: Option<[f64; 2]>,
-        y: Option<[f64; 2]>,
-    ) -> Self {
+    pub(crate) fn new(document: &'a MapDocument, x: Option<[f64; 2]>, y: Option<[f64; 2]>) -> Self {
         let columns = within(&document.x, x);
         let rows = within(&document.y, y);
         let heights = document.z.iter().flatten().copied();
@@ -60,7 +56,8 @@ impl<'a> Map<'a> {
     /// The picture, stretched over the axes.
     pub(crate) fn draw(&self, axes: Rect, svg: &mut Svg) -> Result<(), FigureError> {
         let ((from, to), (first, last)) = (self.columns, self.rows);
-        let rows: Vec<&[f64]> = self.document.z[first..last].iter().map(|row| &row[from..to]).collect();
+        let rows: Vec<&[f64]> =
+            self.document.z[first..last].iter().map(|row| &row[from..to]).collect();
         let part = |z: f64| self.scale.part(z).unwrap_or(0.0);
         svg.image(axes, &data_url(&rows, |z| at(self.document.colours, part(z)))?);
         Ok(())

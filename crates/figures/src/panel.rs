@@ -31,8 +31,10 @@ pub(crate) struct Panel<'a> {
 impl<'a> Panel<'a> {
     /// For axes of about that width and height.
     pub(crate) fn new(document: &'a PanelDocument, (width, height): (f64, f64)) -> Self {
-        let map = document.map.as_ref().map(|map| Map::new(map, document.x_range, document.y_range));
-        let (many_x, many_y) = ((width / TICK_DISTANCE.0).max(2.0), (height / TICK_DISTANCE.1).max(2.0));
+        let map =
+            document.map.as_ref().map(|map| Map::new(map, document.x_range, document.y_range));
+        let (many_x, many_y) =
+            ((width / TICK_DISTANCE.0).max(2.0), (height / TICK_DISTANCE.1).max(2.0));
         let of = |[low, high]: [f64; 2], scale, ticks| Axis::new(low, high, scale, ticks);
         let (x_scale, y_scale) = (document.x_scale, document.y_scale);
         if let Some(((left, right), (bottom, top))) = map.as_ref().map(Map::ranges) {
@@ -111,7 +113,10 @@ impl<'a> Panel<'a> {
             };
             let ground = Paint::fill(colour(ColourName::Vermillion));
             let (left, right) = (place(*from), place(*to));
-            svg.rect(Rect { left, right, ..at }, Paint { fill_opacity: Some(SHADE_OPACITY), ..ground });
+            svg.rect(
+                Rect { left, right, ..at },
+                Paint { fill_opacity: Some(SHADE_OPACITY), ..ground },
+            );
         }
         if self.map.is_some() || self.document.cells.is_some() {
             return;
@@ -223,4 +228,3 @@ fn ordinates(document: &PanelDocument, x: &Axis, ticks: f64) -> Axis {
     let (scale, natural) = (document.y_scale, document.natural.unwrap_or(0.0));
     Axis::fit(curves.chain(of_cells), Fit { scale, padding, natural, ticks })
 }
-

@@ -5,8 +5,10 @@ use crate::vector::tree;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
-use resvg::tiny_skia::{Pixmap, PathSegment, Transform};
-use resvg::usvg::{self, ClipPath, Fill, Group, ImageKind, LineCap, LineJoin, Node, Paint, Path, Stroke};
+use resvg::tiny_skia::{PathSegment, Pixmap, Transform};
+use resvg::usvg::{
+    self, ClipPath, Fill, Group, ImageKind, LineCap, LineJoin, Node, Paint, Path, Stroke,
+};
 
 /// Of zlib: most of what it can do, in little time.
 const LEVEL: u8 = 6;
@@ -80,7 +82,9 @@ impl Drawing {
                 drawing.content.fill_nonzero();
             });
         }
-        if let Some((stroke, colour)) = path.stroke().and_then(|s: &Stroke| Some((s, rgb(s.paint())?))) {
+        if let Some((stroke, colour)) =
+            path.stroke().and_then(|s: &Stroke| Some((s, rgb(s.paint())?)))
+        {
             self.with_opacity(stroke.opacity().get(), |drawing| {
                 drawing.pen(stroke, colour, place.sx.hypot(place.ky));
                 drawing.outline(path, place);
@@ -165,13 +169,21 @@ impl Drawing {
                     let Ok(picture) = Pixmap::decode_png(bytes) else { continue };
                     let (width, height) = (picture.width(), picture.height());
                     // A picture of PDF is a unit square that stands on its foot.
-                    let square = Transform::from_row(width as f32, 0.0, 0.0, -(height as f32), 0.0, height as f32);
+                    let square = Transform::from_row(
+                        width as f32,
+                        0.0,
+                        0.0,
+                        -(height as f32),
+                        0.0,
+                        height as f32,
+                    );
                     let place = page.pre_concat(image.abs_transform()).pre_concat(square);
                     let index = self.images.len();
                     let rgb = picture.data().chunks(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
                     self.images.push((width as i32, height as i32, rgb));
                     self.content.save_state();
-                    self.content.transform([place.sx, place.ky, place.kx, place.sy, place.tx, place.ty]);
+                    self.content
+                        .transform([place.sx, place.ky, place.kx, place.sy, place.tx, place.ty]);
                     self.content.x_object(Name(format!("i{index}").as_bytes()));
                     self.content.restore_state();
                 }

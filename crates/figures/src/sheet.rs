@@ -36,7 +36,8 @@ pub(crate) fn sheet(
     let rows = rows(figure, columns, width);
     let sides = sides(&rows, columns, width);
     let between = |placed: &Placed| (sides[placed.columns.0].0, sides[placed.columns.1 - 1].1);
-    let height_of = |placed: &Placed| placed.height + (placed.panel.head(between(placed)) - 24.0).max(0.0);
+    let height_of =
+        |placed: &Placed| placed.height + (placed.panel.head(between(placed)) - 24.0).max(0.0);
     let row_height = |row: &Vec<Placed>| row.iter().map(height_of).fold(0.0, f64::max);
 
     let title = wrapped(&figure.title, TITLE_SIZE, 0.94 * width);
@@ -44,7 +45,10 @@ pub(crate) fn sheet(
     let height = head + rows.iter().map(row_height).sum::<f64>();
     let mut svg = Svg::default();
     if with_ground {
-        svg.rect(Rect { left: 0.0, top: 0.0, right: width, bottom: height }, Paint::fill("#ffffff"));
+        svg.rect(
+            Rect { left: 0.0, top: 0.0, right: width, bottom: height },
+            Paint::fill("#ffffff"),
+        );
     }
     for (i, line) in title.iter().enumerate() {
         let (x, y) = (0.5 * width, 8.0 + TITLE_LINE * (i as f64 + 0.75));
@@ -80,7 +84,8 @@ fn rows(figure: &FigureDocument, columns: usize, width: f64) -> Vec<Vec<Placed<'
         };
         let height = height(document, width, alone);
         let axes = (width * span as f64 / columns as f64 - 110.0, height - 90.0);
-        let placed = Placed { panel: Panel::new(document, axes), columns: (from, from + span), height };
+        let placed =
+            Placed { panel: Panel::new(document, axes), columns: (from, from + span), height };
         rows.last_mut().expect("one was pushed").push(placed);
     }
     rows

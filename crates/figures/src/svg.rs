@@ -154,9 +154,15 @@ impl Svg {
             Anchor::End => " text-anchor=\"end\"",
         };
         let (x, y, size) = (number(text.x), number(text.y), number(text.size));
-        let turn = if text.upright { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+        let turn = if text.upright {
+            format!(" transform=\"rotate(-90 {x} {y})\"")
+        } else {
+            String::new()
+        };
         let label = marked_up(text.label, text.size);
-        self.line(&format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}{turn}>{label}</text>"));
+        self.line(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}{turn}>{label}</text>"
+        ));
     }
 
     fn line(&mut self, element: &str) {
@@ -248,7 +254,8 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_never_minus_zero() {
-        for (value, text) in [(1.0, "1"), (-0.001, "0"), (12.3456, "12.35"), (f64::MAX, "1000000")] {
+        for (value, text) in [(1.0, "1"), (-0.001, "0"), (12.3456, "12.35"), (f64::MAX, "1000000")]
+        {
             assert_eq!(number(value), text);
         }
     }

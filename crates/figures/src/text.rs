@@ -53,18 +53,6 @@ pub(crate) fn spans(label: &str) -> Vec<Span> {
     spans
 }
 
-/// A text with everything escaped that a label would take for a sign.
-pub(crate) fn plain(text: &str) -> String {
-    let mut label = String::with_capacity(text.len());
-    for letter in text.chars() {
-        if ['_', '^', '\\'].contains(&letter) {
-            label.push('\\');
-        }
-        label.push(letter);
-    }
-    label
-}
-
 /// Width of a label set in DejaVu Sans, in the unit of `size`. Other fonts are narrower.
 pub(crate) fn width(label: &str, size: f64) -> f64 {
     let of = |span: &Span| {
@@ -125,13 +113,6 @@ mod tests {
         assert_eq!(levels(r"my\_tip"), of(&[("my_tip", Line)]));
         assert_eq!(levels("a_"), of(&[("a", Line), ("", Below)]));
         assert_eq!(levels("a_{b"), of(&[("a", Line), ("b", Below)]));
-    }
-
-    #[test]
-    fn what_is_made_plain_is_set_as_it_is_written() {
-        for text in ["f_{x}^2", r"C:\tips\a_b", "α"] {
-            assert_eq!(levels(&plain(text)), [(text.to_owned(), Level::Line)]);
-        }
     }
 
     #[test]

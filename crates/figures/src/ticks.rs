@@ -141,7 +141,10 @@ mod tests {
 
     #[test]
     fn many_decades_are_labelled_in_equal_steps_and_few_at_2_and_5_too() {
-        assert_eq!(labels(&logarithmic(1e-12, 1.0, 5.0)), ["10^{-12}", "10^{-9}", "10^{-6}", "10^{-3}", "10^{0}"]);
+        assert_eq!(
+            labels(&logarithmic(1e-12, 1.0, 5.0)),
+            ["10^{-12}", "10^{-9}", "10^{-6}", "10^{-3}", "10^{0}"]
+        );
         assert_eq!(labels(&logarithmic(0.05, 1.0, 5.0)), ["0.05", "0.1", "0.2", "0.5", "1"]);
         assert_eq!(labels(&logarithmic(6.0, 9.0, 3.0)), ["6", "7", "8", "9"]);
     }
@@ -150,7 +153,10 @@ mod tests {
     fn ticks_lie_within_the_axis() {
         for (low, high) in [(0.3, 700.0), (2.5e-9, 3.5e-1), (1.0, 1e40), (0.011, 0.019)] {
             for tick in logarithmic(low, high, 6.0) {
-                assert!((0.999 * low..=1.001 * high).contains(&tick.value), "{low} {high} {tick:?}");
+                assert!(
+                    (0.999 * low..=1.001 * high).contains(&tick.value),
+                    "{low} {high} {tick:?}"
+                );
             }
         }
     }

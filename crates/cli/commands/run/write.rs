@@ -3,25 +3,20 @@
 use super::document;
 use super::journey::Travelled;
 use super::record::{Record, Sink};
-use crate::commands::figure::Figure;
-use crate::commands::{surface, verify};
+use crate::commands::fields::Fields;
+use crate::commands::job::{self, Job};
+use crate::commands::{told, verify};
 use crate::failure::Failure;
-use crate::files::npz::Npz;
-use crate::files::output::Output;
-use crate::message::remark;
-use crate::plot;
 use std::path::Path;
-use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
-use stickslip_stability::unstable_count;
-use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
+use stickslip_documents::{Order, RunDocument, RunHead};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
 pub(super) enum Target {
     /// A document at the end.
-    Document(Output),
-    /// Lines, which the record has.
-    Lines,
+    Document(Job),
+    /// Lines, which the record has; and the fields to print of the last.
+    Lines(Fields),
 }
 
 /// The first line, where lines are written.
@@ -41,40 +36,41 @@ pub(super) fn all(
     initial: &InitialSurface,
     mut travelled: Travelled,
     target: Target,
-    figure: Option<Figure>,
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
-    // Nobody reads it beside a document on standard output.
-    let said = (order.output != Path::new("-")).then(|| summary(&end, &scenario.model));
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
-    let (mut failure, mut verified) = (None, String::new());
+    let mut failure = None;
     match target {
-        Target::Lines => {
+        Target::Lines(fields) => {
             let Sink::Lines(mut stream) = travelled.record.sink else {
                 unreachable!("lines are written to a stream")
             };
             stream.line(&end)?;
             stream.finish()?;
+            let told = told::of_lines(&end, &order.parameters.model);
+            job::after(&end, &told, &fields, order.output != Path::new("-"))?;
         }
-        Target::Document(output) => {
+        Target::Document(job) => {
             let samples = &travelled.record.samples;
-            let memory = end.work.memory.clone();
             let mut document = RunDocument::new(
                 order.parameters.clone(),
                 (&scenario.model).into(),
                 samples,
                 trajectory.as_ref().filter(|_| order.history).map(Into::into),
-                end,
+                end.clone(),
             );
             let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
             // What was computed is written even if a signal ends its verification.
-            let found = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
+            let found =
+                asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
-            verified = document.verification.as_ref().map_or(String::new(), verify::kept);
-            write(&document, order.format, output)?;
+            let told = told::of_run(&document, &end);
+            let figure = job.write_told(&document, &told)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
-                figure.write(&draw(&document, scenario, initial, trajectory)?)?;
+                // Drawn from the history, whether or not it is written.
+                document.history = Some(trajectory.into());
+                figure.draw(&document)?;
             }
             failure = match found {
                 Err(failure) => Some(failure),
@@ -82,92 +78,6 @@ pub(super) fn all(
             };
         }
     }
-    if let Some(said) = said {
-        remark(format_args!("{said}{verified}"));
-    }
     let interrupted = travelled.signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)
-}
-
-fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<(), Failure> {
-    let samples = &document.samples;
-    match format {
-        RunFormat::Json | RunFormat::Jsonl => output.write_json(document),
-        RunFormat::Csv => output.write_csv(
-            "t,l,x0,velocity",
-            &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
-        ),
-        RunFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("t", &samples.t)?;
-            npz.vector("l", &samples.l)?;
-            npz.vector("x0", &samples.x0)?;
-            npz.vector("velocity", &samples.velocity)?;
-            if let Some(history) = &document.history {
-                npz.vector("history_nodes", &history.nodes)?;
-                npz.vector("history_weights", &history.weights)?;
-                npz.vector("history_t", &history.t)?;
-                npz.vector("history_extension", &history.extension)?;
-                npz.matrix("history_displacement", &history.displacement)?;
-            }
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-/// Points of the drawn surface.
-const DRAWN_POINTS: usize = 4000;
-
-fn draw(
-    document: &RunDocument,
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    trajectory: &Trajectory,
-) -> Result<String, Failure> {
-    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
-    let (end, start) = (trajectory.end(), trajectory.start());
-    let (low, high) = surface::default_range(trajectory);
-    let x = surface::evenly(low, high, DRAWN_POINTS);
-    let surface = Surface::new(&scenario.model, initial, trajectory);
-    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
-    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
-    let title = title(document);
-    Ok(plot::run(&plot::RunFigure {
-        title: &title,
-        t: &document.samples.t,
-        l: &document.samples.l,
-        velocity: &document.samples.velocity,
-        steady_l: document.steady_state.l,
-        r: scenario.model.r(),
-        x: &x,
-        u: &u,
-        u_initial: Some(&before),
-        t_of_surface: end,
-    }))
-}
-
-fn title(document: &RunDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    format!("α = {alpha}, r = {r}: {}", document.regime)
-}
-
-/// One line for a person who sent the run to a file.
-fn summary(end: &RunEnd, model: &Model) -> String {
-    let work = &end.work;
-    // A start in the steady state stays there for long where nothing disturbs it.
-    let unstable = end.regime == RegimeName::Steady && unstable_count(model).is_ok_and(|n| n > 0);
-    let hint = if unstable { ", but unstable: --kick D shows what becomes of it" } else { "" };
-    let motion = end.oscillation.as_ref().map_or(String::new(), |o| {
-        let (period, amplitude) = (o.period, o.amplitude_x0);
-        format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
-    });
-    format!(
-        "{}{motion}{hint}: t = {} reached in {} steps with {}, {:.1} ms",
-        end.regime,
-        end.end,
-        work.steps,
-        work.memory,
-        1e3 * work.seconds
-    )
 }

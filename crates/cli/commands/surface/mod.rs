@@ -5,15 +5,12 @@ mod places;
 mod units;
 mod write;
 
-pub(crate) use places::{default_range, evenly};
+pub(crate) use places::evenly;
 
-use super::figure::Figure;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run;
-use crate::files::output::Output;
-use crate::plot;
 use image::Images;
 use places::Places;
 use stickslip_documents::{
@@ -43,8 +40,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let places = Places::asked(arguments, &trajectory)?;
     let scale = Scale::asked(arguments, &model)?;
     let images = Images::asked(arguments, &model, &places)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let job = format.job(arguments, &read)?;
 
     let surface = Surface::new(&model, &initial, &trajectory);
     let result = match &images {
@@ -58,10 +54,10 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
         }
     };
-    if let Some(figure) = figure {
-        figure.write(&if images.is_some() { image::draw(&result)? } else { draw(&result) })?;
+    match format {
+        SurfaceFormat::Document(_) => job.finish(&result),
+        SurfaceFormat::Gsf => job.finish_bytes(&write::field(&result, &places, &scale), &result),
     }
-    write::write(&result, format, &places, &scale, output)
 }
 
 fn curves(
@@ -97,25 +93,4 @@ fn empty(
         surfaces: vec![],
         images: vec![],
     }
-}
-
-/// α and r, above a picture.
-fn title(document: &SurfaceDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    format!("α = {alpha}, r = {r}")
-}
-
-/// Such as "t = 457".
-fn time_label(t: f64) -> String {
-    format!("t = {}", (t * 1e6).round() / 1e6)
-}
-
-fn draw(document: &SurfaceDocument) -> String {
-    let curves: Vec<(String, &[f64], &[f64])> = document
-        .surfaces
-        .iter()
-        .map(|s| (time_label(s.t), s.x.as_slice(), s.u.as_slice()))
-        .collect();
-    plot::surface(&plot::SurfaceFigure { title: &title(document), curves: &curves })
 }

@@ -39,7 +39,9 @@ impl Places {
         let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
         let across = match &arguments.y_range {
             None => None,
-            Some(typed) => Some(range(["--y-range", "--spacing-y"], typed, arguments.spacing_y, spacing_y)?),
+            Some(typed) => {
+                Some(range(["--y-range", "--spacing-y"], typed, arguments.spacing_y, spacing_y)?)
+            }
         };
         let spacing_y = across.as_ref().map_or(spacing_y, |across| across.spacing);
         let each = t.len() as f64 * across.as_ref().map_or(1.0, Range::points);
@@ -101,7 +103,9 @@ fn range(
     let (low, high) = typed.ends(option)?;
     match (typed.points(option)?, given) {
         (None, _) => Ok(Range { low, high, spacing }),
-        (Some(points), None) => Ok(Range { low, high, spacing: (high - low) / (points - 1) as f64 }),
+        (Some(points), None) => {
+            Ok(Range { low, high, spacing: (high - low) / (points - 1) as f64 })
+        }
         (Some(_), Some(_)) => {
             let message = format!("says how many values there are, and {other} too: leave one out");
             Err(typed.refused(option, message))

@@ -1,7 +1,6 @@
 //! `stickslip sweep merge`.
 
-use super::write::Writer;
-use super::{checksum, sealed};
+use super::{checksum, job, sealed};
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
 use crate::files::input::read_document;
@@ -10,7 +9,6 @@ use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
-    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")
@@ -30,7 +28,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
     let whole = sealed(whole.parameters, whole.points)?;
-    Writer::asked(output, plot, &whole.parameters)?.write(&whole)
+    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters, &[])?.finish(&whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {

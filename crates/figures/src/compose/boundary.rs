@@ -24,14 +24,20 @@ impl Drawn for BoundaryDocument {
         let scale = scale(self);
         let mut panel = PanelDocument::new("", (R, ALPHA));
         (panel.x_scale, panel.y_scale) = (scale, scale);
-        let mut curve = CurveDocument::new(StyleName::Boundary, "boundary, α = α_c(r)", &self.r, &self.alpha);
+        let mut curve =
+            CurveDocument::new(StyleName::Boundary, "boundary, α = α_c(r)", &self.r, &self.alpha);
         curve.smooth = self.r.len() < 400;
         panel.curves.push(curve);
         let turns = |b: &BranchDocument| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
         if self.branches.len() > 1 || self.branches.iter().any(turns) {
             for (i, branch) in self.branches.iter().enumerate() {
                 let name = if i == 0 { "where pairs of roots cross" } else { "" };
-                panel.curves.push(CurveDocument::new(StyleName::Dotted, name, &branch.r, &branch.alpha));
+                panel.curves.push(CurveDocument::new(
+                    StyleName::Dotted,
+                    name,
+                    &branch.r,
+                    &branch.alpha,
+                ));
             }
         }
         // The branches may go to infinity: the axes are those of the boundary.

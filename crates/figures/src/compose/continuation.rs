@@ -7,8 +7,8 @@ use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::seven_digits;
 use stickslip_documents::{
-    ColourName, ContinueDocument, CurveDocument, CycleBranch, FigureDocument, OverName, PanelDocument,
-    ScaleName, SpecialName, StyleName,
+    ColourName, ContinueDocument, CurveDocument, CycleBranch, FigureDocument, OverName,
+    PanelDocument, ScaleName, SpecialName, StyleName,
 };
 
 /// Values that span more than this ratio are drawn on a logarithmic axis.
@@ -29,6 +29,12 @@ const COLOURS: [ColourName; 6] = [
 impl Drawn for ContinueDocument {
     /// Amplitude and period over the parameter, stable parts solid and unstable ones dashed.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let lengths = |b: &CycleBranch| {
+            [&b.alpha, &b.r, &b.period, &b.amplitude_x0].map(Vec::len) == [b.stable.len(); 4]
+        };
+        if !self.branches.iter().all(lengths) {
+            return Err(FigureError::Damaged("the columns of a branch differ in length".into()));
+        }
         let model = &self.parameters.model;
         let over_alpha = self.parameters.over == OverName::Alpha;
         let fixed = match over_alpha {
@@ -72,7 +78,8 @@ impl Branches {
     fn of(document: &ContinueDocument, over_alpha: bool) -> Self {
         let parameter = |alpha: f64, r: f64| if over_alpha { alpha } else { r };
         let special_points = |branch: Option<usize>| {
-            let here = document.special.iter().filter(move |s| branch.is_none_or(|b| s.branch == b));
+            let here =
+                document.special.iter().filter(move |s| branch.is_none_or(|b| s.branch == b));
             here.map(move |s| {
                 let (amplitude, period) = (s.amplitude_x0, s.period);
                 (s.kind, Point { parameter: parameter(s.alpha, s.r), amplitude, period })
@@ -201,7 +208,12 @@ fn between(a: &Point, b: &Point, joints: &[Point]) -> Option<Point> {
     };
     let distance = |p: &Point| (p.parameter - 0.5 * (a.parameter + b.parameter)).abs();
     let near = |p: &&Point| distance(p) <= 2.0 * (a.parameter - b.parameter).abs() + 1e-3;
-    joints.iter().filter(lies).filter(near).min_by(|p, q| distance(p).total_cmp(&distance(q))).copied()
+    joints
+        .iter()
+        .filter(lies)
+        .filter(near)
+        .min_by(|p, q| distance(p).total_cmp(&distance(q)))
+        .copied()
 }
 
 fn joint(a: &Point, b: &Point, joints: &[Point]) -> Point {
@@ -218,7 +230,8 @@ fn short(branches: &[CycleBranch], parameter: impl Fn(f64, f64) -> f64) -> Vec<b
         extremes(branch.alpha.iter().zip(&branch.r).map(|(alpha, r)| parameter(*alpha, *r)))
     };
     let all = branches.iter().filter_map(span);
-    let whole = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (low, high)| (a.min(low), b.max(high)));
+    let whole = all
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (low, high)| (a.min(low), b.max(high)));
     let is_short = |(i, branch): (usize, &CycleBranch)| {
         let (low, high) = span(branch).unwrap_or((0.0, 0.0));
         i > 0 && high - low < SHORT * (whole.1 - whole.0)

@@ -100,11 +100,12 @@ impl<'a> Part<'a> {
             self.samples().map(|(step, t)| (t, of(step, t))).unzip()
         } else {
             let columns = self.columns(of, COLUMNS).points;
-            let ordered = columns.into_iter().flat_map(|[low, high]| match low.0.total_cmp(&high.0) {
-                std::cmp::Ordering::Less => vec![low, high],
-                std::cmp::Ordering::Equal => vec![low],
-                std::cmp::Ordering::Greater => vec![high, low],
-            });
+            let ordered =
+                columns.into_iter().flat_map(|[low, high]| match low.0.total_cmp(&high.0) {
+                    std::cmp::Ordering::Less => vec![low, high],
+                    std::cmp::Ordering::Equal => vec![low],
+                    std::cmp::Ordering::Greater => vec![high, low],
+                });
             ordered.unzip()
         };
         CurveDocument::new(StyleName::Line, name, &x, &y)
@@ -157,7 +158,8 @@ mod tests {
         let long = trajectory(100_000, 54_321);
         let part = Part::of(&long, None);
         let velocity = |step: &Step, t: f64| step.velocity(t);
-        let highest = |curve: &CurveDocument| curve.y.iter().flatten().fold(0.0_f64, |m, v| m.max(*v));
+        let highest =
+            |curve: &CurveDocument| curve.y.iter().flatten().fold(0.0_f64, |m, v| m.max(*v));
         let line = part.line("", &velocity);
         assert!(line.x.len() <= 2 * COLUMNS + 2 && (highest(&line) - 1.5).abs() < 1e-2);
         assert!(line.x.is_sorted());

@@ -15,7 +15,8 @@ mod tip;
 use crate::error::FigureError;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument, Kind,
-    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read,
+    PanelDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
+    SweepDocument, Unusable, read,
 };
 
 pub use boundary::onset_of;
@@ -45,6 +46,7 @@ pub trait Drawn {
 /// The document is damaged, or holds nothing that could be drawn.
 pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
     let mut figure = document.figure(view)?;
+    figure.panels.iter().try_for_each(judge)?;
     let Some(first) = figure.panels.first() else {
         return Err(FigureError::Nothing("there is nothing to draw".into()));
     };
@@ -58,6 +60,25 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
         }
     }
     Ok(figure)
+}
+
+/// Refuses grids that are not as large as their axes.
+fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
+    let fits = |x: &[f64], y: &[f64], rows: &[usize]| {
+        rows.len() == y.len() && rows.iter().all(|row| *row == x.len())
+    };
+    let map = panel.map.as_ref().is_none_or(|map| {
+        let rows: Vec<usize> = map.z.iter().map(Vec::len).collect();
+        !map.x.is_empty() && !map.y.is_empty() && fits(&map.x, &map.y, &rows)
+    });
+    let cells = panel.cells.as_ref().is_none_or(|cells| {
+        let rows: Vec<usize> = cells.kinds.iter().map(Vec::len).collect();
+        fits(&cells.x, &cells.y, &rows)
+    });
+    if map && cells {
+        return Ok(());
+    }
+    Err(FigureError::Damaged("a map has not as many rows and columns as its axes".into()))
 }
 
 /// Formats of the documents that have a figure.

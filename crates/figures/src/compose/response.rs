@@ -3,7 +3,9 @@
 use super::tip::model_name;
 use super::{Drawn, View};
 use crate::error::FigureError;
-use stickslip_documents::{CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName};
+use stickslip_documents::{
+    CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName,
+};
 
 impl Drawn for ResponseDocument {
     /// The deviation, and a ground where so many modes do not give it.

@@ -9,7 +9,8 @@ use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
 use stickslip_documents::{
-    CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters, StyleName,
+    CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters,
+    StyleName,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Trajectory};
@@ -33,7 +34,9 @@ impl Drawn for RunDocument {
         let model = self.parameters.model.clone();
         let mut figure = FigureDocument::new("run", &title(self), vec![model]);
         if self.history.is_none() {
-            figure.remarks.push("drawn from the samples: without its history, a run has no more".into());
+            figure
+                .remarks
+                .push("drawn from the samples: without its history, a run has no more".into());
             figure.panels = sampled(self);
             return Ok(figure);
         }
@@ -44,8 +47,16 @@ impl Drawn for RunDocument {
         let shown = Shown::of(self, part, &l);
         let steady = self.steady_state.l;
         let mut rows = vec![
-            shown.motion(&trajectory, (L, &l, "l(t)"), (steady, format!("steady state, l_0 = {}", short(steady)))),
-            shown.motion(&trajectory, (VELOCITY, &velocity, "ẋ_0(t)"), (r, format!("support, r = {}", short(r)))),
+            shown.motion(
+                &trajectory,
+                (L, &l, "l(t)"),
+                (steady, format!("steady state, l_0 = {}", short(steady))),
+            ),
+            shown.motion(
+                &trajectory,
+                (VELOCITY, &velocity, "ẋ_0(t)"),
+                (r, format!("support, r = {}", short(r))),
+            ),
         ];
         rows.extend(force(&self.parameters, part.span).map(|panel| (panel, None)));
         rows.push(surfaces(&self.parameters.scenario()?, &trajectory, shown)?);
@@ -127,8 +138,18 @@ fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
     let (samples, steady, r) = (&run.samples, run.steady_state.l, run.parameters.model.r);
     let curve = |name, y| CurveDocument::new(StyleName::Line, name, &samples.t, y);
     vec![
-        against(L, curve("l(t), samples", &samples.l), steady, &format!("steady state, l_0 = {}", short(steady))),
-        against(VELOCITY, curve("ẋ_0(t), samples", &samples.velocity), r, &format!("support, r = {}", short(r))),
+        against(
+            L,
+            curve("l(t), samples", &samples.l),
+            steady,
+            &format!("steady state, l_0 = {}", short(steady)),
+        ),
+        against(
+            VELOCITY,
+            curve("ẋ_0(t), samples", &samples.velocity),
+            r,
+            &format!("support, r = {}", short(r)),
+        ),
     ]
 }
 
@@ -141,7 +162,8 @@ fn force(run: &RunParameters, (from, to): (f64, f64)) -> Option<PanelDocument> {
     let evenly = |from: f64, to: f64, n: usize| {
         (0..=n).map(move |i| from + (to - from) * i as f64 / n as f64)
     };
-    let near = |p: &PulseParameters| evenly(p.time - 5.0 * p.width, p.time + 5.0 * p.width, PULSE_POINTS);
+    let near =
+        |p: &PulseParameters| evenly(p.time - 5.0 * p.width, p.time + 5.0 * p.width, PULSE_POINTS);
     let table = run.force.iter().flat_map(|table| table.t.iter().copied());
     let pulses = run.pulses.iter().flat_map(near);
     let mut t: Vec<f64> = evenly(from, to, FORCE_POINTS).chain(pulses).chain(table).collect();
@@ -154,7 +176,11 @@ fn force(run: &RunParameters, (from, to): (f64, f64)) -> Option<PanelDocument> {
 }
 
 /// The surface at the end of what is shown: all of it, and, where there are many ripples, the last of them.
-fn surfaces(scenario: &Scenario, trajectory: &Trajectory, shown: Shown) -> Result<Row, FigureError> {
+fn surfaces(
+    scenario: &Scenario,
+    trajectory: &Trajectory,
+    shown: Shown,
+) -> Result<Row, FigureError> {
     let initial = scenario.initial_surface().map_err(|e| FigureError::Damaged(e.to_string()))?;
     let surface = Surface::new(&scenario.model, &initial, trajectory);
     let (from, end) = shown.part.span;

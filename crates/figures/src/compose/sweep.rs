@@ -9,7 +9,8 @@ use super::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip_documents::{
-    ColourName, FigureDocument, ModelParameters, RegimeName, SweepDocument, SweepParameters, SweepPoint,
+    ColourName, FigureDocument, ModelParameters, RegimeName, SweepDocument, SweepParameters,
+    SweepPoint,
 };
 
 /// A parameter that varies.
@@ -33,9 +34,13 @@ fn varied(parameters: &SweepParameters) -> Vec<Varied<'_>> {
     let above = alpha_above.as_deref().map(|values| (values, "α − α_c"));
     let (alphas, label) =
         alpha.as_deref().map(|values| (values, ALPHA)).or(above).unwrap_or((&[], ALPHA));
-    let stride = alphas.len();
+    let stride = alphas.len().max(1);
     let all = [
-        Varied { values: beta.as_deref().unwrap_or(&[]), label: "β", stride: stride * r.len() },
+        Varied {
+            values: beta.as_deref().unwrap_or(&[]),
+            label: "β",
+            stride: stride * r.len().max(1),
+        },
         Varied { values: r, label: R, stride },
         Varied { values: alphas, label, stride: 1 },
     ];

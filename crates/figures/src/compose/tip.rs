@@ -34,7 +34,9 @@ fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
         }
         // A table is made of many.
         many if many.len() > 9 => "f of a table".into(),
-        many => format!("f = sum of {} Gaussian{}", many.len(), if many.len() == 1 { "" } else { "s" }),
+        many => {
+            format!("f = sum of {} Gaussian{}", many.len(), if many.len() == 1 { "" } else { "s" })
+        }
     }
 }
 

@@ -31,7 +31,11 @@ pub(super) struct Ground<'a> {
 
 impl Ground<'_> {
     /// The surface, and that at the start if that is of interest.
-    pub(super) fn lines(&self, range: (f64, f64), with_start: bool) -> Result<PanelDocument, FigureError> {
+    pub(super) fn lines(
+        &self,
+        range: (f64, f64),
+        with_start: bool,
+    ) -> Result<PanelDocument, FigureError> {
         let x = points(range);
         let u = self.heights(self.end, &x)?;
         let mut panel = self.panel();
@@ -65,8 +69,11 @@ impl Ground<'_> {
         };
         let ahead = x.partition_point(|x| *x < self.tip - GROOVE);
         let (behind_x, behind_u) = (&x[..ahead], &u[..ahead]);
-        let columns: Vec<(f64, f64, f64)> =
-            behind_x.chunks(per_column).zip(behind_u.chunks(per_column)).map(|(x, u)| of(x, u)).collect();
+        let columns: Vec<(f64, f64, f64)> = behind_x
+            .chunks(per_column)
+            .zip(behind_u.chunks(per_column))
+            .map(|(x, u)| of(x, u))
+            .collect();
         let name = format!("u(x, t = {}), lowest to highest", short(self.end));
         if spacing < wavelength / 6.0 && !columns.is_empty() {
             let x: Vec<f64> = columns.iter().map(|c| c.0).collect();
@@ -115,7 +122,10 @@ impl Ground<'_> {
             if high > to {
                 let text = format!("{} ahead", short(high));
                 let y = to - 0.12 * (to - from);
-                let note = NoteDocument { arrow: Some(ArrowName::Up), ..NoteDocument::new(&text, (self.tip, y)) };
+                let note = NoteDocument {
+                    arrow: Some(ArrowName::Up),
+                    ..NoteDocument::new(&text, (self.tip, y))
+                };
                 panel.notes.push(note);
             }
             panel.y_range = Some([from, to]);

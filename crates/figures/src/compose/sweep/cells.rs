@@ -3,7 +3,8 @@
 use super::{Phase, Varied};
 use crate::compose::boundary::ALPHA;
 use stickslip_documents::{
-    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint, TipDocument,
+    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
+    TipDocument,
 };
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::TipFunction;
@@ -73,7 +74,8 @@ fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64
     let parameters = &document.parameters;
     let of_r = slow.values.len() == parameters.r.len() && slow.label != "β";
     let r = if of_r { slow.values[i] } else { parameters.r.first().copied().unwrap_or(f64::NAN) };
-    let tip: Option<&TipDocument> = if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
+    let tip: Option<&TipDocument> =
+        if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
     let tip: Option<TipFunction> = tip.and_then(|tip| tip.tip().ok());
     // What the points say costs nothing.
     let here = |point: &&SweepPoint| slow.place(point) == i;

@@ -35,7 +35,8 @@ fn panel(
     for phase in Phase::ALL {
         let here = || document.points.iter().filter(move |p| Phase::of(p) == Some(phase));
         let place = |p: &SweepPoint| axis.values[axis.place(p)];
-        let (x, y): (Vec<f64>, Vec<f64>) = here().filter_map(|p| Some((place(p), value(p)?))).unzip();
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            here().filter_map(|p| Some((place(p), value(p)?))).unzip();
         let without: Vec<f64> = here().filter(|p| value(p).is_none()).map(place).collect();
         let foot = vec![range.2; without.len()];
         let name = phase.name();

@@ -1,5 +1,13 @@
 //! What was found, for a person: a line or two, aligned values with their errors, and what to try next.
 
+mod cycles;
+mod linear;
+mod others;
+mod run;
+mod verify;
+
+pub(in crate::commands) use run::{of_lines, of_run};
+
 use std::fmt::Write;
 
 /// What a person is told of a result.
@@ -70,15 +78,32 @@ impl Told {
     }
 }
 
-/// The command as it was typed, with more behind it; the program's name as users know it.
+/// The command as it was typed, but for where its result goes, with more options in place of those of the same name.
 pub(crate) fn again(more: &str) -> String {
-    let quoted = |word: String| {
-        let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
-        if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
-    };
-    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into()));
-    let words: Vec<String> = words.collect();
-    format!("stickslip {} {more}", words.join(" "))
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    typed(words, more)
+}
+
+/// Of each, the value goes with the option.
+const OUTLET: [&str; 4] = ["-o", "--output", "--plot", "--format"];
+
+fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
+    let is_replaced = |name: &str| OUTLET.contains(&name) || more.split(' ').any(|m| m == name);
+    let mut kept = vec![];
+    while let Some(word) = words.next() {
+        let (name, value) = word.split_once('=').unwrap_or((&word, ""));
+        if !(name.starts_with('-') && is_replaced(name)) {
+            kept.push(quoted(word));
+        } else if value.is_empty() {
+            words.next();
+        }
+    }
+    format!("stickslip {} {more}", kept.join(" "))
+}
+
+fn quoted(word: String) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
 }
 
 /// With so many digits that count, as few as it needs.
@@ -102,6 +127,9 @@ pub(crate) fn held(value: f64, error: f64) -> String {
     if !(error.is_finite() && error > 0.0 && value.is_finite()) {
         return digits(value, 10);
     }
+    if value.abs() < error {
+        return format!("0 ± {error:.0e}");
+    }
     let exponent = error.log10().floor() as i32;
     let decimals = usize::try_from(-exponent).unwrap_or(0).min(15);
     if value.abs() < 1e-4 || decimals > 12 {
@@ -116,9 +144,11 @@ mod tests {
 
     #[test]
     fn values_stand_below_each_other() {
-        let told = Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
+        let told =
+            Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
         let told = told.remarks(&["few".into()]).next("stickslip units");
-        let text = "steady: t = 5\n  α       1.2\n  period  6\n  note: few\nnext: stickslip units\n";
+        let text =
+            "steady: t = 5\n  α       1.2\n  period  6\n  note: few\nnext: stickslip units\n";
         assert_eq!(told.text(), text);
     }
 
@@ -130,5 +160,15 @@ mod tests {
         assert_eq!(held(6.693688892159, 3e-8), "6.69368889 ± 3e-8");
         assert_eq!(held(19.4565, 2.0), "19 ± 2e0");
         assert_eq!(held(0.5, f64::NAN), "0.5");
+        assert_eq!(held(6e-17, 4e-14), "0 ± 4e-14");
+    }
+
+    #[test]
+    fn a_command_is_typed_again_with_other_options() {
+        let words = ["run", "--alpha", "1.2", "--until", "40", "--format=text", "-o", "a b.json"];
+        let again = typed(words.map(String::from).into_iter(), "--until 160 --plot run.svg");
+        assert_eq!(again, "stickslip run --alpha 1.2 --until 160 --plot run.svg");
+        let again = typed(["surface", "a b.json"].map(String::from).into_iter(), "-o s.csv");
+        assert_eq!(again, "stickslip surface 'a b.json' -o s.csv");
     }
 }

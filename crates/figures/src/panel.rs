@@ -185,6 +185,9 @@ impl<'a> Panel<'a> {
             let (from, to) = (frame.at.left + half, frame.at.right - half);
             let shown = if from < to { x.clamp(from, to) } else { x };
             let (label, anchor, upright) = (note.text.as_str(), Anchor::Middle, false);
+            let (left, right) = (shown - half, shown + half);
+            let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
+            svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
             svg.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
             let (edge, of) = match note.arrow {
                 Some(ArrowName::Down) => (frame.at.bottom - 9.0, Shape::Down),

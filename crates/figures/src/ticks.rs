@@ -38,7 +38,7 @@ pub(crate) fn logarithmic(low: f64, high: f64, count: f64) -> Vec<Tick> {
         return linear(low, high, count);
     }
     let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
-    let every = (span / count.max(2.0)).ceil().max(1.0) as i32;
+    let every = (span / (1.6 * count.max(2.0))).ceil().max(1.0) as i32;
     let minor = last - first <= MOST_MINOR.max(count as i32);
     let labelled = |power: i32, digit: i32| match digit {
         1 => power.rem_euclid(every) == 0,
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn many_decades_are_labelled_in_equal_steps_and_few_at_2_and_5_too() {
         assert_eq!(
-            labels(&logarithmic(1e-12, 1.0, 5.0)),
+            labels(&logarithmic(1e-12, 1.0, 3.0)),
             ["10^{-12}", "10^{-9}", "10^{-6}", "10^{-3}", "10^{0}"]
         );
         assert_eq!(labels(&logarithmic(0.05, 1.0, 5.0)), ["0.05", "0.1", "0.2", "0.5", "1"]);

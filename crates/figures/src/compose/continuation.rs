@@ -41,7 +41,7 @@ impl Drawn for ContinueDocument {
             true => format!("r = {}", seven_digits(model.r)),
             false => format!("α = {}", seven_digits(model.alpha)),
         };
-        let title = format!("Cycles of {}, {fixed}", tip_name(&model.tip));
+        let title = format!("Cycles, {}, {fixed}", tip_name(&model.tip));
         let mut figure = FigureDocument::new("continue", &title, vec![model.clone()]);
         let branches = Branches::of(self, over_alpha);
         let label = if over_alpha { ALPHA } else { R };

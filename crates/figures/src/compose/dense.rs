@@ -75,7 +75,7 @@ impl<'a> Part<'a> {
         let mut current = usize::MAX;
         for (step, t) in self.samples() {
             let value = of(step, t);
-            let column = ((t - from) / (to - from) * count as f64) as usize;
+            let column = (((t - from) / (to - from) * count as f64) as usize).min(count - 1);
             match points.last_mut() {
                 Some([low, high]) if column == current => {
                     if value < low.1 {

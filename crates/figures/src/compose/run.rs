@@ -188,10 +188,10 @@ fn surfaces(
     let ground = Ground { surface, start: trajectory.start(), end, tip };
     let all = (from.min(tip) - MARGIN, from.max(tip) + MARGIN);
     let Some(length) = shown.detail else {
-        return Ok((ground.lines(all, true)?, None));
+        return Ok((ground.lines(all, true, shown.oscillations)?, None));
     };
     let length = length * trajectory.r();
-    let mut detail = ground.lines((tip - length, tip + MARGIN), false)?;
+    let mut detail = ground.lines((tip - length, tip + MARGIN), false, 0)?;
     detail.y_label.clear();
     Ok((ground.envelope(all, length / SHOWN, shown.oscillations)?, Some(detail)))
 }

@@ -66,7 +66,11 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
             let air = 0.06 * (high - low);
             panel.y_range = Some([low - air, high + air]);
         }
-        let curve = CurveDocument::new(StyleName::Line, &time(surface.t), &surface.x, &surface.u);
+        // The line ends where the tip has not come yet.
+        let end = touched(surface, high - low).map_or(f64::INFINITY, |range| range[1]);
+        let shown = surface.x.partition_point(|x| *x <= end);
+        let (x, u) = (&surface.x[..shown], &surface.u[..shown.min(surface.u.len())]);
+        let curve = CurveDocument::new(StyleName::Line, &time(surface.t), x, u);
         panel.curves.push(curve);
         panels.push(panel);
     }

@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn tips_are_called_what_the_command_line_calls_them() {
         for (beta, width, said) in
-            [(1.0, 1.0, "β = 1"), (0.5, 1.0, "β = 0.5"), (-0.3, 2.0, "β = −0.3, width 2")]
+            [(1.0, 1.0, "β = 1"), (0.5, 1.0, "β = 0.5"), (0.3, 2.0, "β = 0.3, width 2")]
         {
             assert_eq!(name(&TipFunction::triple_gaussian(beta, width).unwrap()), said);
         }

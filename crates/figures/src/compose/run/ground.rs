@@ -15,6 +15,8 @@ pub(super) const MARGIN: f64 = 12.0;
 const GROOVE: f64 = 4.0;
 /// Ripples that take less of the height than this are drawn alone, and what is beyond is cut.
 const LEAST_PART: f64 = 0.3;
+/// A tip that made fewer has left no ripples.
+const FEW: usize = 4;
 /// Distance of the points, and how many there are at least and at most.
 const SPACING: f64 = 0.1;
 const POINTS: (f64, f64) = (1500.0, 120_000.0);
@@ -35,6 +37,7 @@ impl Ground<'_> {
         &self,
         range: (f64, f64),
         with_start: bool,
+        ripples: usize,
     ) -> Result<PanelDocument, FigureError> {
         let x = points(range);
         let u = self.heights(self.end, &x)?;
@@ -45,7 +48,7 @@ impl Ground<'_> {
         }
         let name = format!("u(x, t = {})", short(self.end));
         panel.curves.push(CurveDocument::new(StyleName::Line, &name, &x, &u));
-        self.fit(&mut panel, &x, &u);
+        self.fit(&mut panel, &x, &u, ripples);
         Ok(panel)
     }
 
@@ -76,7 +79,9 @@ impl Ground<'_> {
             .collect();
         let name = format!("u(x, t = {}), lowest to highest", short(self.end));
         if spacing < wavelength / 6.0 && !columns.is_empty() {
-            let x: Vec<f64> = columns.iter().map(|c| c.0).collect();
+            let mut x: Vec<f64> = columns.iter().map(|c| c.0).collect();
+            let last = x.len() - 1;
+            (x[0], x[last]) = (behind_x[0], behind_x[behind_x.len() - 1]);
             let high: Vec<f64> = columns.iter().map(|c| c.2).collect();
             let mut band = CurveDocument::new(StyleName::Band, &name, &x, &high);
             band.low = Some(columns.iter().map(|c| Some(c.1)).collect());
@@ -86,7 +91,7 @@ impl Ground<'_> {
         rest.colour = Some(ColourName::Blue);
         panel.curves.push(rest);
         panel.x_range = Some([range.0, range.1]);
-        self.fit(&mut panel, &x, &u);
+        self.fit(&mut panel, &x, &u, ripples);
         Ok(panel)
     }
 
@@ -103,14 +108,14 @@ impl Ground<'_> {
 
     /// The ordinates: those of the ripples behind the tip, where its own pit and what it has not reached yet would
     /// leave little room for them; and a mark where the tip is.
-    fn fit(&self, panel: &mut PanelDocument, x: &[f64], u: &[f64]) {
+    fn fit(&self, panel: &mut PanelDocument, x: &[f64], u: &[f64], count: usize) {
         let all = extremes(u.iter().copied());
         let behind = x.iter().zip(u).filter(|(x, _)| **x < self.tip - GROOVE).map(|(_, u)| *u);
         let (Some((low, high)), Some(ripples)) = (all, extremes(behind)) else { return };
         let span = ripples.1 - ripples.0;
         let natural = NATURAL.unwrap_or(0.0);
         let (mut from, mut to) = (low, high);
-        if span < LEAST_PART * (high - low) && span > 1e-6 * natural {
+        if count >= FEW && span < LEAST_PART * (high - low) && span > 1e-6 * natural {
             (from, to) = (ripples.0 - 0.35 * span, ripples.1 + 0.35 * span);
             let beyond = |value: f64, y: f64, arrow| {
                 let text = format!("{} at the tip", short(value));

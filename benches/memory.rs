@@ -7,11 +7,11 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use stickslip_tip::memory::{Direct, Fft, Memory, Modes};
-use stickslip_tip::{STAGES, TipFunction, nodes_and_weights};
+use stickslip_tip::memory::{Groove, Memory, Policy};
+use stickslip_tip::{MemoryChoice, STAGES, TipFunction, nodes_and_weights};
 
 /// A memory with this many nodes within reach, spread over a fifth of a width about the tip.
-fn filled(mut memory: Box<dyn Memory>, nodes: usize) -> Box<dyn Memory> {
+fn filled(mut memory: Policy, nodes: usize) -> Policy {
     let (c, b) = nodes_and_weights();
     for step in 0..nodes / STAGES {
         // Forward only as far as the modes hold; the same to and fro for all.
@@ -21,12 +21,12 @@ fn filled(mut memory: Box<dyn Memory>, nodes: usize) -> Box<dyn Memory> {
     memory
 }
 
-fn a_step(memory: &mut dyn Memory, to_and_fro: f64) {
+fn a_step(memory: &mut Policy, to_and_fro: f64) {
     let (c, b) = nodes_and_weights();
     let at = c.map(|c| to_and_fro * 0.2 * c);
     let (mut slope, mut curvature) = ([0.0; STAGES], [0.0; STAGES]);
     for _ in 0..2 {
-        memory.groove(black_box(&at), &mut slope, &mut curvature);
+        memory.groove(black_box(&at), &mut Groove::new(&mut slope, &mut curvature));
     }
     memory.remember(&at, &b.map(|b| 1e-6 * b));
     black_box((slope, curvature));
@@ -39,18 +39,18 @@ fn timed(name: &str, tip: &TipFunction, nodes: usize, steps: u64) -> Duration {
     let mut total = Duration::ZERO;
     let mut left = steps;
     while left > 0 {
-        let empty: Box<dyn Memory> = match name {
-            "fft" => Box::new(Fft::new(tip.clone())),
-            "modes" => Box::new(Modes::new(tip.clone(), 1e-10).expect("a fit")),
-            _ => Box::new(Direct::new(tip.clone())),
+        let choice = match name {
+            "fft" => MemoryChoice::Fft,
+            "modes" => MemoryChoice::Modes,
+            _ => MemoryChoice::Direct,
         };
-        let mut memory = filled(empty, nodes);
+        let mut memory = filled(Policy::new(choice, tip.clone(), 1e-10).expect("a fit"), nodes);
         // The first look at a memory just filled pays for the cache, not for the method.
-        a_step(memory.as_mut(), 1.0);
+        a_step(&mut memory, 1.0);
         let batch = left.min(before_it_grows);
         let started = Instant::now();
         for step in 0..batch {
-            a_step(memory.as_mut(), if step % 2 == 0 { -1.0 } else { 1.0 });
+            a_step(&mut memory, if step % 2 == 0 { -1.0 } else { 1.0 });
         }
         total += started.elapsed();
         left -= batch;

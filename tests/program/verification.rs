@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use stickslip_stability::{critical, leading_roots};
-use stickslip_tip::memory::{Fit, Modes, Term, accuracy_needed};
+use stickslip_tip::memory::{Fit, Policy, Term, accuracy_needed};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction,
     Trajectory, run,
@@ -132,16 +132,10 @@ fn a_cycle_that_is_stable_has_the_exponent_0() {
 fn with_fit(scenario: &Scenario, fit: Fit) -> Trajectory {
     let surface = scenario.initial_surface().unwrap();
     let model = &scenario.model;
-    let memory = Modes::with_fit(model.tip().clone(), Arc::new(fit)).unwrap();
+    let memory = Policy::with_fit(model.tip().clone(), Arc::new(fit)).unwrap();
     let start = (scenario.start_time(), model.steady_lag() + scenario.kick);
-    let mut integrator = Integrator::new(
-        model,
-        &surface,
-        &scenario.force,
-        Box::new(memory),
-        start,
-        scenario.tolerance,
-    );
+    let mut integrator =
+        Integrator::new(model, &surface, &scenario.force, memory, start, scenario.tolerance);
     let mut steps = vec![];
     // A damaged memory may make motions without end.
     while integrator.t() < scenario.until && steps.len() < 600 {

@@ -5,8 +5,7 @@
 use crate::acceptance::{largest_difference, observed_order};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_tip::memory::{Direct, Fft, Memory};
-use stickslip_tip::state::{Damaged, Reader, State};
+use stickslip_tip::memory::{Groove, Memory, Policy};
 use stickslip_tip::{Force, InitialSurface, Integrator, Model, STAGES, TipFunction, Trajectory};
 
 const X: f64 = 14.0;
@@ -50,7 +49,7 @@ fn manufactured_force(model: &Model) -> Force {
 }
 
 /// Errors at step ends and anywhere, with n equal steps.
-fn errors(model: &Model, force: &Force, memory: Box<dyn Memory>, n: u32) -> (f64, f64) {
+fn errors(model: &Model, force: &Force, memory: impl Memory, n: u32) -> (f64, f64) {
     let surface = InitialSurface::steady(model, X);
     let t1 = (X + model.steady_lag()) / model.r();
     let start = (t1, model.steady_lag());
@@ -68,10 +67,10 @@ fn errors(model: &Model, force: &Force, memory: Box<dyn Memory>, n: u32) -> (f64
     (at_ends.fold(0.0, f64::max), anywhere)
 }
 
-fn memory(name: &str, model: &Model) -> Box<dyn Memory> {
+fn memory(name: &str, model: &Model) -> Policy {
     match name {
-        "direct" => Box::new(Direct::new(model.tip().clone())),
-        _ => Box::new(Fft::new(model.tip().clone())),
+        "direct" => Policy::direct(model.tip().clone()),
+        _ => Policy::fft(model.tip().clone()),
     }
 }
 
@@ -99,18 +98,13 @@ fn order_11_at_step_ends_and_7_within_for_both_memories() {
 /// Negative control: a memory that forgets what is older than four time units.
 #[test]
 fn a_memory_cut_by_time_does_not_converge() {
-    struct Forgetful(Direct, Vec<(f64, [f64; STAGES], [f64; STAGES])>, TipFunction);
+    struct Forgetful(Policy, Vec<(f64, Vec<f64>, Vec<f64>)>, TipFunction);
     impl Memory for Forgetful {
-        fn groove(
-            &mut self,
-            at: &[f64; STAGES],
-            slope: &mut [f64; STAGES],
-            curvature: &mut [f64; STAGES],
-        ) {
-            self.0.groove(at, slope, curvature);
+        fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
+            self.0.groove(at, groove);
         }
-        fn remember(&mut self, position: &[f64; STAGES], weight: &[f64; STAGES]) {
-            self.1.push((weight.iter().sum(), *position, *weight));
+        fn remember(&mut self, position: &[f64], weight: &[f64]) {
+            self.1.push((weight.iter().sum(), position.to_vec(), weight.to_vec()));
             let mut age = 0.0;
             let recent = self.1.iter().rev().take_while(|(h, ..)| {
                 age += h;
@@ -118,26 +112,17 @@ fn a_memory_cut_by_time_does_not_converge() {
             });
             let mut kept: Vec<_> = recent.cloned().collect();
             kept.reverse();
-            self.0 = Direct::new(self.2.clone());
+            self.0 = Policy::direct(self.2.clone());
             for (_, position, weight) in &kept {
                 self.0.remember(position, weight);
             }
-        }
-        fn save(&self, state: &mut State) {
-            self.0.save(state);
-        }
-        fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
-            self.0.restore(state)
-        }
-        fn name(&self) -> &'static str {
-            "forgetful"
         }
     }
     let model = model();
     let force = manufactured_force(&model);
     let tip = model.tip().clone();
-    let forgetful = Forgetful(Direct::new(tip.clone()), vec![], tip);
-    let (at_ends, _) = errors(&model, &force, Box::new(forgetful), 30);
+    let forgetful = Forgetful(Policy::direct(tip.clone()), vec![], tip);
+    let (at_ends, _) = errors(&model, &force, forgetful, 30);
     println!("cut by time: {at_ends:.2e}");
     assert!(at_ends > 1e-3);
 }

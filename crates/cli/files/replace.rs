@@ -7,7 +7,8 @@ use std::fs::{File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// What of a file is not its contents: its mode and, where that is possible, its owner.
+/// What of a file is not its contents: its mode, as far as the umask lets new files be open to others, and, where that
+/// is possible, its owner.
 #[derive(Debug, Default)]
 pub(super) struct Looks(Option<Metadata>);
 
@@ -33,7 +34,8 @@ impl Looks {
             let group = || fchown(file, None, Some(old.gid()));
             fchown(file, Some(old.uid()), Some(old.gid())).or_else(|_| group()).ok();
         }
-        let mut mode = old.mode() & 0o777;
+        let made = new.mode() & 0o666;
+        let mut mode = old.mode() & (made | (made & 0o444) >> 2);
         if file.metadata()?.gid() != old.gid() {
             // What one group might do is not for another.
             mode &= !0o070 | (mode & 0o007) << 3;
@@ -90,8 +92,10 @@ mod tests {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.json");
+        fs::write(&path, "").unwrap();
+        let allowed = path.metadata().unwrap().permissions().mode();
         let mode = || path.metadata().unwrap().permissions().mode() & 0o777;
-        for kept in [0o600, 0o640, 0o666] {
+        for kept in [0o600, 0o400, 0o700, 0o644 & allowed] {
             fs::write(&path, "before").unwrap();
             fs::set_permissions(&path, fs::Permissions::from_mode(kept)).unwrap();
             replace(&path, &Looks::of(&path), &|out| out.write_all(b"after")).unwrap();

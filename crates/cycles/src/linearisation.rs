@@ -4,66 +4,15 @@
 //! changes of the first state X, the period T and the free parameter, with X at the end equal to X at the
 //! start, l at a maximum there, and one equation more: a fixed parameter, or a way along the branch.
 
+use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::orbit::Orbit;
 use super::past::Past;
 use super::sensitivity::Sensitivity;
 use super::step::LinearStep;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
-use num_complex::Complex;
-use stickslip_tip::collocation::{STAGES, Stages};
+use stickslip_tip::collocation::STAGES;
 use stickslip_tip::memory::Fit;
-
-/// A linear functional of what a branch of cycles is followed by: the largest l, the period and the
-/// parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Direction {
-    pub(super) l: f64,
-    pub(super) period: f64,
-    pub(super) parameter: f64,
-}
-
-impl Direction {
-    /// The parameter alone.
-    pub(super) const PARAMETER: Self = Self { l: 0.0, period: 0.0, parameter: 1.0 };
-    /// The largest l alone.
-    pub(super) const L: Self = Self { l: 1.0, period: 0.0, parameter: 0.0 };
-
-    pub(super) fn of(&self, change: &Change) -> f64 {
-        self.l * change.state[0] + self.period * change.period + self.parameter * change.parameter
-    }
-
-    pub(super) fn times(&self, factor: f64) -> Self {
-        let Self { l, period, parameter } = *self;
-        Self { l: factor * l, period: factor * period, parameter: factor * parameter }
-    }
-}
-
-/// A change of all unknowns.
-#[derive(Debug, Clone)]
-pub(super) struct Change {
-    /// Of the state X at t = 0.
-    pub(super) state: Vec<f64>,
-    pub(super) period: f64,
-    pub(super) parameter: f64,
-    pub(super) stages: Vec<Stages>,
-}
-
-impl Change {
-    pub(super) fn times(mut self, factor: f64) -> Self {
-        let stages = self.stages.iter_mut().flatten();
-        self.state.iter_mut().chain(stages).for_each(|c| *c *= factor);
-        self.period *= factor;
-        self.parameter *= factor;
-        self
-    }
-
-    /// Largest change of a position.
-    pub(super) fn size(&self) -> f64 {
-        let stages = self.stages.iter().flatten();
-        stages.chain(&self.state[..1]).fold(0.0, |m: f64, d| m.max(d.abs()))
-    }
-}
 
 /// An orbit's equations, linearised.
 pub(super) struct Linearisation {
@@ -201,16 +150,4 @@ impl Phase {
         let value = equation.r - extension - equation.alpha * groove;
         Self { value, by_state, by_parameter }
     }
-}
-
-/// Eigenvalues of the monodromy matrix by falling modulus: the Floquet multipliers.
-pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<Complex<f64>> {
-    let found = monodromy.clone().complex_eigenvalues();
-    let mut found: Vec<_> = found.iter().map(|m| Complex::new(m.re, m.im)).collect();
-    // Of a pair, the one with the positive imaginary part first.
-    found.sort_by(|a, b| {
-        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
-        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
-    });
-    found
 }

@@ -1,7 +1,6 @@
 //! The mesh that a cycle needs: steps long where the motion is smooth, short in its slips.
 
 use super::orbit::Orbit;
-use stickslip_tip::TipFunction;
 use stickslip_tip::collocation::{RADAU, STAGES, apply};
 
 /// The residual of a collocation polynomial falls as this power of the step.
@@ -36,13 +35,8 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
 }
 
 /// The mesh on which residuals would be evenly below the one allowed.
-pub(super) fn adapted(
-    orbit: &Orbit,
-    tip: &TipFunction,
-    residuals: &[f64],
-    allowed: f64,
-) -> Vec<f64> {
-    let longest = longest_displacement(tip);
+pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64) -> Vec<f64> {
+    let longest = longest_displacement(band);
     let shares: Vec<f64> = orbit.mesh.windows(2).map(|ends| ends[1] - ends[0]).collect();
     let wanted = |n: usize| {
         let moved = orbit.stages[n].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
@@ -54,8 +48,8 @@ pub(super) fn adapted(
 }
 
 /// The farthest that one step may lead.
-pub(super) fn longest_displacement(tip: &TipFunction) -> f64 {
-    (BANDS_PER_STEP / tip.band()).min(4.0)
+pub(super) fn longest_displacement(band: f64) -> f64 {
+    (BANDS_PER_STEP / band).min(4.0)
 }
 
 /// Raises densities that fall too fast from one step to the next, around the period.

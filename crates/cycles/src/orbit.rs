@@ -1,6 +1,6 @@
 //! One period of the tip's motion on a mesh.
 
-use super::linearisation::Change;
+use super::change::Change;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::{Step, Trajectory};
 

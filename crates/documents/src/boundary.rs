@@ -4,7 +4,7 @@ use crate::table::{Column, Named, Tabular};
 use crate::{CriticalityName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Branch, Critical, onset_at};
+use stickslip_stability::{BoundaryBranch, Critical, onset_at};
 use stickslip_tip::TipFunction;
 
 /// The stability boundary. `Omega`, `r`, `alpha` and the columns of `onset` have equal lengths.
@@ -107,9 +107,9 @@ impl OnsetColumns {
     }
 }
 
-impl From<Branch> for BranchDocument {
-    fn from(branch: Branch) -> Self {
-        let Branch { wave_number, r, alpha } = branch;
+impl From<BoundaryBranch> for BranchDocument {
+    fn from(branch: BoundaryBranch) -> Self {
+        let BoundaryBranch { wave_number, r, alpha } = branch;
         Self { wave_number, r, alpha }
     }
 }

@@ -62,9 +62,9 @@ mod unknowns;
 
 pub use error::GridError;
 pub use footprint::Footprint;
-pub use method::{Method, Observer, solve, solve_observed};
+pub use method::{Method, solve, solve_observed};
 pub use problem::Problem;
-pub use run::{Request, Run, Work};
+pub use run::{Observer, Request, Run, Work};
 pub use start::Start;
 pub use stepping::Stepping;
 pub use theta::Gaussian;

@@ -7,7 +7,7 @@ use crate::sinc::Sinc;
 use crate::tableau::Tableau;
 use crate::theta::Theta;
 use crate::three_point::ThreePoint;
-use crate::{Gaussian, GridError, Problem, Request, Run, Stepping, uniform};
+use crate::{Gaussian, GridError, Observer, Problem, Request, Run, Stepping, uniform};
 use std::ops::ControlFlow;
 
 /// A discretisation of [`Problem`].
@@ -58,9 +58,6 @@ pub fn solve(
 ) -> Result<Run, GridError> {
     solve_observed(problem, method, stepping, request, &mut |_, _| ControlFlow::Continue(()))
 }
-
-/// Told the time t that each accepted step has come to, and x0(t); may stop the run there.
-pub type Observer<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
 /// As [`solve`], showing the end of each accepted step to an observer.
 ///

@@ -1,6 +1,10 @@
 //! What is asked of a run, and what it returns.
 
 use crate::GridError;
+use std::ops::ControlFlow;
+
+/// Told the time t that each accepted step has come to, and x0(t); may stop the run there.
+pub type Observer<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
 /// Times at which x0 is wanted, and points at which u is wanted at the last of them.
 #[derive(Debug, Clone, Copy)]

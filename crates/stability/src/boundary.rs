@@ -18,7 +18,7 @@ pub struct Boundary {
 /// Where there are several, or where one of them turns back in r, only the lowest α at each r bounds
 /// the stable region; the others are further crossings inside the unstable one.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Branch {
+pub struct BoundaryBranch {
     /// Ω = ω/r, ascending.
     pub wave_number: Vec<f64>,
     /// (42)
@@ -71,7 +71,7 @@ impl Boundary {
         slowest: f64,
         fastest: f64,
         points: usize,
-    ) -> Result<Vec<Branch>, StabilityError> {
+    ) -> Result<Vec<BoundaryBranch>, StabilityError> {
         for r in [slowest, fastest] {
             if !(r.is_finite() && r > 0.0) {
                 return Err(StabilityError::R(r));
@@ -114,8 +114,8 @@ impl Boundary {
         pairs.filter(|(from, to)| within(*from, *to)).collect()
     }
 
-    fn sampled(&self, from: f64, to: f64, count: u32) -> Branch {
-        let mut branch = Branch::default();
+    fn sampled(&self, from: f64, to: f64, count: u32) -> BoundaryBranch {
+        let mut branch = BoundaryBranch::default();
         for i in 0..count {
             let wave_number = from + (to - from) * f64::from(i) / f64::from(count - 1);
             let (r, alpha) = self.point(wave_number);

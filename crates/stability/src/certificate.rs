@@ -2,10 +2,7 @@
 
 use super::cell::Cell;
 use super::characteristic::Characteristic;
-use super::spectrum::HalfPlane;
-use super::{StabilityError, bessel_roots};
 use num_complex::Complex64;
-use stickslip_tip::{Model, TipFunction};
 
 /// A residual above this, relative to the terms of h, is no root.
 const LARGEST_RESIDUAL: f64 = 1e-9;
@@ -77,25 +74,6 @@ impl Region {
     pub(super) fn contains(&self, z: Complex64) -> bool {
         (self.re_min..=self.re_max).contains(&z.re) && z.im.abs() <= self.im_max
     }
-}
-
-/// Checks any list of roots λ against a fresh count of those with Re λ ≥ `bound`.
-///
-/// A root left out, listed twice, or displaced shows in [`Certificate::is_complete`].
-///
-/// # Errors
-/// As [`super::roots`].
-pub fn certify(
-    model: &Model,
-    bound: f64,
-    roots: &[Complex64],
-) -> Result<Certificate, StabilityError> {
-    if matches!(model.tip(), TipFunction::Bessel) {
-        return bessel_roots::certify(model, bound, roots);
-    }
-    let h = Characteristic::new(model);
-    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
-    Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
 }
 
 /// Entries that are roots, each once: those that lie together count as often as h vanishes there.

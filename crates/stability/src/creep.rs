@@ -8,8 +8,9 @@
 use super::StabilityError;
 use super::certificate::{Certificate, Region};
 use super::characteristic::Characteristic;
+use super::half_plane::HalfPlane;
 use super::newton::polish;
-use super::spectrum::{HalfPlane, Spectrum, with_conjugates};
+use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{CurvatureTransform, Scaled};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction};

@@ -21,9 +21,11 @@ mod characteristic;
 mod creep;
 mod critical;
 mod error;
+mod half_plane;
 mod newton;
 mod onset;
 mod response;
+mod roots;
 mod scaled_erfc;
 mod spectrum;
 mod transform;
@@ -34,12 +36,13 @@ mod winding;
 #[path = "../tests/tables/mod.rs"]
 mod tables;
 
-pub use boundary::{Boundary, Branch};
-pub use certificate::{Certificate, Region, certify};
+pub use boundary::{Boundary, BoundaryBranch};
+pub use certificate::{Certificate, Region};
 pub use creep::{Creep, creep};
 pub use critical::{Critical, critical, critical_r};
 pub use error::StabilityError;
 pub use onset::{Criticality, Onset, onset, onset_at};
 pub use response::{Response, ResponseMode, response};
-pub use spectrum::{Spectrum, leading_roots, roots, unstable_count};
+pub use roots::{certify, leading_roots, roots, unstable_count};
+pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;

@@ -20,6 +20,7 @@ pub mod roots;
 pub mod state;
 pub mod tip_function;
 
+mod eigenvalues;
 mod footprint;
 mod force;
 mod history;
@@ -31,15 +32,14 @@ mod series;
 mod spline;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
+pub use eigenvalues::eigenvalues;
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::{InitialSurface, Noise};
 pub use integrator::{IntegrationError, Integrator, Work};
+pub use memory::MemoryChoice;
 pub use model::{Model, ModelError};
-pub use run::{
-    MOST_STEPS, MemoryChoice, Run, RunError, Running, Scenario, Start, TOLERANCES, run,
-    run_observed,
-};
+pub use run::{MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, run, run_observed};
 pub use series::SeriesError;
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

@@ -35,6 +35,18 @@ pub struct Reader<'a> {
     words: &'a [u64],
 }
 
+/// What can be written down between two steps, and taken up again.
+pub trait Saved {
+    /// Writes down all that it holds: what [`restore`](Self::restore) takes up to the last bit.
+    fn save(&self, state: &mut State);
+
+    /// Takes up what [`save`](Self::save) wrote, on one made by the same choices.
+    ///
+    /// # Errors
+    /// A state of something else.
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged>;
+}
+
 /// Cells of lattices are numbered within this; sums of two such numbers do not overflow.
 const LARGEST_WHOLE: u64 = 1 << 61;
 

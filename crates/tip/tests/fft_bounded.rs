@@ -3,35 +3,35 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use stickslip_tip::memory::{Fft, Memory};
-use stickslip_tip::state::State;
+use stickslip_tip::memory::{Groove, Memory, Policy};
+use stickslip_tip::state::{Saved, State};
 use stickslip_tip::{STAGES, Stages, TipFunction, nodes_and_weights};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
 }
 
-fn stride(memory: &mut dyn Memory, length: f64) {
+fn stride(memory: &mut Policy, length: f64) {
     let (c, b) = nodes_and_weights();
     memory.remember(&c.map(|c| length * c), &b);
 }
 
-fn words(memory: &dyn Memory) -> usize {
+fn words(memory: &Policy) -> usize {
     let mut state = State::default();
     memory.save(&mut state);
     state.words().len()
 }
 
-fn groove(memory: &mut dyn Memory) -> (Stages, Stages) {
-    let at = std::array::from_fn(|i| 0.5 * i as f64 - 1.0);
+fn groove(memory: &mut Policy) -> (Stages, Stages) {
+    let at: Stages = std::array::from_fn(|i| 0.5 * i as f64 - 1.0);
     let (mut slope, mut curvature) = ([0.0; STAGES], [0.0; STAGES]);
-    memory.groove(&at, &mut slope, &mut curvature);
+    memory.groove(&at, &mut Groove::new(&mut slope, &mut curvature));
     (slope, curvature)
 }
 
 #[test]
 fn room_is_bounded_and_the_groove_is_that_of_what_is_within_reach() {
-    let (mut far, mut near) = (Fft::new(tip()), Fft::new(tip()));
+    let (mut far, mut near) = (Policy::fft(tip()), Policy::fft(tip()));
     let mut largest = 0;
     for i in 0..40_000 {
         stride(&mut far, 1.0);
@@ -54,7 +54,7 @@ fn room_is_bounded_and_the_groove_is_that_of_what_is_within_reach() {
 
 #[test]
 fn a_tip_that_comes_back_to_what_was_dropped_is_told() {
-    let mut memory = Fft::new(tip());
+    let mut memory = Policy::fft(tip());
     (0..30_000).for_each(|_| stride(&mut memory, 1.0));
     let way_back = (0..30_000).find(|_| {
         stride(&mut memory, -1.0);

@@ -8,9 +8,9 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use stickslip_tip::memory::{Direct, Fit, FitError, Memory, Modes, accuracy_needed};
+use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Sum, accuracy_needed};
 use stickslip_tip::{
-    Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Start,
+    Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Stages, Start,
     TipFunction, nodes_and_weights, run,
 };
 
@@ -105,27 +105,49 @@ fn random_path(seed: u64, back: f64, steps: usize) -> Vec<([f64; STAGES], [f64; 
     (0..steps).map(step).collect()
 }
 
-/// Largest difference of two memories' slopes and curvatures along a path, over the time remembered
-/// within reach.
-fn difference(
-    a: &mut dyn Memory,
-    b: &mut dyn Memory,
-    path: &[([f64; STAGES], [f64; STAGES])],
-) -> f64 {
-    let mut largest = 0.0_f64;
+fn modes_of(tip: TipFunction, accuracy: f64) -> Result<Policy, FitError> {
+    Policy::new(MemoryChoice::Modes, tip, accuracy)
+}
+
+/// What a memory tells about some points.
+#[derive(Default)]
+struct Told {
+    height: Stages,
+    slope: Stages,
+    curvature: Stages,
+}
+
+fn told(memory: &mut Policy, at: &Stages) -> Told {
+    let mut told = Told::default();
+    let groove = Groove::new(&mut told.slope, &mut told.curvature);
+    memory.groove(at, &mut groove.with_height(&mut told.height));
+    told
+}
+
+/// Largest differences of what two memories tell.
+#[derive(Debug, Default)]
+struct Difference {
+    height: f64,
+    slope: f64,
+    curvature: f64,
+}
+
+/// That of two memories along a path.
+fn difference(a: &mut Policy, b: &mut Policy, path: &[(Stages, Stages)]) -> Difference {
+    let mut largest = Difference::default();
     let mut looks = ChaCha8Rng::seed_from_u64(9);
     for (position, weight) in path {
         a.remember(position, weight);
         b.remember(position, weight);
         let spread = looks.random_range(0.0..2.0);
         let at = std::array::from_fn(|i| spread * (i as f64 / 5.0 - 0.1));
-        let mut found = [[0.0; STAGES]; 4];
-        let [slope_a, curvature_a, slope_b, curvature_b] = &mut found;
-        a.groove(&at, slope_a, curvature_a);
-        b.groove(&at, slope_b, curvature_b);
-        for i in 0..STAGES {
-            largest = largest.max((slope_a[i] - slope_b[i]).abs());
-        }
+        let (a, b) = (told(a, &at), told(b, &at));
+        let grow = |largest: &mut f64, a: &Stages, b: &Stages| {
+            *largest = a.iter().zip(b).fold(*largest, |m, (a, b)| m.max((a - b).abs()));
+        };
+        grow(&mut largest.height, &a.height, &b.height);
+        grow(&mut largest.slope, &a.slope, &b.slope);
+        grow(&mut largest.curvature, &a.curvature, &b.curvature);
     }
     largest
 }
@@ -134,13 +156,19 @@ fn difference(
 fn the_state_is_the_direct_sum_on_random_paths() {
     for (name, tip, _) in footprints() {
         for wanted in [1e-5, 1e-7, 1e-10] {
-            let mut modes = Modes::new(tip.clone(), wanted).unwrap();
-            let mut direct = Direct::new(tip.clone());
+            let mut modes = modes_of(tip.clone(), wanted).unwrap();
+            let mut direct = Policy::direct(tip.clone());
             let path = random_path(1, 0.02, 400);
             let total = 40.0;
             let error = difference(&mut modes, &mut direct, &path);
-            println!("{name} {wanted:e}: {error:.1e}");
-            assert!(error < wanted * total + 1e-12, "{name} {wanted:e}: {error:e}");
+            let Sum::Modes { certificate, .. } = modes.report().sum else { panic!("not modes") };
+            println!("{name} {wanted:e}: {error:?}, {certificate:?}");
+            assert!(error.slope < wanted * total + 1e-12, "{name} {wanted:e}: {error:?}");
+            let allowed = certificate.curvature * total + 1e-11;
+            assert!(error.curvature < allowed, "{name} {wanted:e}: {error:?}");
+            // f is the integral of f' from far ahead; the certificate holds for all of the time.
+            let time: f64 = path.iter().flat_map(|(_, weight)| weight).sum();
+            assert!(error.height < certificate.area * time + 1e-11, "{name} {wanted:e}: {error:?}");
         }
     }
 }
@@ -148,13 +176,15 @@ fn the_state_is_the_direct_sum_on_random_paths() {
 #[test]
 fn a_retreat_goes_over_to_fft_and_comes_back_without_a_trace() {
     for back in [0.3, 0.8, 2.0] {
-        let mut modes = Modes::new(triple(), 1e-10).unwrap();
-        let mut direct = Direct::new(triple());
+        let mut modes = modes_of(triple(), 1e-10).unwrap();
+        let mut direct = Policy::direct(triple());
         let error = difference(&mut modes, &mut direct, &random_path(2, back, 600));
-        let note = modes.note().unwrap();
-        println!("{back}: {error:.1e}, {note}");
+        let note = modes.report().reason();
+        println!("{back}: {error:?}, {note}");
         assert!(note.contains("fft took over"), "{note}");
-        assert!(error < 5e-9, "{back}: {error:e}");
+        assert!(error.slope < 5e-9, "{back}: {error:?}");
+        assert!(error.curvature < 5e-8, "{back}: {error:?}");
+        assert!(error.height < 2e-8, "{back}: {error:?}");
         assert_eq!(modes.forgotten(), None);
     }
 }
@@ -163,8 +193,8 @@ fn a_retreat_goes_over_to_fft_and_comes_back_without_a_trace() {
 #[test]
 fn a_long_past_is_there_when_the_tip_comes_back() {
     let (c, b) = nodes_and_weights();
-    let mut modes = Modes::new(triple(), 1e-10).unwrap();
-    let mut direct = Direct::new(triple());
+    let mut modes = modes_of(triple(), 1e-10).unwrap();
+    let mut direct = Policy::direct(triple());
     let forward = random_path(3, 0.02, 6000).into_iter().map(|(x, w)| (x.map(|x| 0.1 * x), w));
     for (position, weight) in forward {
         modes.remember(&position, &weight);
@@ -172,15 +202,17 @@ fn a_long_past_is_there_when_the_tip_comes_back() {
     }
     let back = (c.map(|c| -1.5 * c), b.map(|b| 0.1 * b));
     let error = difference(&mut modes, &mut direct, &vec![back; 80]);
-    println!("{error:.1e}, {}", modes.note().unwrap());
-    assert!(error < 1e-9, "{error:e}");
+    println!("{error:?}, {}", modes.report().reason());
+    assert!(error.slope < 1e-9, "{error:?}");
+    assert!(error.curvature < 1e-9, "{error:?}");
+    assert!(error.height < 1e-9, "{error:?}");
     assert_eq!(modes.forgotten(), None);
 }
 
 #[test]
 fn what_is_no_longer_kept_is_missed_aloud() {
     let (c, b) = nodes_and_weights();
-    let mut modes = Modes::new(triple(), 1e-4).unwrap();
+    let mut modes = modes_of(triple(), 1e-4).unwrap();
     for _ in 0..4000 {
         modes.remember(&c.map(|c| 1.5 * c), &b);
     }
@@ -251,7 +283,7 @@ fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_11() {
 
 #[test]
 fn a_footprint_that_never_fades_is_refused_in_favour_of_fft() {
-    let refused = Modes::new(TipFunction::Bessel, 1e-6).err().unwrap();
+    let refused = modes_of(TipFunction::Bessel, 1e-6).err().unwrap();
     assert_eq!(refused, FitError::NeverFades);
     assert!(refused.to_string().contains("fft"));
     let bessel = scenario(TipFunction::Bessel, 1.1, 1.0, 60.0);

@@ -2,7 +2,7 @@
 
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
-use crate::linearisation::Direction;
+use crate::change::Direction;
 use crate::orbit::{Orbit, even_mesh};
 use crate::search::embedding;
 use crate::solve::{Closed, Condition, close};

@@ -1,42 +1,11 @@
 //! Special points between two cycles of a branch.
 
+use super::Continuation;
 use super::begin::{halved, small};
 use super::place::Place;
 use super::signs::{Counts, circle, difference_of_halves, doubling, fold, second_one};
-use super::{Continuation, Parameter};
+use super::special::{Special, SpecialKind};
 use crate::Cycle;
-
-/// A point where something happens to the cycles of a branch.
-#[derive(Debug, Clone)]
-pub struct Special {
-    /// What.
-    pub kind: SpecialKind,
-    /// α
-    pub alpha: f64,
-    /// r
-    pub r: f64,
-    /// T
-    pub period: f64,
-    /// The cycle there, at a period halving that of half the period; `None` at a Hopf point.
-    pub cycle: Option<Cycle>,
-}
-
-/// Kinds of special points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SpecialKind {
-    /// The cycle vanishes into steady motion.
-    Hopf,
-    /// The branch turns back in its parameter.
-    Fold,
-    /// A multiplier passes -1: a branch of twice the period begins.
-    PeriodDoubling,
-    /// The branch joins one of half the period, where that doubles it.
-    PeriodHalving,
-    /// A second multiplier passes 1, and the branch does not turn: another branch crosses.
-    BranchPoint,
-    /// A complex pair crosses the unit circle: a torus is born.
-    Torus,
-}
 
 /// What was found between two cycles.
 pub(super) enum Located {
@@ -126,7 +95,7 @@ impl Continuation {
     /// Where the difference of the halves is zero two branches meet, and the equations are singular: the point
     /// is looked for on the other one.
     fn vanishing(&self, place: &Place, next: &Cycle, special: &mut Vec<Special>) -> Located {
-        let width = 8.7 / place.cycle.model().tip().band();
+        let width = place.cycle.closed.equation.width();
         let smaller = place.cycle.amplitude_x0().min(next.amplitude_x0());
         if smaller < SMALL * width {
             special.extend(self.hopf_near(&place.cycle));
@@ -140,7 +109,7 @@ impl Continuation {
 
     /// Where a small cycle vanishes: the parameter is a function of the square of its amplitude.
     fn hopf_near(&self, cycle: &Cycle) -> Option<Special> {
-        let width = 8.7 / cycle.model().tip().band();
+        let width = cycle.closed.equation.width();
         let of = |amplitude: f64| {
             let closed = small(self, cycle.model(), cycle.period(), amplitude).ok()?;
             Cycle::new(closed).ok()
@@ -168,21 +137,5 @@ impl Continuation {
             .find(|other| doubling(other) * sign < 0.0)?;
         let at = self.locate(&half, &beyond, doubling)?;
         Some(Special::of(SpecialKind::PeriodHalving, at.cycle))
-    }
-}
-
-impl Special {
-    fn of(kind: SpecialKind, cycle: Cycle) -> Self {
-        let (alpha, r) = (cycle.model().alpha(), cycle.model().r());
-        Self { kind, alpha, r, period: cycle.period(), cycle: Some(cycle) }
-    }
-
-    /// The parameter.
-    #[must_use]
-    pub fn parameter(&self, which: Parameter) -> f64 {
-        match which {
-            Parameter::Alpha => self.alpha,
-            Parameter::R => self.r,
-        }
     }
 }

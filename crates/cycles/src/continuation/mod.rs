@@ -8,9 +8,10 @@ mod begin;
 mod locate;
 mod place;
 mod signs;
+mod special;
 mod switch;
 
-pub use locate::{Special, SpecialKind};
+pub use special::{Special, SpecialKind};
 
 use super::{Cycle, CycleError, Parameter};
 use locate::Located;

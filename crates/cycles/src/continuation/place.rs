@@ -1,8 +1,8 @@
 //! A cycle on a branch, and the way on from there.
 
 use super::Continuation;
+use crate::change::{Change, Direction};
 use crate::embedding::Parameter;
-use crate::linearisation::{Change, Direction};
 use crate::solve::{Closed, Condition, close};
 use crate::{Cycle, CycleError};
 
@@ -95,7 +95,7 @@ impl Scales {
     fn at(closed: &Closed, over: Parameter) -> Self {
         let Closed { equation, orbit, .. } = closed;
         Self {
-            l: 8.7 / equation.tip.band() + (orbit.extension - equation.r).abs(),
+            l: equation.width() + (orbit.extension - equation.r).abs(),
             period: orbit.period,
             parameter: equation.parameter(over),
         }

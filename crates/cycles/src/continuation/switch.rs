@@ -3,7 +3,8 @@
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
 use crate::CycleError;
-use crate::linearisation::{Change, Direction, Linearisation};
+use crate::change::{Change, Direction};
+use crate::linearisation::Linearisation;
 use crate::solve::{Closed, Condition, close};
 use nalgebra::{DMatrix, DVector};
 
@@ -21,7 +22,7 @@ pub(super) fn to_doubled(settings: &Continuation, special: &Special) -> Result<P
     let Closed { equation, orbit, linearisation, .. } =
         solved_again(cycle.ok_or(lost.clone())?, settings)?;
     let deviation = alternating(&linearisation).ok_or(lost.clone())?;
-    let width = 8.7 / equation.tip.band();
+    let width = equation.width();
     // The higher maximum is to be the first.
     let unit = deviation.state[0].signum() / deviation.size();
     let first = DEVIATIONS.iter().find_map(|size| {

@@ -59,12 +59,12 @@ pub enum IntegrationError {
 }
 
 /// The state of a tip under way, and all that acts on it.
-pub struct Integrator<'a> {
+pub struct Integrator<'a, M> {
     model: &'a Model,
     apex: Apex,
     surface: &'a InitialSurface,
     force: &'a Force,
-    memory: Box<dyn Memory + 'a>,
+    memory: M,
     control: Control,
     t: f64,
     /// rt - x0
@@ -81,14 +81,14 @@ pub struct Integrator<'a> {
 /// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
 const ENOUGH: f64 = 0.01;
 
-impl<'a> Integrator<'a> {
+impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
     /// remembered but what `memory` brings along.
     pub fn new(
         model: &'a Model,
         surface: &'a InitialSurface,
         force: &'a Force,
-        memory: Box<dyn Memory + 'a>,
+        memory: M,
         start: (f64, f64),
         tolerance: f64,
     ) -> Self {
@@ -139,8 +139,8 @@ impl<'a> Integrator<'a> {
 
     /// The memory in use.
     #[must_use]
-    pub fn memory(&self) -> &dyn Memory {
-        self.memory.as_ref()
+    pub fn memory(&self) -> &M {
+        &self.memory
     }
 
     /// Makes one step, which ends at `until` at the latest, but for a rounding of t.
@@ -166,12 +166,7 @@ impl<'a> Integrator<'a> {
                 return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
             }
             match self.attempt(h, &stretch) {
-                Ok(step) => {
-                    let t = self.t;
-                    let forgotten = self.memory.forgotten();
-                    return forgotten
-                        .map_or(Ok(step), |kept| Err(IntegrationError::Forgotten { t, kept }));
-                }
+                Ok(step) => return Ok(step),
                 Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
                     h = shorter;
@@ -203,7 +198,7 @@ impl<'a> Integrator<'a> {
         let model = (self.model, &self.apex);
         let equations = StageEquations::new(model, surface, force, (self.t, h, self.extension));
         let look = longest_look(self.model.tip());
-        let solved = equations.solve(self.memory.as_mut(), guess, enough, look);
+        let solved = equations.solve(&mut self.memory, guess, enough, look);
         self.work.newton_iterations += solved.iterations;
         let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
         let displacement = solution.displacement;

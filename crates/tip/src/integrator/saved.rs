@@ -1,11 +1,12 @@
 //! The integrator between two steps, written down and taken up again.
 
 use super::{Integrator, Work};
-use crate::state::{Damaged, Reader, State};
+use crate::memory::Memory;
+use crate::state::{Damaged, Reader, Saved, State};
 
-impl Integrator<'_> {
-    /// All that the next steps depend on, beside what [`Integrator::new`] is given.
-    pub fn save(&self, state: &mut State) {
+/// All that the next steps depend on, beside what [`Integrator::new`] is given.
+impl<M: Memory + Saved> Saved for Integrator<'_, M> {
+    fn save(&self, state: &mut State) {
         let (slope, force) = self.limits_from_before;
         for number in [self.t, self.extension, self.velocity, self.curvature, slope, force] {
             state.number(number);
@@ -17,11 +18,7 @@ impl Integrator<'_> {
         self.memory.save(state);
     }
 
-    /// Takes up what [`save`](Self::save) wrote, on an integrator made for the same problem.
-    ///
-    /// # Errors
-    /// A state of something else.
-    pub fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.t, self.extension) = (state.finite()?, state.finite()?);
         (self.velocity, self.curvature) = (state.finite()?, state.finite()?);
         self.limits_from_before = (state.finite()?, state.finite()?);

@@ -3,7 +3,7 @@
 use super::linear_system::Factors;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::initial_surface::Stretch;
-use crate::memory::Memory;
+use crate::memory::{Groove, Memory};
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 
@@ -87,7 +87,7 @@ impl<'a> StageEquations<'a> {
     /// exceeds `most`. The Jacobian is kept while that costs no iteration.
     pub(super) fn solve(
         &self,
-        memory: &mut dyn Memory,
+        memory: &mut impl Memory,
         guess: Stages,
         enough: f64,
         most: f64,
@@ -124,9 +124,9 @@ impl<'a> StageEquations<'a> {
         Solved { iterations: MOST_ITERATIONS, solution: None }
     }
 
-    fn look(&self, memory: &mut dyn Memory, d: &Stages) -> Look {
+    fn look(&self, memory: &mut impl Memory, d: &Stages) -> Look {
         let (mut past_slope, mut past_curvature) = ([0.0; STAGES], [0.0; STAGES]);
-        memory.groove(d, &mut past_slope, &mut past_curvature);
+        memory.groove(d, &mut Groove::new(&mut past_slope, &mut past_curvature));
         let (own_slope, own_curvature) = self.between_stages(d);
         let mut force = past_slope;
         for (pair, (i, k)) in PAIRS.into_iter().enumerate() {

@@ -1,56 +1,78 @@
 //! All that the past does to the tip: the groove that it left.
 //!
-//! A memory answers one question, the slope and curvature of ∫ f(x - x0(t'))dt' about the tip, and is
-//! told of each step once it is accepted. It is indifferent to time: what the tip left at a distance
-//! beyond the reach of f is out of sight, what it left nearby is never forgotten.
+//! A memory has two verbs: it is told of visits, where the tip was and for how long, and tells the groove
+//! about a place: height, slope and curvature of ∫ f(x - x0(t'))dt'. It is indifferent to time: what the tip
+//! left at a distance beyond the reach of f is out of sight, what it left nearby is never forgotten.
+//!
+//! Three sums give the groove: `direct`, the definition; `fft`, a convolution; `modes`, a few exponentials.
+//! [`Policy`] decides between them, and holds the one record of the past that each of them is made from.
 
-mod auto;
 mod direct;
 mod fft;
 mod modes;
+mod policy;
+mod record;
+mod report;
 
-pub use auto::{Auto, CROSSOVER_NODES, CROSSOVER_STEPS};
-pub use direct::Direct;
-pub use fft::Fft;
-pub use modes::{Certificate, Fit, FitError, Modes, Term, accuracy_needed};
+pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed};
+pub use policy::{CROSSOVER_NODES, CROSSOVER_STEPS, Policy};
+pub use report::{MemoryReport, Sum};
 
 use crate::TipFunction;
-use crate::collocation::Stages;
-use crate::state::{Damaged, Reader, State};
 
-/// Memory of the tip's past. Positions are displacements from where the tip stands now, at most
-/// [`longest_look`] of them.
+/// Memory of the tip's past. Positions are displacements from where the tip stands now.
 pub trait Memory {
-    /// ∫ f'(x - x0(t'))dt' and ∫ f''(x - x0(t'))dt' over the remembered past, at the points
-    /// x = tip + `at`.
-    fn groove(&mut self, at: &Stages, slope: &mut Stages, curvature: &mut Stages);
+    /// Remembers visits: the tip spent the time `weight[j]` at `position[j]`, and now stands at the last of
+    /// these positions. A time may be multiplied by how strongly the tip indented then.
+    fn remember(&mut self, position: &[f64], weight: &[f64]);
 
-    /// Remembers a step: the tip spent the time `weight[j]` at `position[j]`, and now stands at the
-    /// last of these positions.
-    fn remember(&mut self, position: &Stages, weight: &Stages);
+    /// Tells the groove at the points x = tip + `at`, each at most [`longest_look`] from the tip.
+    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>);
+}
 
-    /// Its name on the command line and in documents.
-    fn name(&self) -> &'static str;
+/// What a memory tells: integrals over the remembered past, one number for each point asked about.
+#[derive(Debug)]
+pub struct Groove<'a> {
+    /// ∫ f'(x - x0(t'))dt'
+    pub slope: &'a mut [f64],
+    /// ∫ f''(x - x0(t'))dt'
+    pub curvature: &'a mut [f64],
+    /// ∫ f(x - x0(t'))dt', for those who want it: it costs as much again.
+    pub height: Option<&'a mut [f64]>,
+}
 
-    /// Writes down all that it holds: what [`restore`](Self::restore) takes up to the last bit.
-    fn save(&self, state: &mut State);
-
-    /// Takes up what [`save`](Self::save) wrote, on a memory made by the same choices.
-    ///
-    /// # Errors
-    /// A state of something else.
-    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged>;
-
-    /// What is worth knowing of how it fared.
-    fn note(&self) -> Option<String> {
-        None
+impl<'a> Groove<'a> {
+    /// Slope and curvature only.
+    pub fn new(slope: &'a mut [f64], curvature: &'a mut [f64]) -> Self {
+        Self { slope, curvature, height: None }
     }
 
-    /// Whether the tip has come back to what was dropped as too far behind to matter, and how far the
-    /// past is kept: the motion since then is not to be trusted.
-    fn forgotten(&self) -> Option<f64> {
-        None
+    /// The height too.
+    #[must_use]
+    pub fn with_height(self, height: &'a mut [f64]) -> Self {
+        Self { height: Some(height), ..self }
     }
+
+    /// Nothing carved.
+    fn clear(&mut self) {
+        self.slope.fill(0.0);
+        self.curvature.fill(0.0);
+        self.height.iter_mut().for_each(|height| height.fill(0.0));
+    }
+}
+
+/// Which sum over the past is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MemoryChoice {
+    /// The cheapest: `direct` while few nodes lie within reach of the tip and few steps have been made; from
+    /// then on `modes` where f' can be fitted by exponentials as well as is needed, else `fft`.
+    Auto,
+    /// The definition: a sum over every visit within reach. It costs as much as there are of them.
+    Direct,
+    /// A convolution with the residence density of the tip.
+    Fft,
+    /// A sum of few exponentials, and `fft` while the tip has retreated beyond what they hold for.
+    Modes,
 }
 
 /// The farthest from the tip that a memory is asked about the groove, ahead or behind: 4.6 widths of
@@ -58,4 +80,11 @@ pub trait Memory {
 #[must_use]
 pub fn longest_look(tip: &TipFunction) -> f64 {
     (40.0 / tip.band()).min(12.0)
+}
+
+/// Ends of the interval that these values span.
+fn range(values: &[f64]) -> (f64, f64) {
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
 }

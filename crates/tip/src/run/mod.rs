@@ -4,7 +4,7 @@ mod running;
 mod scenario;
 
 pub use running::Running;
-pub use scenario::{MOST_STEPS, MemoryChoice, RunError, Scenario, Start, TOLERANCES};
+pub use scenario::{MOST_STEPS, RunError, Scenario, Start, TOLERANCES};
 
 use crate::integrator::Work;
 use crate::{InitialSurface, Step, Trajectory};

@@ -1,14 +1,15 @@
 //! A run under way: step by step, in bounded memory, to be saved and taken up again at any step.
 
 use super::{RunError, Scenario};
-use crate::integrator::{Integrator, Work};
-use crate::state::{Damaged, Reader, State};
+use crate::integrator::{IntegrationError, Integrator, Work};
+use crate::memory::{MemoryReport, Policy};
+use crate::state::{Damaged, Reader, Saved, State};
 use crate::{InitialSurface, Step};
 
 /// A tip on its way through a scenario. It keeps no history but what the memory needs.
 pub struct Running<'a> {
     scenario: &'a Scenario,
-    integrator: Integrator<'a>,
+    integrator: Integrator<'a, Policy>,
 }
 
 impl<'a> Running<'a> {
@@ -62,7 +63,11 @@ impl<'a> Running<'a> {
         if self.integrator.t() >= self.scenario.until {
             return Ok(None);
         }
-        Ok(Some(self.integrator.step(self.scenario.until)?))
+        let step = self.integrator.step(self.scenario.until)?;
+        if let Some(kept) = self.integrator.memory().forgotten() {
+            return Err(IntegrationError::Forgotten { t: self.t(), kept }.into());
+        }
+        Ok(Some(step))
     }
 
     /// Time reached.
@@ -80,12 +85,18 @@ impl<'a> Running<'a> {
     /// Name of the memory in use.
     #[must_use]
     pub fn memory(&self) -> &'static str {
-        self.integrator.memory().name()
+        self.memory_report().name()
     }
 
     /// Why that one.
     #[must_use]
     pub fn memory_reason(&self) -> String {
-        self.scenario.memory.reason(self.integrator.memory())
+        self.memory_report().reason()
+    }
+
+    /// Which memory is in use, why, and how it fared.
+    #[must_use]
+    pub fn memory_report(&self) -> MemoryReport {
+        self.integrator.memory().report()
     }
 }

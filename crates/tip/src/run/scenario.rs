@@ -1,7 +1,7 @@
 //! Everything that defines a run, and what no run can be made of.
 
 use crate::integrator::IntegrationError;
-use crate::memory::{Auto, Direct, Fft, FitError, Memory, Modes, accuracy_needed};
+use crate::memory::{FitError, MemoryChoice, Policy, accuracy_needed};
 use crate::series::SeriesError;
 use crate::state::Damaged;
 use crate::{Force, InitialSurface, Model, Noise};
@@ -14,19 +14,6 @@ pub enum Start {
     Steady,
     /// A flat surface, the spring relaxed, the support above the tip: t1 = X/r.
     Flat,
-}
-
-/// Which memory carries the past.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MemoryChoice {
-    /// The cheaper one, [`Auto`].
-    Auto,
-    /// [`Direct`]
-    Direct,
-    /// [`Fft`]
-    Fft,
-    /// [`Modes`]
-    Modes,
 }
 
 /// Everything that defines a run. Lengths in σ, times in Γ/k, forces in kσ.
@@ -223,22 +210,8 @@ impl Scenario {
         Ok(())
     }
 
-    pub(super) fn new_memory(&self) -> Result<Box<dyn Memory>, RunError> {
-        let tip = self.model.tip().clone();
+    pub(super) fn new_memory(&self) -> Result<Policy, RunError> {
         let accuracy = accuracy_needed(&self.model, self.tolerance);
-        Ok(match self.memory {
-            MemoryChoice::Auto => Box::new(Auto::new(tip, accuracy)),
-            MemoryChoice::Direct => Box::new(Direct::new(tip)),
-            MemoryChoice::Fft => Box::new(Fft::new(tip)),
-            MemoryChoice::Modes => Box::new(Modes::new(tip, accuracy)?),
-        })
-    }
-}
-
-impl MemoryChoice {
-    /// Why this choice came to the memory that was used, and how that fared.
-    pub(super) fn reason(self, used: &dyn Memory) -> String {
-        let asked = (self != Self::Auto).then(|| "asked for".to_string());
-        asked.into_iter().chain(used.note()).collect::<Vec<_>>().join("; ")
+        Ok(Policy::new(self.memory, self.model.tip().clone(), accuracy)?)
     }
 }

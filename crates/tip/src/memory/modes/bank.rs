@@ -2,7 +2,9 @@
 
 mod saved;
 
-use super::fit::{Fit, Term};
+use super::fit::Fit;
+use super::local::{HIGHEST_DEGREE, LocalGroove};
+use super::term::Term;
 use crate::collocation::{STAGES, Stages};
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.
@@ -24,18 +26,8 @@ struct Group {
 }
 
 const LOWEST_DEGREE: usize = 3;
-const HIGHEST_DEGREE: usize = 40;
 /// Expansions err by at most this fraction of the fit.
 const SHARE_OF_EXPANSION: f64 = 0.01;
-
-/// The groove about a point near the tip: `Σ_k c_k (x - center)^k`.
-#[derive(Debug, Clone)]
-pub(super) struct LocalGroove {
-    center: f64,
-    radius: f64,
-    degree: usize,
-    coefficients: [f64; HIGHEST_DEGREE + 1],
-}
 
 impl Bank {
     pub(super) fn new(fit: &Fit) -> Self {
@@ -72,25 +64,27 @@ impl Bank {
         }
     }
 
-    /// Remembers a step that ends at the last of its positions: `z_j ← e^{s_j Δ} z_j + Σ_k weight_k
+    /// Remembers visits that end at the last of their positions: `z_j ← e^{s_j Δ} z_j + Σ_k weight_k
     /// e^{s_j (Δ - position_k)}`, the sum expanded about Δ/2 in powers of `s_j`.
-    pub(super) fn advance(&mut self, position: &Stages, weight: &Stages) {
-        let moved = position[STAGES - 1];
+    pub(super) fn advance(&mut self, position: &[f64], weight: &[f64]) {
+        let Some(&moved) = position.last() else { return };
         let half = 0.5 * moved;
-        let offset = position.map(|p| half - p);
-        let radius = offset.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+        let radius = position.iter().fold(0.0, |m: f64, p| m.max((half - p).abs()));
         let Some(degree) = self.degree(radius) else {
             self.displace(moved);
             position.iter().zip(weight).for_each(|(p, w)| self.add(p - moved, *w));
             return;
         };
-        // Σ_k weight_k offset_k^m / m!
         let mut moments = [0.0; HIGHEST_DEGREE + 1];
-        let mut powers = *weight;
-        for (m, moment) in moments[..=degree].iter_mut().enumerate() {
-            *moment = powers.iter().sum();
-            let next = 1.0 / (m + 1) as f64;
-            powers.iter_mut().zip(&offset).for_each(|(p, u)| *p *= u * next);
+        let ((positions, position), (weights, weight)) = (position.as_chunks(), weight.as_chunks());
+        for (position, weight) in positions.iter().zip(weights) {
+            add_moments(position, weight, half, &mut moments[..=degree]);
+        }
+        if !position.is_empty() {
+            let (mut last, mut spent) = ([half; STAGES], [0.0; STAGES]);
+            last[..position.len()].copy_from_slice(position);
+            spent[..weight.len()].copy_from_slice(weight);
+            add_moments(&last, &spent, half, &mut moments[..=degree]);
         }
         for group in &mut self.groups {
             let new = polynomial(&moments[..=degree], group.exponent);
@@ -122,14 +116,25 @@ impl Bank {
         (slope.iter().sum(), curvature.iter().sum())
     }
 
+    /// Height of the groove at one displacement from the tip: on the side of the past f is
+    /// `Σ_j Re(w_j/s_j e^{s_j ξ})`.
+    pub(super) fn height(&self, at: f64) -> f64 {
+        let mut height = [0.0; LANES];
+        for group in &self.groups {
+            let slope = product(group.weight, product(exp(group.exponent, at), group.state));
+            let value = quotient(slope, group.exponent);
+            (0..LANES).for_each(|i| height[i] += value.0[i]);
+        }
+        height.iter().sum()
+    }
+
     /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there.
     pub(super) fn expand(&self, center: f64, radius: f64, groove: &mut LocalGroove) -> bool {
         let Some(degree) = self.degree(radius) else { return false };
-        (groove.center, groove.radius, groove.degree) = (center, radius, degree);
-        groove.coefficients[..=degree].fill(0.0);
+        let coefficients = groove.about(center, radius, degree);
         for group in &self.groups {
             let mut term = product(group.weight, product(exp(group.exponent, center), group.state));
-            for (k, coefficient) in groove.coefficients[..=degree].iter_mut().enumerate() {
+            for (k, coefficient) in coefficients.iter_mut().enumerate() {
                 *coefficient += (term.0[0] + term.0[1]) + (term.0[2] + term.0[3]);
                 let next = 1.0 / (k + 1) as f64;
                 term = product(term, group.exponent);
@@ -149,30 +154,14 @@ impl Bank {
     }
 }
 
-impl LocalGroove {
-    /// None yet.
-    pub(super) fn nowhere() -> Self {
-        Self { center: 0.0, radius: -1.0, degree: 0, coefficients: [0.0; HIGHEST_DEGREE + 1] }
-    }
-
-    pub(super) fn forget(&mut self) {
-        self.radius = -1.0;
-    }
-
-    pub(super) fn holds(&self, at: &Stages) -> bool {
-        at.iter().all(|at| (at - self.center).abs() <= self.radius)
-    }
-
-    /// Horner's rule for the polynomial and its derivative.
-    pub(super) fn read(&self, at: &Stages, slope: &mut Stages, curvature: &mut Stages) {
-        let y = at.map(|at| at - self.center);
-        (*slope, *curvature) = ([0.0; STAGES], [0.0; STAGES]);
-        for c in self.coefficients[..=self.degree].iter().rev() {
-            for i in 0..STAGES {
-                curvature[i] = curvature[i] * y[i] + slope[i];
-                slope[i] = slope[i] * y[i] + c;
-            }
-        }
+/// Adds `Σ_k weight_k offset_k^m / m!` with the offsets half - position.
+fn add_moments(position: &Stages, weight: &Stages, half: f64, moments: &mut [f64]) {
+    let offset = position.map(|p| half - p);
+    let mut powers = *weight;
+    for (m, moment) in moments.iter_mut().enumerate() {
+        *moment += powers.iter().sum::<f64>();
+        let next = 1.0 / (m + 1) as f64;
+        powers.iter_mut().zip(&offset).for_each(|(p, u)| *p *= u * next);
     }
 }
 
@@ -220,6 +209,17 @@ fn product(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
     for i in 0..LANES {
         c.0[i] = a.0[i] * b.0[i] - a.1[i] * b.1[i];
         c.1[i] = a.0[i] * b.1[i] + a.1[i] * b.0[i];
+    }
+    c
+}
+
+/// a/b
+fn quotient(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
+    let (mut c, conjugate) = (([0.0; LANES], [0.0; LANES]), (b.0, b.1.map(|im| -im)));
+    let scaled = product(a, conjugate);
+    for i in 0..LANES {
+        let size = b.0[i] * b.0[i] + b.1[i] * b.1[i];
+        (c.0[i], c.1[i]) = (scaled.0[i] / size, scaled.1[i] / size);
     }
     c
 }

@@ -1,12 +1,12 @@
 //! How far a sum of exponentials is from f', everywhere on its half-line.
 
-use super::fit::Term;
+use super::term::Term;
 use crate::TipFunction;
 use num_complex::Complex;
 
 /// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ ≥ -δ.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Certificate {
+pub struct FitCertificate {
     /// Of f'(ξ): an error of the force per time spent within reach, over α.
     pub slope: f64,
     /// Of f''(ξ), which steers Newton's iteration only.
@@ -24,10 +24,15 @@ const BLOCK: usize = 32;
 ///
 /// Between grid points the error is at most that at the nearest of them, plus half a spacing times the
 /// largest error of the derivative.
-pub(super) fn certify(tip: &TipFunction, reach: f64, retreat: f64, terms: &[Term]) -> Certificate {
+pub(super) fn certify(
+    tip: &TipFunction,
+    reach: f64,
+    retreat: f64,
+    terms: &[Term],
+) -> FitCertificate {
     let fastest = terms.iter().fold(0.0, |m: f64, t| m.max(t.exponent.norm()));
     let h = 1.0 / (POINTS_PER_LENGTH * fastest);
-    let mut found = Certificate { slope: 0.0, curvature: 0.0, area: 0.0 };
+    let mut found = FitCertificate { slope: 0.0, curvature: 0.0, area: 0.0 };
     let steps: Vec<_> = terms.iter().map(|t| (t.exponent * h).exp()).collect();
     let mut values: Vec<Complex<f64>> = vec![];
     let mut xi = -retreat;

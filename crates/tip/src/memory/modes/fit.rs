@@ -1,7 +1,8 @@
 //! f' on one side as a sum of few complex exponentials.
 
-use super::certificate::{Certificate, certify};
+use super::certificate::{FitCertificate, certify};
 use super::pencil::Pencil;
+use super::term::Term;
 use super::weights::weights;
 use crate::TipFunction;
 use num_complex::Complex;
@@ -9,22 +10,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// One term `Re(w e^{sξ})`: a conjugate pair, or a real exponential where Im s = 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Term {
-    /// s, Re s < 0 ≤ Im s
-    pub exponent: Complex<f64>,
-    /// w
-    pub weight: Complex<f64>,
-}
-
 /// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, with its certified error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     terms: Vec<Term>,
     retreat: f64,
     wanted: f64,
-    certificate: Certificate,
+    certificate: FitCertificate,
 }
 
 /// Why f' is not fitted.
@@ -167,7 +159,7 @@ impl Fit {
 
     /// Its largest errors.
     #[must_use]
-    pub fn certificate(&self) -> Certificate {
+    pub fn certificate(&self) -> FitCertificate {
         self.certificate
     }
 

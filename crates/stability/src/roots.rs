@@ -1,0 +1,119 @@
+//! All roots λ right of a line, with a certificate that none is missing: of (30), or for J0 of (44).
+
+use super::certificate::Certificate;
+use super::characteristic::Characteristic;
+use super::half_plane::{HalfPlane, leading};
+use super::spectrum::Spectrum;
+use super::{StabilityError, bessel_roots};
+use num_complex::Complex64;
+use stickslip_tip::{Model, TipFunction};
+
+/// All roots λ of (29) with Re λ ≥ `bound`.
+///
+/// The number of roots comes from the argument principle on a rectangle beyond whose other three
+/// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
+/// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
+/// finds fewer than were counted, from halving the rectangle. Each is polished to round-off, or, beside
+/// a double root, had with its neighbour from where h' vanishes. If a root lies on Re λ = `bound`, the
+/// edge is moved a little to the left: see the certificate's region.
+///
+/// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
+/// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
+/// and on it this makes no difference.
+///
+/// # Errors
+/// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`].
+pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
+    if !bound.is_finite() {
+        return Err(StabilityError::Bound(bound));
+    }
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::spectrum(model, Some(bound));
+    }
+    let h = Characteristic::new(model);
+    let half_plane = HalfPlane::counted(&h, bound / model.r());
+    half_plane.and_then(|half_plane| half_plane.spectrum(&h)).map_err(|error| h.explain(error))
+}
+
+/// At least `count` leading roots: all those right of a line chosen so that there are so many.
+///
+/// Fewer only if there are no more (α = 0: the root -1 alone; J0), beyond Re Λ ≈ -60/width, and for a
+/// table beyond Re Λ = -24/reach, where the round-off of its entries, magnified by e^{-Λy}, would put
+/// roots of its own.
+///
+/// # Errors
+/// As [`roots`].
+pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::spectrum(model, None);
+    }
+    let h = Characteristic::new(model);
+    leading(&h, count).map_err(|error| h.explain(error))
+}
+
+/// How many roots lie right of the imaginary axis: 0 where steady motion is stable.
+///
+/// # Errors
+/// As [`roots`]; on the boundary itself the count is that of a line a little to the left.
+pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
+    }
+    let h = Characteristic::new(model);
+    let half_plane = HalfPlane::counted(&h, 0.0).map_err(|error| h.explain(error))?;
+    Ok(half_plane.count)
+}
+
+/// Checks any list of roots λ against a fresh count of those with Re λ ≥ `bound`.
+///
+/// A root left out, listed twice, or displaced shows in [`Certificate::is_complete`].
+///
+/// # Errors
+/// As [`roots`].
+pub fn certify(
+    model: &Model,
+    bound: f64,
+    roots: &[Complex64],
+) -> Result<Certificate, StabilityError> {
+    if matches!(model.tip(), TipFunction::Bessel) {
+        return bessel_roots::certify(model, bound, roots);
+    }
+    let h = Characteristic::new(model);
+    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
+    Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critical;
+
+    /// Between two places on the imaginary axis where h and h' were much the same, a step passed by the
+    /// pair that had just crossed it at r = 0.2.
+    #[test]
+    fn a_pair_just_across_the_axis_is_counted() {
+        for beta in [0.0, 0.5, 0.9, 1.0] {
+            let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
+            for r in [0.01, 0.05, 0.1, 0.2, 0.3, 0.7, 2.0, 10.0, 100.0] {
+                let alpha = critical(&tip, r).unwrap().alpha;
+                for (part, count) in [(0.5, 0), (0.99, 0), (0.9999, 0), (1.0001, 2), (1.01, 2)] {
+                    let model = Model::new(tip.clone(), part * alpha, r).unwrap();
+                    assert_eq!(unstable_count(&model), Ok(count), "{beta} {r} {part}");
+                }
+            }
+        }
+    }
+
+    /// Newton's method, stopped on its way within a rectangle that holds one root, was taken for it.
+    #[test]
+    fn hundreds_of_roots_are_found_as_counted() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        for alpha in [0.9, 1.2] {
+            for count in [80, 100, 300] {
+                let model = Model::new(tip.clone(), alpha, 1.0).unwrap();
+                let spectrum = leading_roots(&model, count).unwrap();
+                assert!(spectrum.roots.len() >= count && spectrum.certificate.is_complete());
+            }
+        }
+    }
+}

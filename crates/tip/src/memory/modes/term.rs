@@ -1,0 +1,12 @@
+//! One exponential of a fit.
+
+use num_complex::Complex;
+
+/// One term `Re(w e^{sξ})`: a conjugate pair, or a real exponential where Im s = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term {
+    /// s, Re s < 0 ≤ Im s
+    pub exponent: Complex<f64>,
+    /// w
+    pub weight: Complex<f64>,
+}

@@ -1,0 +1,244 @@
+//! Which sum over the past is in use: the one place that decides between `direct`, `fft` and `modes`.
+
+mod saved;
+
+use super::fft::{Fft, Lattice};
+use super::modes::{Fit, FitError, Modes};
+use super::record::Record;
+use super::report::{MemoryReport, Sum};
+use super::{Groove, Memory, MemoryChoice, direct};
+use crate::TipFunction;
+use std::sync::Arc;
+
+/// The memory of a run: one record of the past, and the sum over it that was chosen.
+///
+/// `direct` sums over the record itself. `modes` needs it when the tip retreats: then [`Fft`](Sum::Fft) takes
+/// over from the record, and when the tip has regained its farthest point the modes are summed afresh from
+/// it. That record spans 4096 bins, 2000 to 4000 widths. `fft` for a footprint without reach plans its
+/// lattice anew from the record; for one with reach the lattice is all that is needed, and there is no
+/// record.
+pub struct Policy {
+    tip: TipFunction,
+    choice: MemoryChoice,
+    /// Largest error of f' that modes may have.
+    accuracy: f64,
+    record: Option<Record>,
+    now: Now,
+}
+
+/// The sum in use.
+enum Now {
+    Direct,
+    Fft(Box<Fft>, Option<FitError>),
+    Modes(Box<Modes>, Retreats),
+}
+
+/// How often the tip has retreated beyond what the modes hold for, and what tells the groove if it has.
+#[derive(Default)]
+struct Retreats {
+    fft: Option<Box<Fft>>,
+    count: u64,
+}
+
+/// Nodes within reach from which a direct sum is the dearer one. A step costs the others less than a direct
+/// sum over six nodes, but the plan of `fft` takes some 30 µs and the fit of `modes`, made once for a
+/// footprint and an accuracy, some 300 µs: as much as the first 8 or 20 steps of a direct sum
+/// (benches/memory.rs).
+pub const CROSSOVER_NODES: usize = 48;
+
+/// Remembered steps from which a direct sum is the dearer one, wherever they lie: `direct` looks through them all.
+pub const CROSSOVER_STEPS: usize = 1024;
+
+impl Policy {
+    /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`.
+    ///
+    /// # Errors
+    /// `modes` was asked for, and the footprint is one that they cannot represent so well.
+    pub fn new(choice: MemoryChoice, tip: TipFunction, accuracy: f64) -> Result<Self, FitError> {
+        let nothing = || std::iter::empty();
+        let (record, now) = match choice {
+            MemoryChoice::Auto | MemoryChoice::Direct => (Some(Record::whole(&tip)), Now::Direct),
+            MemoryChoice::Fft => with_fft(&tip, nothing(), None),
+            MemoryChoice::Modes => with_modes(&tip, Fit::cached(&tip, accuracy)?, nothing()),
+        };
+        Ok(Self { tip, choice, accuracy, record, now })
+    }
+
+    /// The definition.
+    #[must_use]
+    pub fn direct(tip: TipFunction) -> Self {
+        let record = Some(Record::whole(&tip));
+        Self { tip, choice: MemoryChoice::Direct, accuracy: 0.0, record, now: Now::Direct }
+    }
+
+    /// The convolution.
+    #[must_use]
+    pub fn fft(tip: TipFunction) -> Self {
+        let (record, now) = with_fft(&tip, std::iter::empty(), None);
+        Self { tip, choice: MemoryChoice::Fft, accuracy: 0.0, record, now }
+    }
+
+    /// The sum of these exponentials, however good it is.
+    ///
+    /// # Errors
+    /// A footprint that never fades.
+    pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
+        tip.reach().ok_or(FitError::NeverFades)?;
+        let accuracy = fit.wanted();
+        let (record, now) = with_modes(&tip, fit, std::iter::empty());
+        Ok(Self { tip, choice: MemoryChoice::Modes, accuracy, record, now })
+    }
+
+    /// Which sum is in use, and why.
+    #[must_use]
+    pub fn report(&self) -> MemoryReport {
+        let sum = match &self.now {
+            Now::Direct => Sum::Direct,
+            Now::Fft(_, why) => Sum::Fft { instead_of_modes: *why },
+            Now::Modes(modes, retreats) => Sum::Modes {
+                terms: modes.fit().terms().len(),
+                certificate: modes.fit().certificate(),
+                retreats: retreats.count,
+            },
+        };
+        MemoryReport { choice: self.choice, accuracy: self.accuracy, sum }
+    }
+
+    /// Whether the tip has come back to what was dropped as too far behind to matter, and how far the
+    /// past is kept: the motion since then is not to be trusted.
+    #[must_use]
+    pub fn forgotten(&self) -> Option<f64> {
+        match &self.now {
+            Now::Fft(fft, _) => fft.forgotten(),
+            Now::Direct | Now::Modes(..) => self.record.as_ref().and_then(Record::forgotten),
+        }
+    }
+
+    /// Changes the sum where another one serves better after the visits just remembered.
+    fn decide(&mut self) {
+        let Some(record) = &self.record else { return };
+        match &mut self.now {
+            Now::Direct => {
+                if self.choice == MemoryChoice::Auto && is_long(record) {
+                    (self.record, self.now) = self.without_direct(record.all());
+                }
+            }
+            Now::Modes(modes, retreats) if retreats.fft.is_some() => {
+                if modes.are_in_front() {
+                    retreats.fft = None;
+                    modes.sum_up(record.near(0.0, 0.0));
+                }
+            }
+            Now::Modes(modes, retreats) => {
+                if modes.retreated() {
+                    retreats.begin(&self.tip, record);
+                }
+            }
+            Now::Fft(..) => {}
+        }
+    }
+
+    /// What takes over from a direct sum.
+    fn without_direct(&self, past: impl Iterator<Item = (f64, f64)>) -> (Option<Record>, Now) {
+        match Fit::cached(&self.tip, self.accuracy) {
+            Ok(fit) => with_modes(&self.tip, fit, past),
+            Err(why) => with_fft(&self.tip, past, Some(why)),
+        }
+    }
+}
+
+impl Memory for Policy {
+    fn remember(&mut self, position: &[f64], weight: &[f64]) {
+        if let Some(record) = &mut self.record {
+            record.remember(position, weight);
+        }
+        match &mut self.now {
+            Now::Direct => {}
+            Now::Fft(fft, _) => {
+                let lattice = fft.remember(position, weight);
+                if let Some(record) = &mut self.record {
+                    follow(lattice, &self.tip, record, fft);
+                }
+            }
+            Now::Modes(modes, Retreats { fft: Some(fft), .. }) => {
+                modes.pass(position);
+                // It is one of a footprint with reach: the lattice holds for any position.
+                fft.remember(position, weight);
+            }
+            Now::Modes(modes, _) => modes.remember(position, weight),
+        }
+        self.decide();
+    }
+
+    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
+        match (&mut self.now, &self.record) {
+            (Now::Fft(fft, _), _) => fft.groove(at, groove),
+            (Now::Modes(_, Retreats { fft: Some(fft), .. }), _) => fft.groove(at, groove),
+            (Now::Direct, Some(record)) => direct::groove(record, &self.tip, at, groove),
+            (Now::Modes(modes, _), Some(record)) => {
+                if modes.reach_back_to(at) {
+                    modes.groove(at, groove);
+                } else {
+                    // An iteration gone astray, or the last step before a retreat is noticed.
+                    let (low, high) = super::range(at);
+                    groove.clear();
+                    direct::add(record.near(low, high), &self.tip, (0.0, at), groove);
+                }
+            }
+            (Now::Direct | Now::Modes(..), None) => unreachable!("they have a record"),
+        }
+    }
+}
+
+impl Retreats {
+    fn begin(&mut self, tip: &TipFunction, record: &Record) {
+        self.fft = Some(Box::new(Fft::new(tip, record.all())));
+        self.count += 1;
+    }
+}
+
+/// Whether a direct sum costs more than the others.
+fn is_long(record: &Record) -> bool {
+    record.nodes_within_reach() > CROSSOVER_NODES || record.steps() > CROSSOVER_STEPS
+}
+
+/// The modes, or what serves instead of them if the tip has retreated already.
+fn with_modes(
+    tip: &TipFunction,
+    fit: Arc<Fit>,
+    past: impl Iterator<Item = (f64, f64)>,
+) -> (Option<Record>, Now) {
+    let (mut modes, mut retreats) = (Box::new(Modes::new(fit)), Retreats::default());
+    let record = Record::bounded(tip).with(past.inspect(|(position, _)| modes.reached(*position)));
+    if modes.retreated() {
+        retreats.begin(tip, &record);
+    } else {
+        modes.sum_up(record.near(0.0, 0.0));
+    }
+    (Some(record), Now::Modes(modes, retreats))
+}
+
+fn with_fft(
+    tip: &TipFunction,
+    past: impl Iterator<Item = (f64, f64)>,
+    instead_of_modes: Option<FitError>,
+) -> (Option<Record>, Now) {
+    if tip.reach().is_some() {
+        return (None, Now::Fft(Box::new(Fft::new(tip, past)), instead_of_modes));
+    }
+    let record = Record::on_lattice(tip).with(past);
+    let fft = Box::new(Fft::new(tip, record.all()));
+    (Some(record), Now::Fft(fft, instead_of_modes))
+}
+
+/// The record of a lattice has its origin, and what a longer lattice is made from.
+fn follow(lattice: Lattice, tip: &TipFunction, record: &mut Record, fft: &mut Fft) {
+    match lattice {
+        Lattice::Same => {}
+        Lattice::Moved(shift) => record.move_origin(shift),
+        Lattice::Outgrown => {
+            *record = Record::on_lattice(tip).with(record.all());
+            *fft = Fft::new(tip, record.all());
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! What the tip has visited: the one record of the past, which every sum is made from.
+//!
+//! New nodes are kept as they are. A record of bounded size gathers them when there are many: the weight w at
+//! y within a bin acts on any g that is a polynomial of degree n < p over the bin as the moments `Σ w T_n(y)`
+//! do, and those as p weights on the bin's Chebyshev points. A bin is at most 8/band long, little more than
+//! the shortest wave in f: the coefficients beyond degree 15 are below 6e-9 of that wave, which itself is
+//! below round-off, and below round-off for all that are longer.
+
+mod bins;
+mod saved;
+
+use crate::TipFunction;
+use crate::collocation::STAGES;
+use bins::Bins;
+
+/// Nodes kept as they are in a record of bounded size.
+const MOST_NODES: usize = 1 << 14;
+/// The origin of a record that keeps all moves by this much.
+const ORIGIN_STEP: f64 = 64.0;
+
+/// Positions with the times spent there.
+#[derive(Debug, Clone)]
+pub(super) struct Record {
+    reach: f64,
+    /// Of the tip, relative to an origin that follows it: positions stay small, so that their differences
+    /// keep full precision however far the tip travels.
+    position: f64,
+    nodes: Vec<(f64, f64)>,
+    kept: Kept,
+}
+
+/// What becomes of nodes when there are many.
+#[derive(Debug, Clone)]
+enum Kept {
+    /// They stay, in blocks of at most so many as a step has.
+    All(Vec<Block>),
+    /// They are gathered.
+    Gathered(Bins),
+    /// They stay; the origin is that of a lattice, which says when it moves.
+    OnLattice,
+}
+
+/// Consecutive nodes, and the interval that they span.
+#[derive(Debug, Clone, Copy)]
+struct Block {
+    low: f64,
+    high: f64,
+    end: usize,
+}
+
+impl Record {
+    /// Keeps all.
+    pub(super) fn whole(tip: &TipFunction) -> Self {
+        Self::new(tip, Kept::All(vec![]), vec![])
+    }
+
+    /// Keeps a bounded stretch, and takes its room once: no visit allocates.
+    pub(super) fn bounded(tip: &TipFunction) -> Self {
+        Self::new(tip, Kept::Gathered(Bins::new(tip)), Vec::with_capacity(MOST_NODES))
+    }
+
+    /// Keeps all, about the origin of a lattice.
+    pub(super) fn on_lattice(tip: &TipFunction) -> Self {
+        Self::new(tip, Kept::OnLattice, vec![])
+    }
+
+    fn new(tip: &TipFunction, kept: Kept, nodes: Vec<(f64, f64)>) -> Self {
+        let reach = tip.reach().unwrap_or(f64::INFINITY);
+        Self { reach, position: 0.0, nodes, kept }
+    }
+
+    /// Of the tip, about the origin of the nodes.
+    pub(super) fn position(&self) -> f64 {
+        self.position
+    }
+
+    /// Nodes that have not been gathered, about their origin.
+    pub(super) fn nodes(&self) -> &[(f64, f64)] {
+        &self.nodes
+    }
+
+    /// Takes over the visits of another record: displacements from the tip, and times spent there.
+    pub(super) fn with(mut self, visits: impl Iterator<Item = (f64, f64)>) -> Self {
+        visits.for_each(|(position, weight)| self.add(position, weight));
+        self
+    }
+
+    /// A time spent at a displacement from the tip.
+    fn add(&mut self, position: f64, weight: f64) {
+        self.make_room(1);
+        self.nodes.push((self.position + position, weight));
+    }
+
+    /// As [`Memory::remember`](super::Memory::remember).
+    pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
+        let Some(moved) = position.last() else { return };
+        let (whole, rest) = position.as_chunks::<STAGES>();
+        let (whole_weights, rest_weights) = weight.as_chunks::<STAGES>();
+        for (position, weight) in whole.iter().zip(whole_weights) {
+            self.push(position, weight);
+        }
+        if !rest.is_empty() {
+            self.push(rest, rest_weights);
+        }
+        self.position += moved;
+        self.follow();
+        if let Kept::Gathered(bins) = &mut self.kept {
+            let lowest = position.iter().copied().fold(f64::INFINITY, f64::min);
+            bins.look_from(self.position + (lowest - moved) - self.reach);
+        }
+    }
+
+    /// Visits of at most one step, seen from where the tip was.
+    #[inline]
+    fn push(&mut self, position: &[f64], weight: &[f64]) {
+        self.make_room(position.len());
+        let here = self.position;
+        self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
+        if matches!(self.kept, Kept::All(_)) {
+            self.close_block(position.len());
+        }
+    }
+
+    /// The last nodes are a block.
+    fn close_block(&mut self, nodes: usize) {
+        let end = self.nodes.len();
+        let Kept::All(blocks) = &mut self.kept else { return };
+        let span = |(low, high): (f64, f64), (x, _): &(f64, f64)| (low.min(*x), high.max(*x));
+        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = self.nodes[end - nodes..].iter().fold(nothing, span);
+        blocks.push(Block { low, high, end });
+    }
+
+    fn make_room(&mut self, nodes: usize) {
+        if self.nodes.len() + nodes > MOST_NODES {
+            self.gather();
+        }
+    }
+
+    #[cold]
+    fn gather(&mut self) {
+        if let Kept::Gathered(bins) = &mut self.kept {
+            self.nodes.iter().for_each(|node| bins.add(*node));
+            self.nodes.clear();
+        }
+    }
+
+    /// Moves the origin after the tip.
+    fn follow(&mut self) {
+        let step = match &self.kept {
+            Kept::All(_) => ORIGIN_STEP,
+            Kept::Gathered(bins) => bins.origin_step(),
+            Kept::OnLattice => return,
+        };
+        if self.position.abs() > 2.0 * step {
+            self.move_origin(step.copysign(self.position));
+        }
+    }
+
+    /// Exact for a shift of few significant bits.
+    pub(super) fn move_origin(&mut self, shift: f64) {
+        self.position -= shift;
+        self.nodes.iter_mut().for_each(|(x, _)| *x -= shift);
+        match &mut self.kept {
+            Kept::All(blocks) => {
+                for block in blocks {
+                    block.low -= shift;
+                    block.high -= shift;
+                }
+            }
+            Kept::Gathered(bins) => bins.move_origin(shift),
+            Kept::OnLattice => {}
+        }
+    }
+
+    /// Displacements from the tip, and weights, of all that is kept.
+    pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> {
+        let bins = match &self.kept {
+            Kept::Gathered(bins) => Some(bins.points()),
+            Kept::All(_) | Kept::OnLattice => None,
+        };
+        let gathered = bins.into_iter().flatten();
+        gathered.chain(self.nodes.iter().copied()).map(|(x, w)| (x - self.position, w))
+    }
+
+    /// Of what may be seen from displacements in [low, high].
+    pub(super) fn near(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+        let seen = low - self.reach..=high + self.reach;
+        self.all().filter(move |(x, _)| seen.contains(x))
+    }
+
+    /// The blocks of which any node may be seen from positions in [low, high], if all is kept.
+    pub(super) fn blocks_near(&self, low: f64, high: f64) -> impl Iterator<Item = &[(f64, f64)]> {
+        let seen = move |b: &Block| b.high >= low - self.reach && b.low <= high + self.reach;
+        let mut start = 0;
+        self.blocks().iter().filter_map(move |block| {
+            let nodes = &self.nodes[start..block.end];
+            start = block.end;
+            seen(block).then_some(nodes)
+        })
+    }
+
+    fn blocks(&self) -> &[Block] {
+        match &self.kept {
+            Kept::All(blocks) => blocks,
+            Kept::Gathered(_) | Kept::OnLattice => &[],
+        }
+    }
+
+    /// How often visits were remembered.
+    pub(super) fn steps(&self) -> usize {
+        self.blocks().len()
+    }
+
+    /// Number of remembered nodes that the tip may see.
+    pub(super) fn nodes_within_reach(&self) -> usize {
+        self.blocks_near(self.position, self.position).map(<[_]>::len).sum()
+    }
+
+    /// Whether the tip has come back to what was dropped, and how far behind its farthest point the past is
+    /// kept.
+    pub(super) fn forgotten(&self) -> Option<f64> {
+        match &self.kept {
+            Kept::Gathered(bins) => bins.forgotten(),
+            Kept::All(_) | Kept::OnLattice => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collocation::nodes_and_weights;
+
+    fn carried(steps: usize, length: f64) -> Record {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let mut record = Record::bounded(&tip);
+        let room = |record: &Record| match &record.kept {
+            Kept::Gathered(bins) => (record.nodes.capacity(), bins.moments.capacity()),
+            _ => unreachable!("the record is bounded"),
+        };
+        let before = room(&record);
+        let (c, b) = nodes_and_weights();
+        for _ in 0..steps {
+            record.remember(&c.map(|c| length * c), &b);
+        }
+        assert_eq!(room(&record), before, "no room was added");
+        record
+    }
+
+    fn dropped(record: &Record) -> bool {
+        matches!(&record.kept, Kept::Gathered(bins) if bins.dropped)
+    }
+
+    #[test]
+    fn room_is_taken_once_however_far_the_tip_goes() {
+        assert!(dropped(&carried(20_000, 0.4)));
+        assert!(!dropped(&carried(20_000, 0.001)));
+    }
+
+    #[test]
+    fn gathered_nodes_act_as_they_did() {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let mut record = carried(2000, 0.01);
+        let slope = |record: &Record| {
+            record.near(0.0, 0.0).map(|(x, w)| w * tip.slope(0.3 - x)).sum::<f64>()
+        };
+        let before = slope(&record);
+        record.gather();
+        assert!(record.nodes.is_empty());
+        assert!((slope(&record) - before).abs() < 1e-13 * 2000.0, "{}", slope(&record) - before);
+    }
+
+    /// The same visits one by one, and as one long slice.
+    #[test]
+    fn visits_may_come_in_any_number() {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let visits: Vec<f64> = (0..50).map(|i| 0.3 * f64::from(i).sin()).collect();
+        let mut at_once = Record::whole(&tip);
+        at_once.remember(&visits, &vec![0.5; 50]);
+        let mut one_by_one = Record::whole(&tip);
+        let mut last = 0.0;
+        for x in visits {
+            one_by_one.remember(&[x - last], &[0.5]);
+            last = x;
+        }
+        assert_eq!(at_once.nodes_within_reach(), 50);
+        for (a, b) in at_once.all().zip(one_by_one.all()) {
+            assert!((a.0 - b.0).abs() < 1e-14 && (a.1 - b.1).abs() < 1e-16);
+        }
+    }
+}

@@ -19,6 +19,7 @@ mod experiment;
 mod extreme_numbers;
 mod figures;
 mod image_files;
+mod people;
 mod pictures;
 mod refusals;
 mod resume;

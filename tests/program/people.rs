@@ -74,7 +74,8 @@ fn a_script_gets_single_fields() {
     let lines = |line: &str| String::from_utf8(folder.prints(line)).unwrap();
     let document = folder.json("RUN.json");
     let run = "run --alpha 1.2 --r 1 --kick 0.05 --until 60";
-    let printed = lines(&format!("{run} --print parameters.alpha --print regime --print samples.l.3"));
+    let printed =
+        lines(&format!("{run} --print parameters.alpha --print regime --print samples.l.3"));
     let expected = format!("1.2\n{}\n{}\n", "transient", document["samples"]["l"][3]);
     assert_eq!(printed, expected);
     assert_eq!(lines(&format!("{run} --print oscillation.period")), "null\n");

@@ -1,7 +1,7 @@
 //! `stickslip compare`.
 
-use super::named::named;
 use super::examples::examples;
+use super::named::named;
 use super::{
     DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, StartArguments,
 };
@@ -100,7 +100,8 @@ pub(crate) struct CompareArguments {
     pub(crate) plot: Option<PathBuf>,
 }
 
-const USAGE: &str = "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]";
+const USAGE: &str =
+    "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:

@@ -1,7 +1,7 @@
 //! `stickslip continue`.
 
-use super::named::named;
 use super::examples::examples;
+use super::named::named;
 use super::{CycleStart, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;

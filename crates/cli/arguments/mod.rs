@@ -42,9 +42,9 @@ pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
-use examples::examples;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use examples::examples;
 use stickslip_documents::SCHEMAS;
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.

@@ -1,7 +1,7 @@
 //! `stickslip stability`.
 
-use super::named::named;
 use super::examples::examples;
+use super::named::named;
 use super::{ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;

@@ -154,7 +154,8 @@ pub(crate) struct MergeArguments {
     pub(crate) plot: Option<PathBuf>,
 }
 
-const USAGE: &str = "stickslip sweep --r <RANGE> (--alpha <RANGE> | --alpha-above <RANGE>) [OPTIONS]
+const USAGE: &str =
+    "stickslip sweep --r <RANGE> (--alpha <RANGE> | --alpha-above <RANGE>) [OPTIONS]
        stickslip sweep merge <PART.json>... [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:

@@ -1,7 +1,7 @@
 //! `stickslip verify`.
 
-use super::examples::examples;
 use super::OutletArguments;
+use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 

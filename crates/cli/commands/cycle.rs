@@ -14,10 +14,10 @@ const MOST_POINTS: usize = 1_000_000;
 
 pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let model = &arguments.start.model;
-    let read = [
-        ("--tip-file", model.tip.tip_file.as_deref()),
-        ("--from", arguments.start.from.as_deref()),
-    ];
+    // Another cycle may take the place of the one that it came from; the same one again would be for nothing.
+    let is_another = model.r.or(model.alpha).or(model.alpha_above).is_some();
+    let from = arguments.start.from.as_deref().filter(|_| !is_another);
+    let read = [("--tip-file", model.tip.tip_file.as_deref()), ("--from", from)];
     let start = Start::asked(&arguments.start)?;
     if !(1..=MOST_POINTS).contains(&arguments.points) {
         let option = format!("--points {}", arguments.points);

@@ -7,6 +7,7 @@ mod journey;
 pub(crate) mod limits;
 mod order;
 mod record;
+mod resume;
 pub(crate) mod samples;
 mod write;
 
@@ -18,7 +19,6 @@ use super::job::Job;
 use crate::arguments::{FieldArguments, Format, RunArguments};
 use crate::failure::Failure;
 use crate::files::place::{Place, Target as File, place};
-use crate::files::rows::journal_of;
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
 use journey::Journey;
@@ -32,7 +32,7 @@ use write::Target;
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     match &arguments.resume {
         None => start(arguments),
-        Some(path) => resume(path),
+        Some(path) => resume::resume(path, arguments),
     }
 }
 
@@ -64,36 +64,6 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     write::all(&order, &scenario, &surface, travelled, target)
 }
 
-/// Goes on where a checkpoint was made.
-fn resume(path: &Path) -> Result<(), Failure> {
-    let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
-    let checkpoint = file("--resume", path)?;
-    let (head, state) = checkpoint::read(path)?;
-    let order = head.order;
-    let scenario = order.parameters.scenario().map_err(|error| named(error.to_string()))?;
-    let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
-    let running = Watched::resumed(&scenario, &surface, &state);
-    let running = running.map_err(|error| named(error.to_string()))?;
-    let (target, record) = if order.format == RunFormat::Jsonl {
-        let target = file("--output", &order.output)?;
-        let whole = target.path().to_path_buf();
-        let stream = Stream::resume(target, head.written, &[whole])?;
-        let mut record = record(&order, &scenario, Sink::Lines(stream));
-        record.taken = head.samples;
-        (Target::Lines(Fields::default()), record)
-    } else {
-        let job = job(&order, &order.output, order.plot.as_deref(), &FieldArguments::default())?;
-        let mut record = record(&order, &scenario, Sink::Memory);
-        record.resume(&journal_of(checkpoint.path()), head.written)?;
-        (Target::Document(job), record)
-    };
-    let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
-    let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, head.t));
-    let journey = Journey { running, record, checkpoints, seconds: head.seconds };
-    let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target)
-}
-
 /// A place that must be a file.
 fn file(option: &str, path: &Path) -> Result<File, Failure> {
     match place(option, path)? {
@@ -111,7 +81,7 @@ fn open(
     order: &Order,
     checkpoint: Option<&Path>,
 ) -> Result<(Target, Sink), Failure> {
-    let (output, fields) = (&arguments.output, &arguments.fields);
+    let (output, fields) = (arguments.output(), &arguments.fields);
     if order.format == RunFormat::Jsonl {
         let fields = Fields::asked::<RunEnd>(&fields.print)?;
         let stream = Stream::open("--output", output, checkpoint.is_some())?;

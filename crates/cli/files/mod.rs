@@ -15,3 +15,4 @@ mod special;
 pub(crate) mod stream;
 pub(crate) mod table;
 mod temporary;
+pub(crate) mod within;

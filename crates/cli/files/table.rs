@@ -16,7 +16,8 @@ pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Fail
     output.write_with(|out| {
         writeln!(out, "{}", names.join(","))?;
         let mut line = String::new();
-        (0..rows).try_for_each(|row| write_row(out, &mut line, &columns, row))
+        (0..rows).try_for_each(|row| write_row(out, &mut line, &columns, row))?;
+        table.note().iter().try_for_each(|note| writeln!(out, "# {note}"))
     })
 }
 

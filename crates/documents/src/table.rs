@@ -37,6 +37,11 @@ pub trait Tabular {
     /// The columns of its table; none where it is no table.
     fn columns(&self) -> Vec<Named<'_>>;
 
+    /// What a reader of the table should know and no column says; a comment below it.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
     /// Its arrays: the columns, unless it has more, or others.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns();

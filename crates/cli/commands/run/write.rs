@@ -7,8 +7,9 @@ use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
 use crate::commands::{told, verify};
 use crate::failure::Failure;
+use serde::Serialize;
 use std::path::Path;
-use stickslip_documents::{Order, RunDocument, RunHead};
+use stickslip_documents::{Array, Named, Order, RunDocument, RunHead, Tabular};
 use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -38,6 +39,7 @@ pub(super) fn all(
     target: Target,
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
+    let reached = travelled.signal.map(|_| end.end);
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let mut failure = None;
@@ -66,7 +68,7 @@ pub(super) fn all(
                 asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
             let told = told::of_run(&document, &end);
-            let figure = job.write_told(&document, &told)?;
+            let figure = job.write_told(&Written { document: &document, reached }, &told)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 // Drawn from the history, whether or not it is written.
                 document.history = Some(trajectory.into());
@@ -80,4 +82,35 @@ pub(super) fn all(
     }
     let interrupted = travelled.signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)
+}
+
+/// A document as it is written: what holds less than was asked for says so, in every format, JSON by its
+/// `interrupted`.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Written<'a> {
+    document: &'a RunDocument,
+    /// Time at which a signal ended the run.
+    #[serde(skip)]
+    reached: Option<f64>,
+}
+
+impl Tabular for Written<'_> {
+    fn columns(&self) -> Vec<Named<'_>> {
+        self.document.columns()
+    }
+
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let mut arrays = self.document.arrays();
+        let interrupted = self.reached.map(|t| ("interrupted", Array::vector(vec![t])));
+        // Behind the samples.
+        let place = self.columns().len();
+        arrays.splice(place..place, interrupted);
+        arrays
+    }
+
+    fn note(&self) -> Option<String> {
+        let until = self.document.parameters.until;
+        self.reached.map(|t| format!("interrupted at t = {t} of {until}"))
+    }
 }

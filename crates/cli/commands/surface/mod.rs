@@ -24,7 +24,8 @@ use write::SurfaceFormat;
 pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = SurfaceFormat::of(arguments)?;
     let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
-    apart(&[("--output", Some(&*arguments.output))], &read)?;
+    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
+    apart(&written, &read)?;
     let document = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(

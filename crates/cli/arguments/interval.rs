@@ -16,7 +16,11 @@ impl FromStr for Interval {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parts: Vec<&str> = text.split([':', ',']).map(str::trim).collect();
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let parts = match (parts.as_slice(), text.split_once(',')) {
+            ([_], Some((low, high))) => vec![low.trim(), high.trim()],
+            _ => parts,
+        };
         let parsed = match parts.as_slice() {
             [low, high] => low.parse().ok().zip(high.parse().ok()).map(|ends| (ends, None)),
             [low, high, points] => {
@@ -71,7 +75,7 @@ mod tests {
         assert_eq!(points("0.1:3:5").unwrap(), Some(5));
         assert_eq!(points("-5,460").unwrap(), None);
         assert!(points("1:2:1").is_err());
-        for bad in ["", "1", "a:b", "1:2:3:4", "1:2:x", "1:2:-3"] {
+        for bad in ["", "1", "a:b", "1:2:3:4", "1:2:x", "1:2:-3", "1,2,3", "1:2,3"] {
             assert!(bad.parse::<Interval>().unwrap_err().contains("LO:HI:N"), "{bad}");
         }
         let refused = "3,1".parse::<Interval>().unwrap().ends("--r-range").unwrap_err();

@@ -120,7 +120,7 @@ fn both_motions_and_their_distance_are_drawn() {
         String::from_utf8(folder.read(name)).unwrap()
     });
     assert_eq!(pictures[0], pictures[1]);
-    for label in ["closed equation", "grid", "|Δx<tspan", "|Δu|"] {
+    for label in ["closed equation", "grid", "|Δx₀|", "|Δu|"] {
         assert!(pictures[0].contains(label), "{label}");
     }
     folder.refuses(&format!("{CASE} -o c.svg --plot c.svg"), &["--output c.svg"]);

@@ -86,7 +86,7 @@ fn width_and_range_are_as_asked() {
 #[test]
 fn what_cannot_be_drawn_is_refused() {
     let folder = Folder::new("plot-refused");
-    folder.prints("units --r 1 --alpha 1 -o units.json");
+    folder.write("units.json", "{\"format\":\"stickslip/units\",\"format_version\":1}");
     folder.prints("run --alpha 1.2 --r 1 --until 30 -o run.json");
     folder.prints("sweep --r 1 --alpha 1.2 -o point.json");
     folder.write("broken.json", "{\"format\":\"stickslip/run\"");

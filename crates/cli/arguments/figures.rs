@@ -33,6 +33,26 @@ pub(crate) enum FigureName {
     Reproduction,
 }
 
+impl FigureName {
+    /// Its name in the library; the table of numbers is no figure.
+    pub(crate) fn figure(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Fig1 => "fig1",
+            Self::Fig2 => "fig2",
+            Self::Fig3 => "fig3",
+            Self::Fig4 => "fig4",
+            Self::Fig5 => "fig5",
+            Self::Fig6 => "fig6",
+            Self::Fig7 => "fig7",
+            Self::Bifurcation => "bifurcation",
+            Self::Criticality => "criticality",
+            Self::Kymograph => "kymograph",
+            Self::WorkPrecision => "work-precision",
+            Self::Reproduction => return None,
+        })
+    }
+}
+
 /// Redraw the paper's figures, and table its numbers beside ours.
 ///
 /// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json hold the

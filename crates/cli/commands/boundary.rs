@@ -27,7 +27,7 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     apart(&written, &read)?;
     let tip = tip(&arguments.tip)?;
     let range = range(arguments)?;
-    let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
 
     let document = document(arguments, &tip, range)?;

@@ -4,7 +4,7 @@ mod closed;
 mod grid;
 mod pace;
 
-use super::job::Job;
+use super::job::{Job, judge_places};
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::failure::{Failure, Typed};
@@ -21,8 +21,9 @@ const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let read = files_read(&arguments.model, &arguments.disturbance);
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
-    let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
 

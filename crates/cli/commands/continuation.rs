@@ -3,7 +3,7 @@
 mod document;
 
 use super::cycle::start::{Start, explain};
-use super::job::Job;
+use super::job::{Job, judge_places};
 use super::model::tip;
 use super::progress::Progress;
 use super::told::digits;
@@ -24,9 +24,10 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let start = &arguments.start;
     let read =
         [("--tip-file", start.model.tip.tip_file.as_deref()), ("--from", start.from.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
-    let job = Job::open::<ContinueDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<ContinueDocument>(&arguments.outlet, arguments.plot.as_deref())?;
 
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;

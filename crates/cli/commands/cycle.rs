@@ -2,7 +2,7 @@
 
 pub(super) mod start;
 
-use super::job::Job;
+use super::job::{Job, judge_places};
 use crate::arguments::CycleArguments;
 use crate::failure::Failure;
 use start::Start;
@@ -18,12 +18,13 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let is_another = model.r.or(model.alpha).or(model.alpha_above).is_some();
     let from = arguments.start.from.as_deref().filter(|_| !is_another);
     let read = [("--tip-file", model.tip.tip_file.as_deref()), ("--from", from)];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let start = Start::asked(&arguments.start)?;
     if !(1..=MOST_POINTS).contains(&arguments.points) {
         let option = format!("--points {}", arguments.points);
         return Err(Failure::input(option, format!("1 to {MOST_POINTS} will do")));
     }
-    let job = Job::open::<CycleDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<CycleDocument>(&arguments.outlet, arguments.plot.as_deref())?;
 
     let started = Instant::now();
     let cycle = start.solve()?;

@@ -23,6 +23,15 @@ pub(crate) trait Product: Serialize + JsonSchema + Tabular {
     fn told(&self) -> Told;
 }
 
+/// Refuses, before anything is read, to write over a file that the command reads, or twice to the same.
+pub(crate) fn judge_places(
+    outlet: &OutletArguments,
+    plot: Option<&Path>,
+    reads: &[Named],
+) -> Result<(), Failure> {
+    apart(&[("--output", Some(&*outlet.output)), ("--plot", plot)], reads)
+}
+
 /// Where a result goes, known to be writable.
 pub(crate) struct Job {
     output: Output,
@@ -35,18 +44,16 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// The place of a result of type `P`, which is drawn to `plot`; the files that the command reads may not be
-    /// written over.
+    /// The place of a result of type `P`, which is drawn to `plot`.
     ///
     /// # Errors
     /// What cannot be written, or has no such format or field.
     pub(crate) fn open<P: Product>(
         outlet: &OutletArguments,
         plot: Option<&Path>,
-        reads: &[Named],
     ) -> Result<Self, Failure> {
         let format = format(outlet.format, &outlet.output, "")?;
-        Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot, reads)
+        Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot)
     }
 
     /// The same for a command that knows the format.
@@ -55,9 +62,7 @@ impl Job {
         output: &Path,
         fields: &FieldArguments,
         plot: Option<&Path>,
-        reads: &[Named],
     ) -> Result<Self, Failure> {
-        apart(&[("--output", Some(output)), ("--plot", plot)], reads)?;
         Ok(Self {
             format,
             fields: Fields::asked::<P>(&fields.print)?,

@@ -1,6 +1,6 @@
 //! `stickslip response`.
 
-use super::job::Job;
+use super::job::{Job, judge_places};
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::disturbance::warn_of_idle_pulses;
@@ -23,8 +23,9 @@ const WIDTHS_OF_PULSE: f64 = 5.5;
 
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
-    let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     job.finish(&document(arguments, &asked)?)
 }
 

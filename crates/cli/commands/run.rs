@@ -113,7 +113,7 @@ fn job(
         RunFormat::Npz => Format::Npz,
         RunFormat::Text => Format::Text,
     };
-    Job::of_format::<RunDocument>(format, output, fields, plot, &[])
+    Job::of_format::<RunDocument>(format, output, fields, plot)
 }
 
 fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {

@@ -1,6 +1,6 @@
 //! `stickslip stability`.
 
-use super::job::Job;
+use super::job::{Job, judge_places};
 use super::model::{model, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
@@ -19,9 +19,10 @@ const DEFAULT_ROOTS: usize = 10;
 
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
-    let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     job.finish(&document(arguments, &point)?)
 }
 

@@ -5,11 +5,10 @@ mod grid;
 pub(crate) mod merge;
 mod point;
 
-use super::job::Job;
+use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
 use crate::failure::Failure;
-use crate::files::apart::Named;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
 use finished::Finished;
@@ -28,10 +27,11 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(SweepThen::Merge(merged)) = &arguments.then {
         return merge::merge(merged);
     }
-    let grid = Grid::asked(arguments)?;
     let threads = threads(arguments)?;
     let read = [("--tip-file", arguments.tip_file.as_deref())];
-    let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters, &read)?;
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let grid = Grid::asked(arguments)?;
+    let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters)?;
     let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters)?,
         None => Finished::in_memory(),
@@ -52,12 +52,11 @@ fn job(
     outlet: &OutletArguments,
     plot: Option<&Path>,
     parameters: &SweepParameters,
-    read: &[Named],
 ) -> Result<Job, Failure> {
     if plot.is_some() {
         judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
     }
-    Job::open::<SweepDocument>(outlet, plot, read)
+    Job::open::<SweepDocument>(outlet, plot)
 }
 
 /// The document of a finished sweep, with its checksum.

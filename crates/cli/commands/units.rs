@@ -2,7 +2,7 @@
 
 mod solve;
 
-use super::job::{Job, format};
+use super::job::{Job, format, judge_places};
 use super::model::tip;
 use super::roots::failed;
 use crate::arguments::{Format, UnitsArguments};
@@ -15,6 +15,7 @@ use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, None, &read)?;
     if format(arguments.outlet.format, &arguments.outlet.output, "")? == Format::Npz {
         let message = "there are no arrays to write: .json or .csv will do";
         let named = format!("--output {}", arguments.outlet.output.display());
@@ -23,7 +24,7 @@ pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let tip = tip(&arguments.model.tip)?;
     let given = Given::read(arguments, &tip)?;
     let physical = given.solved()?;
-    let job = Job::open::<UnitsDocument>(&arguments.outlet, None, &read)?;
+    let job = Job::open::<UnitsDocument>(&arguments.outlet, None)?;
     job.write(&document(arguments, &tip, &given, &physical)?)
 }
 

@@ -41,7 +41,7 @@ fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
         None if outlet.output == Path::new("-") => on_standard_output(),
         None => Format::Json,
     };
-    Job::of_format::<VerifyDocument>(format, &outlet.output, &outlet.fields, None, &[])
+    Job::of_format::<VerifyDocument>(format, &outlet.output, &outlet.fields, None)
 }
 
 fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {

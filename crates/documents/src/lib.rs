@@ -59,7 +59,7 @@ pub use figure::{
 };
 pub use history::{FARTHEST, History};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
-pub use read::{Kind, Unusable, kind_of, read, read_from};
+pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub use run::{OscillationDocument, RegimeName, RunDocument, Samples, SteadyState, WorkDocument};

@@ -6,9 +6,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use resvg::tiny_skia::{PathSegment, Pixmap, Transform};
-use resvg::usvg::{
-    self, ClipPath, Fill, Group, ImageKind, LineCap, LineJoin, Node, Paint, Path, Stroke,
-};
+use resvg::usvg::{ClipPath, Fill, Group, ImageKind, LineCap, LineJoin, Node, Paint, Path, Stroke};
 
 /// Of zlib: most of what it can do, in little time.
 const LEVEL: u8 = 6;
@@ -18,24 +16,13 @@ const POINT: f32 = 0.5;
 /// A page of the size of `svg`, which has no ground.
 pub(crate) fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
     let tree = tree(svg)?;
-    let (width, height) = (POINT * units(svg, &tree).0, POINT * units(svg, &tree).1);
-    let scale = width / tree.size().width();
+    let (width, height) = (POINT * tree.size().width(), POINT * tree.size().height());
     // PDF counts upward from the foot of the page.
-    let page = Transform::from_row(scale, 0.0, 0.0, -scale, 0.0, height);
+    let page = Transform::from_row(POINT, 0.0, 0.0, -POINT, 0.0, height);
     let mut drawing = Drawing { content: Content::new(), opacities: vec![], images: vec![] };
     drawing.images(tree.root(), page);
     drawing.group(tree.root(), page);
     Ok(drawing.file(width, height))
-}
-
-/// Width and height of the figure: those of the view box, whatever size is written for the viewer.
-fn units(svg: &str, tree: &usvg::Tree) -> (f32, f32) {
-    let view = svg.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"'));
-    let numbers = view.map(|(view, _)| view.split(' ').filter_map(|n| n.parse().ok()).collect());
-    match numbers.unwrap_or_else(Vec::new)[..] {
-        [_, _, width, height] => (width, height),
-        _ => (tree.size().width(), tree.size().height()),
-    }
 }
 
 struct Drawing {

@@ -4,7 +4,7 @@ use crate::error::FigureError;
 use crate::panel::Panel;
 use crate::size::Size;
 use crate::style::TITLE_SIZE;
-use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
 use crate::text::wrapped;
 use stickslip_documents::{FigureDocument, PanelDocument};
 
@@ -25,7 +25,7 @@ struct Placed<'a> {
     height: f64,
 }
 
-/// Draws a figure; with a ground of its own unless it is drawn upon one.
+/// Draws a figure; for a viewer with a ground of its own and its size, else upon a ground and in units.
 pub(crate) fn sheet(
     figure: &FigureDocument,
     size: &Size,
@@ -66,7 +66,8 @@ pub(crate) fn sheet(
         }
         top = bottom;
     }
-    Ok(svg.finish((width, height), size.written(height)))
+    let written = if with_ground { size.written(height) } else { (number(width), number(height)) };
+    Ok(svg.finish((width, height), written))
 }
 
 /// The panels by rows: as many as their spans let in.

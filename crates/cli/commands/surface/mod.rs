@@ -41,7 +41,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let places = Places::asked(arguments, &trajectory)?;
     let scale = Scale::asked(arguments, &model)?;
     let images = Images::asked(arguments, &model, &places)?;
-    let job = format.job(arguments, &read)?;
+    let job = format.job(arguments)?;
 
     let surface = Surface::new(&model, &initial, &trajectory);
     let result = match &images {

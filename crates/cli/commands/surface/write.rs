@@ -5,7 +5,6 @@ use super::units::Scale;
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::job::{Job, format};
 use crate::failure::Failure;
-use crate::files::apart::Named;
 use crate::files::gsf::{Field, gsf};
 use stickslip_documents::SurfaceDocument;
 
@@ -52,13 +51,13 @@ impl SurfaceFormat {
 
 impl SurfaceFormat {
     /// Where surfaces go.
-    pub(super) fn job(self, arguments: &SurfaceArguments, read: &[Named]) -> Result<Job, Failure> {
+    pub(super) fn job(self, arguments: &SurfaceArguments) -> Result<Job, Failure> {
         let format = match self {
             Self::Document(format) => format,
             Self::Gsf => Format::Json,
         };
         let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-        Job::of_format::<SurfaceDocument>(format, output, &arguments.fields, plot, read)
+        Job::of_format::<SurfaceDocument>(format, output, &arguments.fields, plot)
     }
 }
 

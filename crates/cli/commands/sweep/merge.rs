@@ -2,8 +2,9 @@
 
 use super::{checksum, job, sealed};
 use crate::arguments::MergeArguments;
+use crate::commands::job::judge_places;
 use crate::failure::Failure;
-use crate::files::apart::{Named, apart};
+use crate::files::apart::Named;
 use crate::files::input::read_document;
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
@@ -12,9 +13,7 @@ use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     let named: Vec<Named> =
         arguments.parts.iter().map(|part| ("PART.json", Some(&**part))).collect();
-    let written =
-        [("--output", Some(&*arguments.outlet.output)), ("--plot", arguments.plot.as_deref())];
-    apart(&written, &named)?;
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
     let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")
@@ -34,7 +33,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
     let whole = sealed(whole.parameters, whole.points)?;
-    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters, &[])?.finish(&whole)
+    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(&whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {

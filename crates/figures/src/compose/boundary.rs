@@ -9,8 +9,8 @@ use stickslip_documents::{
     PanelDocument, ScaleName, SpacingName, StyleName,
 };
 
-pub(super) const R: &str = "r = Γv_0/(kσ)";
-pub(super) const ALPHA: &str = "α = ΓNa/(k^2σ^2)";
+pub(super) const R: &str = "r = Γv₀/(kσ)";
+pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
 
 /// Room above the boundary.
 const AIR: f64 = 1.15;
@@ -75,7 +75,7 @@ pub fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureErr
     else {
         return Err(FigureError::Nothing("no point of the boundary has a criticality".into()));
     };
-    let mut panel = PanelDocument::new("", (R, "d ln α/d(a^2) (σ^{−2})"));
+    let mut panel = PanelDocument::new("", (R, "d ln α/d(a²) (σ⁻²)"));
     panel.x_scale = scale(document);
     panel.x_range = (last > first).then_some([first, last]);
     panel.curves = vec![

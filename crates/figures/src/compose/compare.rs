@@ -16,7 +16,7 @@ impl Drawn for CompareDocument {
             self.t.iter().zip(x0).map(|(t, x)| model.r * t - x).collect()
         };
         let (closed, grid) = (lag(&self.closed.x0), lag(&self.grid.x0));
-        let mut motions = PanelDocument::new("", ("t (Γ/k)", "rt − x_0 (σ)"));
+        let mut motions = PanelDocument::new("", ("t (Γ/k)", "rt − x₀ (σ)"));
         motions.curves = vec![
             CurveDocument::new(StyleName::Line, "closed equation", &self.t, &closed),
             CurveDocument::new(StyleName::Dashed, "grid", &self.t, &grid),
@@ -32,8 +32,8 @@ impl Drawn for CompareDocument {
         };
         figure.panels = vec![
             motions,
-            apart(("t (Γ/k)", "|Δx_0| (σ)"), &self.t, &self.closed.x0, &self.grid.x0),
-            apart(("x (σ)", "|Δu| (kσ^2/a)"), &self.x, &self.closed.u, &self.grid.u),
+            apart(("t (Γ/k)", "|Δx₀| (σ)"), &self.t, &self.closed.x0, &self.grid.x0),
+            apart(("x (σ)", "|Δu| (kσ²/a)"), &self.x, &self.closed.u, &self.grid.u),
         ];
         Ok(figure)
     }

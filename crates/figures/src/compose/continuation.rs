@@ -45,7 +45,7 @@ impl Drawn for ContinueDocument {
         let mut figure = FigureDocument::new("continue", &title, vec![model.clone()]);
         let branches = Branches::of(self, over_alpha);
         let label = if over_alpha { ALPHA } else { R };
-        let amplitudes = branches.panel((label, "amplitude of x_0 (σ)"), |p| p.amplitude, false);
+        let amplitudes = branches.panel((label, "amplitude of x₀ (σ)"), |p| p.amplitude, false);
         let periods = branches.panel((label, "period (Γ/k)"), |p| p.period, true);
         figure.panels = vec![amplitudes, periods];
         Ok(figure)

@@ -27,10 +27,10 @@ impl Drawn for CycleDocument {
         let motion = self.history.trajectory(r)?;
         let part = Part::of(&motion, view.x_range);
         let l = part.line("l(t)", &|step, t| step.l(r, t));
-        let velocity = part.line("ẋ_0(t)", &|step, t| step.velocity(t));
+        let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
         let ripple = ripple(self, &model, &motion)?;
         figure.panels = vec![
-            against(L, l, steady, &format!("steady state, l_0 = {}", short(steady))),
+            against(L, l, steady, &format!("steady state, l₀ = {}", short(steady))),
             against(VELOCITY, velocity, r, &format!("support, r = {}", short(r))),
         ];
         figure.panels.extend(ripple);
@@ -64,7 +64,7 @@ fn ripple(
     let flat = InitialSurface::flat();
     let u = Surface::new(model, &flat, &long).far_behind(long.end(), &shifted);
     let u = u.map_err(|error| FigureError::Damaged(error.to_string()))?.to_vec();
-    let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ^2/a)"));
+    let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
     panel.natural = NATURAL;
     panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
     Ok(Some(panel))

@@ -13,10 +13,12 @@ mod sweep;
 mod tip;
 
 use crate::error::FigureError;
+use serde::de::DeserializeOwned;
+use std::io::Read;
 use stickslip_documents::{
-    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument, Kind,
+    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     PanelDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Unusable, read,
+    SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -95,30 +97,25 @@ pub const FORMATS: [&str; 10] = [
     FigureDocument::FORMAT,
 ];
 
-/// The document that a text holds, whatever it is of [`FORMATS`].
+/// The document that a stream holds, whatever it is of [`FORMATS`]; of something else no more is read than it takes to
+/// tell.
 ///
 /// # Errors
-/// The text is no JSON, a document without a figure, or damaged.
-pub fn saved(text: &str) -> Result<Box<dyn Drawn>, Unusable> {
-    let kind: Kind = read_kind(text)?;
+/// It is no JSON, a document without a figure, or damaged.
+pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
+    let (kind, source) = told(source, "stickslip/COMMAND")?;
     let format = kind.format.unwrap_or_default();
-    fn boxed<D: Drawn + serde::de::DeserializeOwned + 'static>(
-        text: &str,
-        format: &str,
-    ) -> Result<Box<dyn Drawn>, Unusable> {
-        Ok(Box::new(read::<D>(text, format)?))
-    }
     match format.as_str() {
-        RunDocument::FORMAT => boxed::<RunDocument>(text, &format),
-        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(text, &format),
-        StabilityDocument::FORMAT => boxed::<StabilityDocument>(text, &format),
-        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(text, &format),
-        CycleDocument::FORMAT => boxed::<CycleDocument>(text, &format),
-        ContinueDocument::FORMAT => boxed::<ContinueDocument>(text, &format),
-        SweepDocument::FORMAT => boxed::<SweepDocument>(text, &format),
-        ResponseDocument::FORMAT => boxed::<ResponseDocument>(text, &format),
-        CompareDocument::FORMAT => boxed::<CompareDocument>(text, &format),
-        FigureDocument::FORMAT => boxed::<FigureDocument>(text, &format),
+        RunDocument::FORMAT => boxed::<RunDocument>(source, &format),
+        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(source, &format),
+        StabilityDocument::FORMAT => boxed::<StabilityDocument>(source, &format),
+        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(source, &format),
+        CycleDocument::FORMAT => boxed::<CycleDocument>(source, &format),
+        ContinueDocument::FORMAT => boxed::<ContinueDocument>(source, &format),
+        SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
+        ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
+        CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
+        FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
         _ => Err(Unusable::new(format_args!(
             "format is {}; a picture is there for {}",
             if format.is_empty() { "missing" } else { &format },
@@ -127,9 +124,11 @@ pub fn saved(text: &str) -> Result<Box<dyn Drawn>, Unusable> {
     }
 }
 
-fn read_kind(text: &str) -> Result<Kind, Unusable> {
-    serde_json::from_str(text)
-        .map_err(|error| Unusable::new(format_args!("not a whole JSON document ({error})")))
+fn boxed<D: Drawn + DeserializeOwned + 'static>(
+    source: impl Read,
+    format: &str,
+) -> Result<Box<dyn Drawn>, Unusable> {
+    Ok(Box::new(read_from::<D>(source, format)?))
 }
 
 impl Drawn for FigureDocument {

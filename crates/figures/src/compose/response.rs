@@ -13,7 +13,7 @@ impl Drawn for ResponseDocument {
         let model = &self.parameters.model;
         let title = format!("Linear response, {}", model_name(model));
         let mut figure = FigureDocument::new("response", &title, vec![model.clone()]);
-        let mut panel = PanelDocument::new("", ("t (Γ/k)", "l − l_0 (σ)"));
+        let mut panel = PanelDocument::new("", ("t (Γ/k)", "l − l₀ (σ)"));
         let t = &self.samples.t;
         let mut curve = CurveDocument::new(StyleName::Line, "", t, &[]);
         curve.y = self.samples.deviation.clone();

@@ -15,8 +15,8 @@ use stickslip_documents::{
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Trajectory};
 
-pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x_0 (σ)");
-pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ_0 (kσ/Γ)");
+pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
+pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
 const FORCE: (&str, &str) = ("t (Γ/k)", "F_{ext} (kσ)");
 
 /// Natural size of the dimensionless quantities: variations far below are round-off.
@@ -50,11 +50,11 @@ impl Drawn for RunDocument {
             shown.motion(
                 &trajectory,
                 (L, &l, "l(t)"),
-                (steady, format!("steady state, l_0 = {}", short(steady))),
+                (steady, format!("steady state, l₀ = {}", short(steady))),
             ),
             shown.motion(
                 &trajectory,
-                (VELOCITY, &velocity, "ẋ_0(t)"),
+                (VELOCITY, &velocity, "ẋ₀(t)"),
                 (r, format!("support, r = {}", short(r))),
             ),
         ];
@@ -142,11 +142,11 @@ fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
             L,
             curve("l(t), samples", &samples.l),
             steady,
-            &format!("steady state, l_0 = {}", short(steady)),
+            &format!("steady state, l₀ = {}", short(steady)),
         ),
         against(
             VELOCITY,
-            curve("ẋ_0(t), samples", &samples.velocity),
+            curve("ẋ₀(t), samples", &samples.velocity),
             r,
             &format!("support, r = {}", short(r)),
         ),

@@ -40,7 +40,7 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
             x: image.x.clone(),
             y: image.y.clone(),
             z: image.u.clone(),
-            z_label: "u (kσ^2/a)".into(),
+            z_label: "u (kσ²/a)".into(),
             colours: ColoursName::Cividis,
             z_range: range,
         });
@@ -59,7 +59,7 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
     let x_range = view.x_range.or((from < to).then_some([from, to]));
     let mut panels = vec![];
     for surface in surfaces {
-        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ^2/a)"));
+        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
         panel.natural = Some(1.0);
         panel.x_range = x_range;
         if high - low > 1e-6 {

@@ -9,7 +9,7 @@ const SAME: f64 = 1e-9;
 /// Such as "β = 1" for the triple Gaussian (48) of width 1.
 pub(crate) fn tip_name(tip: &TipDocument) -> String {
     match tip {
-        TipDocument::Bessel {} => "f = J_0(x)".into(),
+        TipDocument::Bessel {} => "f = J₀(x)".into(),
         TipDocument::Footprint { .. } => "f(x, y) of a file".into(),
         TipDocument::Gaussians { gaussians } => gaussians_name(gaussians),
     }
@@ -28,9 +28,9 @@ fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
     match gaussians {
         [g] if is(g.amplitude, 1.0) && is(g.center, 0.0) => {
             if is(g.width, std::f64::consts::FRAC_1_SQRT_2) {
-                return "f = exp(−x^2)".into();
+                return "f = exp(−x²)".into();
             }
-            with_width("f = exp(−x^2/2)", g.width)
+            with_width("f = exp(−x²/2)", g.width)
         }
         // A table is made of many.
         many if many.len() > 9 => "f of a table".into(),
@@ -83,10 +83,10 @@ mod tests {
         {
             assert_eq!(name(&TipFunction::triple_gaussian(beta, width).unwrap()), said);
         }
-        assert_eq!(name(&TipFunction::gaussian(1.0).unwrap()), "f = exp(−x^2/2)");
+        assert_eq!(name(&TipFunction::gaussian(1.0).unwrap()), "f = exp(−x²/2)");
         let narrow = std::f64::consts::FRAC_1_SQRT_2;
-        assert_eq!(name(&TipFunction::gaussian(narrow).unwrap()), "f = exp(−x^2)");
-        assert_eq!(name(&TipFunction::Bessel), "f = J_0(x)");
+        assert_eq!(name(&TipFunction::gaussian(narrow).unwrap()), "f = exp(−x²)");
+        assert_eq!(name(&TipFunction::Bessel), "f = J₀(x)");
         let lobe = |amplitude, center| Gaussian { amplitude, center, width: 0.7 };
         let sum = vec![lobe(1.0, 0.0), lobe(0.3, 1.5)];
         assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 2 Gaussians");

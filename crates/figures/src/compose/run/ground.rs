@@ -101,7 +101,7 @@ impl Ground<'_> {
     }
 
     fn panel(&self) -> PanelDocument {
-        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ^2/a)"));
+        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
         panel.natural = NATURAL;
         panel
     }

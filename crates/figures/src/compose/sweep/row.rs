@@ -11,7 +11,7 @@ use stickslip_documents::{
 /// Two panels of dots.
 pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
     let panel = |label, value: fn(&SweepPoint) -> Option<f64>| panel(document, axis, label, value);
-    vec![panel("amplitude of x_0 (σ)", |p| p.amplitude_x0), panel("period (Γ/k)", |p| p.period)]
+    vec![panel("amplitude of x₀ (σ)", |p| p.amplitude_x0), panel("period (Γ/k)", |p| p.period)]
 }
 
 fn panel(

@@ -2,7 +2,7 @@
 
 use super::parts::{curve, figure as figure_with, finished, heights, panel, spaced};
 use super::tips::beta_1;
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Model, Noise, Scenario, Start};
 
@@ -24,7 +24,7 @@ fn scenario(model: Model) -> Scenario {
     }
 }
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tip = beta_1()?;
     let critical = tip.critical(1.0)?.alpha;
     let models = [tip.model(critical - 0.01, 1.0)?, tip.model(critical + 0.01, 1.0)?];
@@ -41,7 +41,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
         "t = 457 of the caption; the text says 361 (docs/corrections.md, 12)".into(),
     ];
     let x = spaced(0.0, 470.0, 0.1);
-    let headings = ["α = αc − 0.01", "α = αc + 0.01"];
+    let headings = ["α = α_c − 0.01", "α = α_c + 0.01"];
     for (model, heading) in models.iter().zip(headings) {
         let scenario = scenario(model.clone());
         let run = finished(&scenario)?;

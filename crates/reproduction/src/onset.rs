@@ -2,7 +2,7 @@
 
 use super::parts::{failed, line_of_best_fit};
 use super::tips::Tip;
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_tip::Model;
 
@@ -25,8 +25,8 @@ impl Onset {
     /// At these distances, α or r varied by `model`.
     pub(super) fn along(
         distances: &[f64],
-        model: impl Fn(f64) -> Result<Model, Failure>,
-    ) -> Result<Self, Failure> {
+        model: impl Fn(f64) -> Result<Model, Failed>,
+    ) -> Result<Self, Failed> {
         let mut onset = Self::default();
         for distance in distances {
             let found = solved(&model(*distance)?)?;
@@ -39,7 +39,7 @@ impl Onset {
     }
 
     /// Above αc at r = 1.
-    pub(super) fn above(tip: &Tip, distances: &[f64]) -> Result<Self, Failure> {
+    pub(super) fn above(tip: &Tip, distances: &[f64]) -> Result<Self, Failed> {
         let critical = tip.critical(1.0)?;
         Self::along(distances, |distance| tip.model(critical.alpha + distance, 1.0))
     }
@@ -51,6 +51,6 @@ impl Onset {
 }
 
 /// The limit cycle.
-pub(super) fn solved(model: &Model) -> Result<Cycle, Failure> {
+pub(super) fn solved(model: &Model) -> Result<Cycle, Failed> {
     cycle(model, DEFAULT_TOLERANCE).map_err(|error| failed("the limit cycle", &error))
 }

@@ -3,7 +3,7 @@
 use super::onset::{FITTED, Onset};
 use super::parts::{curve, failed, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
 use stickslip_stability::onset;
 
@@ -13,7 +13,7 @@ pub(super) fn distances() -> Vec<f64> {
 }
 const BELOW: [f64; 2] = [-0.02, -0.01];
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tips = [beta_1()?, beta_0()?];
     let critical = [tips[0].critical(1.0)?, tips[1].critical(1.0)?];
     let models = [tips[0].model(critical[0].alpha, 1.0)?, tips[1].model(critical[1].alpha, 1.0)?];
@@ -26,8 +26,8 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     );
     for (tip, at) in tips.iter().zip(critical) {
         let found = Onset::above(tip, &distances())?;
-        let heading = format!("{}, αc = {:.3}", tip.name, at.alpha);
-        document.panels.push(amplitudes(&heading, "α − αc", &found, &BELOW));
+        let heading = format!("{}, α_c = {:.3}", tip.name, at.alpha);
+        document.panels.push(amplitudes(&heading, "α − α_c", &found, &BELOW));
         let leading = onset(&tip.function, 1.0).map_err(|error| failed("the onset", &error))?;
         document.remarks.push(format!(
             "{}: the line of x0 has slope {:.4}, the theory of the bifurcation at α → αc {:.4}",
@@ -47,12 +47,12 @@ pub(super) fn amplitudes(
     found: &Onset,
     steady: &[f64],
 ) -> PanelDocument {
-    let mut panel = panel(heading, (x_label, "amplitude² ((kσ²/a)², σ²)"));
+    let mut panel = panel(heading, (x_label, "amplitude²"));
     let zeros = vec![0.0; steady.len()];
     let all_x: Vec<f64> = steady.iter().chain(&found.distance).copied().collect();
     let columns = [
-        (&found.u_squared, StyleName::Dots, StyleName::Line, "u(x, ·), in (kσ²/a)²"),
-        (&found.x0_squared, StyleName::Triangles, StyleName::Dashed, "x₀(t), in σ²"),
+        (&found.u_squared, StyleName::Dots, StyleName::Line, "of u(x, ·), in units of (kσ²/a)²"),
+        (&found.x0_squared, StyleName::Triangles, StyleName::Dashed, "of x₀(t), in units of σ²"),
     ];
     let far = found.distance[found.distance.len() - 1];
     for (values, marks, line, name) in columns {

@@ -3,12 +3,12 @@
 use super::fig4::{END, settled};
 use super::parts::{failed, figure as empty, panel, spaced};
 use super::tips::BETA_0;
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
 use stickslip_surface::Surface;
 use stickslip_tip::Footprint;
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let (scenario, run) = settled()?;
     let (x, y) = (spaced(400.0, 450.0, 0.1), spaced(-2.0, 2.0, 0.05));
     // h of (60), whatever the width of f.
@@ -18,7 +18,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     let image =
         surface.image(&footprint, END, &x, &y).map_err(|error| failed("the surface", &error))?;
     let z = image.rows().into_iter().map(|row| row.to_vec()).collect();
-    let title = "Fig. 7: u(x, y, t = 460), β = 0, r = 1, α = αc + 0.03";
+    let title = "Fig. 7: u(x, y, t = 460), f = exp(−x²), r = 1, α = α_c + 0.03";
     let mut document = empty("fig7", title, std::slice::from_ref(&scenario.model));
     document.remarks = vec![
         BETA_0.into(),

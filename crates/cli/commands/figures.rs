@@ -1,23 +1,8 @@
 //! `stickslip figures`: the paper, redrawn and audited.
 //!
-//! Each figure is a function that computes its document; the pictures are drawn from the document alone.
+//! The library `reproduction` computes the documents; the pictures are drawn from these alone.
 
-mod bifurcation;
-mod criticality;
-mod fig1;
-mod fig2;
-mod fig3;
-mod fig4;
-mod fig5;
-mod fig6;
-mod fig7;
-mod kymograph;
-mod onset;
-mod parts;
-mod reproduction;
-mod tips;
-mod work_precision;
-
+use super::figure::undrawn;
 use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
@@ -28,7 +13,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stickslip_documents::FigureDocument;
-use stickslip_figures::{self as figures, FigureFormat, Size};
+use stickslip_figures::{self as figures, FigureFormat, Size, View};
+use stickslip_reproduction::{self as reproduction, Failed};
 
 pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
@@ -55,21 +41,15 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
 
 /// Makes one of them; the names of its files.
 fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
-    let document = match name {
-        FigureName::Fig1 => fig1::figure(),
-        FigureName::Fig2 => fig2::figure(),
-        FigureName::Fig3 => fig3::figure(),
-        FigureName::Fig4 => fig4::figure(),
-        FigureName::Fig5 => fig5::figure(),
-        FigureName::Fig6 => fig6::figure(),
-        FigureName::Fig7 => fig7::figure(),
-        FigureName::Bifurcation => bifurcation::figure(),
-        FigureName::Criticality => criticality::figure(),
-        FigureName::Kymograph => kymograph::figure(),
-        FigureName::WorkPrecision => work_precision::figure(),
-        FigureName::Reproduction => return reproduction::write(folder),
+    let failed = |error: Failed| Failure::Run(error.to_string());
+    let Some(figure) = name.figure() else {
+        let (json, text) = ("reproduction.json", "reproduction.md");
+        let table = reproduction::table().map_err(failed)?;
+        open(&folder.join(json))?.write_json(&table)?;
+        open(&folder.join(text))?.write_bytes(reproduction::page(&table).as_bytes())?;
+        return Ok(vec![json.into(), text.into()]);
     };
-    write(&document?, folder)
+    write(&reproduction::figure(figure).map_err(failed)?, folder)
 }
 
 /// The document and its pictures.
@@ -80,13 +60,14 @@ fn write(document: &FigureDocument, folder: &Path) -> Result<Vec<String>, Failur
     };
     let (json, path) = place("json");
     open(&path)?.write_json(document)?;
+    let drawn = figures::of(document, &View::default()).map_err(|error| undrawn(&error))?;
     let mut files = vec![json];
     for extension in ["svg", "png"] {
         let (name, path) = place(extension);
         // A build without PNG draws SVG alone.
         let Ok(format) = FigureFormat::of(&path) else { continue };
-        let bytes = figures::draw(document, format, &Size::default())
-            .map_err(|error| Failure::Run(format!("cannot draw {name}: {error}")))?;
+        let bytes = figures::draw(&drawn, format, &Size::default());
+        let bytes = bytes.map_err(|error| undrawn(&error))?;
         open(&path)?.write_bytes(&bytes)?;
         files.push(name);
     }

@@ -1,17 +1,17 @@
 //! What the paper says of the oscillations, as numbers.
 
-use super::super::onset::{Onset, solved};
-use super::super::parts::line_of_best_fit;
-use super::super::tips::{Tip, beta_0, beta_1};
 use super::printed::Printed;
-use crate::failure::Failure;
+use crate::Failed;
+use crate::onset::{Onset, solved};
+use crate::parts::line_of_best_fit;
+use crate::tips::{Tip, beta_0, beta_1};
 use stickslip_documents::NumberDocument;
 
 /// α - αc so small that the leading order is what one sees.
 const NEAR: [f64; 2] = [1e-3, 2e-3];
 
 /// Exponents and limits at onset, and the mean velocity.
-pub(super) fn oscillations() -> Result<Vec<NumberDocument>, Failure> {
+pub(super) fn oscillations() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     let cases = [
         (beta_1()?, "β = 1, r = 1", "6.665", None),
@@ -43,7 +43,7 @@ fn at_onset(
     case: &str,
     wavelength: &str,
     rounded: Option<&str>,
-) -> Result<Vec<NumberDocument>, Failure> {
+) -> Result<Vec<NumberDocument>, Failed> {
     let near = Onset::above(tip, &NEAR)?;
     let mut all = exponents(&near, case, "V, Fig. 2");
     let (limit, _) = line_of_best_fit(&near.distance, &near.wavelength);

@@ -1,9 +1,9 @@
 //! Critical points, and what formulas give.
 
-use super::super::parts::failed;
-use super::super::tips::{Tip, beta_0, beta_1};
 use super::printed::Printed;
-use crate::failure::Failure;
+use crate::Failed;
+use crate::parts::failed;
+use crate::tips::{Tip, beta_0, beta_1};
 use stickslip_documents::NumberDocument;
 use stickslip_stability::{critical, unstable_count};
 use stickslip_tip::{InitialSurface, Model, TipFunction};
@@ -11,7 +11,7 @@ use stickslip_tip::{InitialSurface, Model, TipFunction};
 const OTHER_TIP: &str = "the printed number is that of exp(-x²)";
 
 /// Section V: αc, ω and L of both tips, rc and what goes with it.
-pub(super) fn stability() -> Result<Vec<NumberDocument>, Failure> {
+pub(super) fn stability() -> Result<Vec<NumberDocument>, Failed> {
     let case = "β = 1, r = 1";
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let at = beta_1()?.critical(1.0)?;
@@ -43,7 +43,7 @@ pub(super) fn stability() -> Result<Vec<NumberDocument>, Failure> {
 }
 
 /// The numbers for β = 0: with the tip that they belong to, and with the one that is named.
-fn beta_zero() -> Result<Vec<NumberDocument>, Failure> {
+fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let narrow = beta_0()?;
     let at = narrow.critical(1.0)?;
@@ -73,7 +73,7 @@ fn beta_zero() -> Result<Vec<NumberDocument>, Failure> {
 
 /// The α at which a root gets a positive real part, by halving an interval about the critical one: the
 /// count of roots, not the formula for αc.
-fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failure> {
+fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
     let (mut stable, mut unstable) = (0.9 * critical, 1.1 * critical);
     while unstable - stable > 1e-6 {
         let middle = 0.5 * (stable + unstable);
@@ -85,7 +85,7 @@ fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failure> {
 }
 
 /// Numbers that follow from formulas of the paper.
-pub(super) fn formulas() -> Result<Vec<NumberDocument>, Failure> {
+pub(super) fn formulas() -> Result<Vec<NumberDocument>, Failed> {
     let tip = beta_1()?;
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let volume_rate = TipFunction::gaussian(1.0).map_err(|error| failed("the tip", &error))?;
@@ -126,7 +126,7 @@ fn largest_steady(model: &Model) -> f64 {
 }
 
 /// Section IV.C, where the numbers are formulas: at r = 1 and 2.
-fn bessel() -> Result<Vec<NumberDocument>, Failure> {
+fn bessel() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     for (r, alpha, omega) in [(1.0, "1", "0.786151"), (2.0, "4", "0.624811")] {
         let at = critical(&TipFunction::Bessel, r)

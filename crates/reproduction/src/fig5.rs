@@ -4,13 +4,13 @@ use super::fig2::amplitudes;
 use super::onset::Onset;
 use super::parts::{figure as empty, spaced};
 use super::tips::beta_1;
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::FigureDocument;
 
 const ALPHA: f64 = 1.0;
 const STEADY: [f64; 2] = [0.01, 0.02];
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tip = beta_1()?;
     let critical = tip.critical_r(ALPHA)?;
     let title = "Fig. 5: squared amplitudes of the surface and of the tip, α = 1";
@@ -22,7 +22,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     );
     let distances: Vec<f64> = spaced(0.01, 0.1, 0.01).iter().map(|d| -d).collect();
     let found = Onset::along(&distances, |distance| tip.model(ALPHA, critical.r + distance))?;
-    let heading = format!("{}, rc = {:.4}", tip.name, critical.r);
-    document.panels.push(amplitudes(&heading, "r − rc", &found, &STEADY));
+    let heading = format!("{}, r_c = {:.4}", tip.name, critical.r);
+    document.panels.push(amplitudes(&heading, "r − r_c", &found, &STEADY));
     Ok(document)
 }

@@ -2,7 +2,7 @@
 
 use super::parts::{curve, failed, figure as empty, finished, heights, panel, spaced};
 use super::tips::{BETA_0, beta_0};
-use crate::failure::Failure;
+use crate::Failed;
 use std::sync::LazyLock;
 use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Noise, Run, Scenario};
@@ -12,12 +12,12 @@ pub(super) const END: f64 = 460.0;
 const NOISE: Noise = Noise { amplitude: 1e-4, spacing: 0.001, seed: 1 };
 
 /// The run of Figs. 4 and 7, made once.
-pub(super) fn settled() -> Result<&'static (Scenario, Run), Failure> {
-    static SETTLED: LazyLock<Result<(Scenario, Run), Failure>> = LazyLock::new(compute);
+pub(super) fn settled() -> Result<&'static (Scenario, Run), Failed> {
+    static SETTLED: LazyLock<Result<(Scenario, Run), Failed>> = LazyLock::new(compute);
     SETTLED.as_ref().map_err(|failure| failed("Fig. 4", failure))
 }
 
-fn compute() -> Result<(Scenario, Run), Failure> {
+fn compute() -> Result<(Scenario, Run), Failed> {
     let tip = beta_0()?;
     let model = tip.model(tip.critical(1.0)?.alpha + 0.03, 1.0)?;
     // The noise is rough: every spacing is a step, and more digits than these mean nothing.
@@ -26,10 +26,10 @@ fn compute() -> Result<(Scenario, Run), Failure> {
     Ok((scenario, run))
 }
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let (scenario, run) = settled()?;
     let x = spaced(0.0, 470.0, 0.1);
-    let title = "Fig. 4: surface, β = 0, r = 1, α = αc + 0.03";
+    let title = "Fig. 4: surface, f = exp(−x²), r = 1, α = α_c + 0.03";
     let mut document = empty("fig4", title, std::slice::from_ref(&scenario.model));
     document.remarks = vec![
         BETA_0.into(),
@@ -38,7 +38,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
          is the seed (docs/corrections.md, 10)"
             .into(),
     ];
-    let mut panel = panel("f = exp(−x²)", ("x (σ)", "u (kσ²/a)"));
+    let mut panel = panel("", ("x (σ)", "u (kσ²/a)"));
     let start = run.trajectory.start();
     panel.curves = vec![
         curve(StyleName::Line, "u(x, t = 460)", &x, &heights(scenario, run, END, &x)?),

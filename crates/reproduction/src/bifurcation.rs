@@ -2,7 +2,7 @@
 
 use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
-use crate::failure::Failure;
+use crate::Failed;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
@@ -20,7 +20,7 @@ const SAME: f64 = 1e-4;
 const LAST: f64 = 1.9;
 const FIRST: f64 = 1.0;
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tip = beta_1()?;
     let (main, doubled) = branches(&tip)?;
     let runs = Runs::settled(&tip)?;
@@ -37,7 +37,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
 }
 
 /// From onset, and from its first period doubling.
-fn branches(tip: &Tip) -> Result<(Branch, Option<Branch>), Failure> {
+fn branches(tip: &Tip) -> Result<(Branch, Option<Branch>), Failed> {
     let settings = Continuation { to: LAST, longest_step: 0.02, ..Continuation::default() };
     let go_on = |_: &Cycle| ControlFlow::Continue(());
     let main = settings.from_onset(&tip.function, 1.0, go_on);
@@ -61,11 +61,16 @@ fn amplitudes(
         curve(StyleName::Dashed, "unstable", &[critical, LAST], &[0.0; 2]),
     ];
     for branch in std::iter::once(main).chain(doubled) {
-        for stretch in branch.points.chunk_by(|a, b| a.stable == b.stable) {
+        let stretches: Vec<_> = branch.points.chunk_by(|a, b| a.stable == b.stable).collect();
+        for (i, stretch) in stretches.iter().enumerate() {
             let style = if stretch[0].stable { StyleName::Line } else { StyleName::Dashed };
+            // Up to where the next one begins: no gap is left.
+            let next = stretches.get(i + 1).and_then(|next| next.first());
             let (x, y): (Vec<f64>, Vec<f64>) =
-                stretch.iter().map(|p| (p.alpha, p.amplitude_x0)).unzip();
-            panel.curves.push(curve(style, "", &x, &y));
+                stretch.iter().chain(next).map(|p| (p.alpha, p.amplitude_x0)).unzip();
+            let mut line = curve(style, "", &x, &y);
+            line.smooth = true;
+            panel.curves.push(line);
         }
     }
     let (x, y): (Vec<f64>, Vec<f64>) = main
@@ -74,7 +79,7 @@ fn amplitudes(
         .filter(|s| s.kind == SpecialKind::PeriodDoubling)
         .filter_map(|s| s.cycle.as_ref().map(|cycle| (s.alpha, cycle.amplitude_x0())))
         .unzip();
-    panel.curves.push(curve(StyleName::Triangles, "period doubling", &x, &y));
+    panel.curves.push(curve(StyleName::OpenTriangles, "period doubling", &x, &y));
     panel.curves.push(curve(StyleName::Points, "runs", &runs.alpha, &runs.amplitude));
     panel
 }
@@ -101,7 +106,7 @@ struct Runs {
 }
 
 impl Runs {
-    fn settled(tip: &Tip) -> Result<Self, Failure> {
+    fn settled(tip: &Tip) -> Result<Self, Failed> {
         let mut runs = Self::default();
         for alpha in spaced(FIRST, LAST, 0.01) {
             let model = tip.model(alpha, 1.0)?;

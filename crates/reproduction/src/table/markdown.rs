@@ -14,8 +14,8 @@ differs is explained by an entry of `docs/corrections.md`, whose number is given
 /// Below this, numbers are round-off of 0.
 const ROUND_OFF: f64 = 1e-9;
 
-/// The whole page.
-pub(super) fn page(document: &ReproductionDocument) -> String {
+/// The table as a page of Markdown.
+pub fn page(document: &ReproductionDocument) -> String {
     let rows: String = document.numbers.iter().map(row).collect();
     let agreeing = document.numbers.iter().filter(|number| number.agrees).count();
     let explained = document.numbers.len() - agreeing;

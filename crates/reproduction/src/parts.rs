@@ -1,6 +1,6 @@
 //! What figures are put together from.
 
-use crate::failure::Failure;
+use crate::Failed;
 use std::fmt::Display;
 use stickslip_documents::{
     CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName,
@@ -25,12 +25,12 @@ pub(super) fn curve(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> Curve
 }
 
 /// What a library refused or could not do.
-pub(super) fn failed(what: &str, error: &impl Display) -> Failure {
-    Failure::Run(format!("{what}: {error}"))
+pub(super) fn failed(what: &str, error: &impl Display) -> Failed {
+    Failed::new(format!("{what}: {error}"))
 }
 
 /// A finished run.
-pub(super) fn finished(scenario: &Scenario) -> Result<Run, Failure> {
+pub(super) fn finished(scenario: &Scenario) -> Result<Run, Failed> {
     run(scenario).map_err(|error| failed("the run", &error))
 }
 
@@ -40,7 +40,7 @@ pub(super) fn heights(
     run: &Run,
     t: f64,
     x: &[f64],
-) -> Result<Vec<f64>, Failure> {
+) -> Result<Vec<f64>, Failed> {
     let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
     let u = surface.heights(t, x).map_err(|error| failed("the surface", &error))?;
     Ok(u.to_vec())

@@ -2,13 +2,13 @@
 //! what `make work-precision` measured last.
 
 use super::parts::{curve, failed, figure as empty, panel};
-use crate::failure::Failure;
+use crate::Failed;
 use serde::Deserialize;
-use stickslip_documents::{FigureDocument, StyleName};
+use stickslip_documents::{FigureDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};
 
 /// Written by examples/work_precision.
-const MEASURED: &str = include_str!("../../../../data/work_precision.json");
+const MEASURED: &str = include_str!("../../../data/work_precision.json");
 
 #[derive(Debug, Deserialize)]
 struct Measured {
@@ -46,27 +46,29 @@ const METHODS: [(&str, StyleName, &str); 3] = [
     ("explicit", StyleName::Dotted, "modes, explicit (DOP853)"),
 ];
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let measured: Measured =
         serde_json::from_str(MEASURED).map_err(|error| failed("work_precision.json", &error))?;
-    let models: Result<Vec<Model>, Failure> = measured.cases.iter().map(Case::model).collect();
+    let models: Result<Vec<Model>, Failed> = measured.cases.iter().map(Case::model).collect();
     let mut document = empty("work-precision", "Time of a run against its error", &models?);
     document.remarks.push(format!(
         "measured before (`make work-precision`) on {}: the shortest of many runs in process, the sum of \
          exponentials fitted before; the error is the largest of l, against fft at a tolerance of 1e-12",
         measured.machine
     ));
+    document.columns = 2;
     for case in &measured.cases {
         let Case { name, beta, alpha, r, until } = case;
-        let heading = format!("{name}: β = {beta}, α = {alpha:.6}, r = {r}, to t = {until}");
-        let mut panel =
-            panel(&heading, ("log₁₀ of the largest error of l (σ)", "log₁₀ of the time (ms)"));
+        let alpha = (alpha * 1e4).round() / 1e4;
+        let heading = format!("{name}: β = {beta}, α = {alpha}, r = {r}, t ≤ {until}");
+        let mut panel = panel(&heading, ("largest error of l (σ)", "time (ms)"));
+        (panel.x_scale, panel.y_scale) = (ScaleName::Logarithmic, ScaleName::Logarithmic);
         for (method, style, name) in METHODS {
             let here =
                 |c: &&Curve| c.case == case.name && c.method == method && !c.points.is_empty();
             let Some(found) = measured.curves.iter().find(here) else { continue };
-            let errors: Vec<f64> = found.points.iter().map(|p| p.error.log10()).collect();
-            let times: Vec<f64> = found.points.iter().map(|p| (1e3 * p.seconds).log10()).collect();
+            let errors: Vec<f64> = found.points.iter().map(|p| p.error).collect();
+            let times: Vec<f64> = found.points.iter().map(|p| 1e3 * p.seconds).collect();
             panel.curves.push(curve(style, name, &errors, &times));
         }
         document.panels.push(panel);
@@ -75,7 +77,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
 }
 
 impl Case {
-    fn model(&self) -> Result<Model, Failure> {
+    fn model(&self) -> Result<Model, Failed> {
         let tip = TipFunction::triple_gaussian(self.beta, 1.0);
         let tip = tip.map_err(|error| failed("the tip", &error))?;
         Model::new(tip, self.alpha, self.r).map_err(|error| failed("the model", &error))

@@ -2,7 +2,7 @@
 
 use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_stability::Boundary;
 
@@ -10,10 +10,10 @@ use stickslip_stability::Boundary;
 const GNECCO: f64 = 1.0 / 1.406;
 const LAST: f64 = 2.0;
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tips = [beta_1()?, beta_0()?];
     let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];
-    let title = "Fig. 6: αc(r); steady motion is unstable where shaded";
+    let title = "Fig. 6: α_c(r); steady motion is unstable where shaded";
     let mut document = empty("fig6", title, &models);
     document.remarks.push(BETA_0.into());
     document.remarks.push(
@@ -27,7 +27,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
         // αc falls in proportion to r in the end.
         let (r, alpha): (Vec<f64>, Vec<f64>) = std::iter::once((0.0, 0.0)).chain(along).unzip();
         let mut panel = panel(tip.name, ("r", "α"));
-        panel.curves.push(curve(StyleName::Boundary, "αc(r)", &r, &alpha));
+        panel.curves.push(curve(StyleName::Boundary, "α_c(r)", &r, &alpha));
         if tip.name == tips[0].name {
             let ends = [0.0, LAST];
             let line = ends.map(|r| GNECCO * r);

@@ -2,14 +2,14 @@
 
 use super::parts::{figure as empty, finished, heights, panel, spaced};
 use super::tips::beta_1;
-use crate::failure::Failure;
+use crate::Failed;
 use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
 use stickslip_tip::Scenario;
 
 const ALPHA: f64 = 1.4;
 const TIMES: (f64, f64) = (260.0, 300.0);
 
-pub(super) fn figure() -> Result<FigureDocument, Failure> {
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let model = beta_1()?.model(ALPHA, 1.0)?;
     let scenario = Scenario { kick: 0.1, ..Scenario::new(model, TIMES.1) };
     let run = finished(&scenario)?;
@@ -22,7 +22,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     let mut panel = panel("", ("x (σ)", "t (Γ/k)"));
     let z_label = "u (kσ²/a)".into();
     panel.map =
-        Some(MapDocument { x, y: t, z, z_label, colours: ColoursName::Cividis, z_range: None });
+        Some(MapDocument { x, y: t, z, z_label, colours: ColoursName::BlueRed, z_range: None });
     document.panels.push(panel);
     Ok(document)
 }

@@ -143,7 +143,7 @@ pub(crate) fn after(
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }
     if is_told {
-        remark_lines(told.headline());
+        remark_lines(&told.in_short());
     }
     Ok(())
 }

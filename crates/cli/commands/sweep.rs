@@ -8,6 +8,7 @@ mod point;
 use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
+use crate::arithmetic::arithmetic;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
@@ -42,7 +43,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }
-    job.finish(&sealed(grid.parameters, finished.in_order())?)?;
+    job.finish(&sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
     finished.remove();
     Ok(())
 }
@@ -60,13 +61,18 @@ fn job(
 }
 
 /// The document of a finished sweep, with its checksum.
-fn sealed(parameters: SweepParameters, points: Vec<SweepPoint>) -> Result<SweepDocument, Failure> {
+fn sealed(
+    parameters: SweepParameters,
+    points: Vec<SweepPoint>,
+    arithmetic: Option<String>,
+) -> Result<SweepDocument, Failure> {
     let mut document = SweepDocument {
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
         parameters,
         points,
+        arithmetic,
         crc32: None,
     };
     document.crc32 = Some(checksum(&document)?);

@@ -7,9 +7,10 @@ use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
 use crate::commands::{told, verify};
 use crate::failure::Failure;
+use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
-use stickslip_documents::{Array, Named, Order, RunDocument, RunHead, Tabular};
+use stickslip_documents::{Array, Named, Order, RunDocument, RunFormat, RunHead, Tabular};
 use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -40,6 +41,10 @@ pub(super) fn all(
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
     let reached = travelled.signal.map(|_| end.end);
+    if order.output == Path::new("-") && order.format != RunFormat::Text {
+        // Beside a file they are told with what was found.
+        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
+    }
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let mut failure = None;
@@ -50,7 +55,7 @@ pub(super) fn all(
             };
             stream.line(&end)?;
             stream.finish()?;
-            let told = told::of_lines(&end, &order.parameters.model);
+            let told = told::of_lines(&end);
             job::after(&end, &told, &fields, order.output != Path::new("-"))?;
         }
         Target::Document(job) => {

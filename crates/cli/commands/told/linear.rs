@@ -1,9 +1,10 @@
 //! What is told of linear theory: stability, boundary, response.
 
-use super::{Told, again, digits, held};
+use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
     BoundaryDocument, ComplexDocument, CriticalityName, ResponseDocument, StabilityDocument,
+    to_its_digits,
 };
 
 /// What holds of the numbers of a critical point.
@@ -47,7 +48,7 @@ impl Product for StabilityDocument {
             );
         let error = self.certificate.largest_error;
         let root = |root: &ComplexDocument| {
-            let [re, im] = [root.re, root.im].map(|part| held(part, error));
+            let [re, im] = [root.re, root.im].map(|part| to_its_digits(part, error));
             format!("({re}) + ({im}) i k/Γ")
         };
         let certain =

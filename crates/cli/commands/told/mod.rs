@@ -55,8 +55,10 @@ impl Told {
         self
     }
 
-    pub(crate) fn headline(&self) -> &str {
-        &self.headline
+    /// What is said beside a file: what was found, and what should be known of it.
+    pub(crate) fn in_short(&self) -> String {
+        let remarks = self.remarks.iter().map(|remark| format!("\nremark: {remark}"));
+        self.headline.clone() + &remarks.collect::<String>()
     }
 
     /// All of it, in lines.
@@ -69,7 +71,7 @@ impl Told {
             writeln!(text, "  {name}{:gap$}  {value}", "").ok();
         }
         for remark in &self.remarks {
-            writeln!(text, "  note: {remark}").ok();
+            writeln!(text, "  remark: {remark}").ok();
         }
         for command in &self.next {
             writeln!(text, "next: {command}").ok();
@@ -122,22 +124,6 @@ fn without_zeros(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// The digits that hold where the error is at most so large, and that error: `6.6936889 ± 3e-8`.
-pub(crate) fn held(value: f64, error: f64) -> String {
-    if !(error.is_finite() && error > 0.0 && value.is_finite()) {
-        return digits(value, 10);
-    }
-    if value.abs() < error {
-        return format!("0 ± {error:.0e}");
-    }
-    let exponent = error.log10().floor() as i32;
-    let decimals = usize::try_from(-exponent).unwrap_or(0).min(15);
-    if value.abs() < 1e-4 || decimals > 12 {
-        return format!("{} ± {error:.0e}", digits(value, 10));
-    }
-    format!("{value:.decimals$} ± {error:.0e}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,7 +134,7 @@ mod tests {
             Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
         let told = told.remarks(&["few".into()]).next("stickslip units");
         let text =
-            "steady: t = 5\n  α       1.2\n  period  6\n  note: few\nnext: stickslip units\n";
+            "steady: t = 5\n  α       1.2\n  period  6\n  remark: few\nnext: stickslip units\n";
         assert_eq!(told.text(), text);
     }
 
@@ -157,10 +143,6 @@ mod tests {
         let cases = [(1.0690361749, 7), (0.0, 7), (2e-9, 3), (1234567.0, 7), (-0.5, 3), (1e300, 4)];
         let shown = cases.map(|(value, count)| digits(value, count));
         assert_eq!(shown, ["1.069036", "0", "2e-9", "1234567", "-0.5", "1e300"]);
-        assert_eq!(held(6.693688892159, 3e-8), "6.69368889 ± 3e-8");
-        assert_eq!(held(19.4565, 2.0), "19 ± 2e0");
-        assert_eq!(held(0.5, f64::NAN), "0.5");
-        assert_eq!(held(6e-17, 4e-14), "0 ± 4e-14");
     }
 
     #[test]

@@ -7,7 +7,9 @@ mod folder;
 #[path = "../support/runs.rs"]
 mod runs;
 
+mod accepted_tips;
 #[cfg(unix)]
 mod killed_runs;
 #[cfg(unix)]
 mod long_runs;
+mod tips;

@@ -1,5 +1,6 @@
 //! The past as the state of a few exponentials, which makes (18) an ordinary differential equation.
 
+use super::{CycleError, lattice};
 use std::sync::Arc;
 use stickslip_tip::memory::{Fit, FitError, accuracy_needed};
 use stickslip_tip::{Model, TipFunction};
@@ -19,6 +20,10 @@ pub(super) struct Embedding {
     pub(super) r: f64,
     pub(super) fine: Arc<Fit>,
     pub(super) short: Arc<Fit>,
+    /// In which multipliers are computed: the short sum, where that is good enough.
+    pub(super) precise: Arc<Fit>,
+    /// Wave number beyond which f does not vary, as far as steps are concerned.
+    pub(super) band: f64,
 }
 
 /// Of the two parameters, the one that is free.
@@ -35,27 +40,63 @@ const SHARE_OF_FINE: f64 = 0.1;
 /// Displacement that the short one may bring about: multipliers are as accurate, where they are not
 /// amplified.
 const ACCURACY_OF_SHORT: f64 = 1e-8;
-/// What a fit reached, it reaches again.
-const AT_BEST: f64 = 1.01;
+/// Waves of a lattice of exponents, where no few exponentials follow f'.
+const MOST_WAVES_OF_FINE: usize = 1200;
+const MOST_WAVES_OF_SHORT: usize = 100;
+const MOST_WAVES_OF_MULTIPLIERS: usize = 400;
+/// What a step may miss of f, as a displacement, and the waves that this leaves over those of round-off.
+const ACCURACY_OF_STEPS: f64 = 1e-5;
+const WAVES_OF_ROUND_OFF: f64 = 1.5;
 
 impl Embedding {
     /// For cycles on which (18) leaves a residual of at most `allowed`, or as little as the fit does.
     ///
     /// # Errors
-    /// A footprint that never fades.
-    pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, FitError> {
+    /// A footprint that never fades, or one too rough for this residual.
+    pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, CycleError> {
         let (tip, alpha, r) = (model.tip().clone(), model.alpha(), model.r());
-        let fit = |accuracy: f64| match Fit::cached(&tip, accuracy_needed(model, accuracy)) {
-            Err(FitError::NotMet { reached, .. }) => Fit::cached(&tip, AT_BEST * reached),
-            fit => fit,
+        let sum = |accuracy: f64, most: usize| {
+            let needed = accuracy_needed(model, accuracy);
+            match Fit::cached(&tip, needed) {
+                Err(FitError::NotMet { .. }) => lattice::fit(&tip, needed, most),
+                fit => fit,
+            }
         };
-        let (fine, short) = (fit(SHARE_OF_FINE * allowed)?, fit(ACCURACY_OF_SHORT)?);
-        Ok(Self { tip, alpha, r, fine, short })
+        let fine = sum(SHARE_OF_FINE * allowed, MOST_WAVES_OF_FINE)?;
+        let needed = accuracy_needed(model, allowed);
+        if fine.certificate().slope > needed {
+            let times = fine.certificate().slope / needed;
+            return Err(CycleError::Rough { allowed, reached: times * allowed });
+        }
+        let short = sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_SHORT)?;
+        let precise = (short.certificate().slope
+            > accuracy_needed(model, 10.0 * ACCURACY_OF_SHORT))
+        .then(|| sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_MULTIPLIERS));
+        let precise = precise.transpose()?.unwrap_or_else(|| Arc::clone(&short));
+        let nominal = tip.band();
+        let is_usual = Fit::cached(&tip, accuracy_needed(model, ACCURACY_OF_SHORT)).is_ok();
+        let band = if is_usual {
+            nominal
+        } else {
+            let seen = lattice::band(&tip, accuracy_needed(model, ACCURACY_OF_STEPS))?;
+            nominal.min(WAVES_OF_ROUND_OFF * seen)
+        };
+        Ok(Self { tip, alpha, r, fine, short, precise, band })
+    }
+
+    /// Whether derivatives in the short sum are those of f.
+    pub(super) fn short_is_precise(&self) -> bool {
+        Arc::ptr_eq(&self.short, &self.precise)
+    }
+
+    /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.
+    pub(super) fn width(&self) -> f64 {
+        8.7 / self.band
     }
 
     /// How far back from the farthest point reached the sums still hold.
     pub(super) fn retreat(&self) -> f64 {
-        self.fine.retreat().min(self.short.retreat())
+        self.fine.retreat().min(self.short.retreat()).min(self.precise.retreat())
     }
 
     pub(super) fn parameter(&self, which: Parameter) -> f64 {

@@ -18,6 +18,16 @@ pub enum CycleError {
     /// A footprint whose past is no state of few numbers.
     #[error("cycles need a footprint that fades; this one does not (J0 falls like 1/√x)")]
     NeverFades,
+    /// A footprint with more detail than a sum of exponentials can follow.
+    #[error(
+        "the footprint is too rough for cycles to a tolerance of {allowed:e}: {reached:.0e} or more will do, or a smoother table"
+    )]
+    Rough {
+        /// The tolerance asked for.
+        allowed: f64,
+        /// What the best sum of exponentials allows.
+        reached: f64,
+    },
     /// f' cannot be fitted.
     #[error(transparent)]
     Fit(FitError),
@@ -49,6 +59,16 @@ pub enum CycleError {
     /// Newton's method did not converge from the cycle given.
     #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
     NotConverged {
+        /// As asked.
+        alpha: f64,
+        /// As asked.
+        r: f64,
+    },
+    /// The eigenvalues of the monodromy matrix cannot be had.
+    #[error(
+        "the cycle at alpha = {alpha:?}, r = {r:?} is beyond what its Floquet multipliers can be computed for"
+    )]
+    Multipliers {
         /// As asked.
         alpha: f64,
         /// As asked.

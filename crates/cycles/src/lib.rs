@@ -23,8 +23,10 @@ mod continuation;
 mod embedding;
 mod ended;
 mod error;
+mod lattice;
 mod linearisation;
 mod mesh;
+mod multipliers;
 mod orbit;
 mod past;
 mod ripple;
@@ -42,6 +44,8 @@ pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
 pub use search::{Settled, cycle, cycle_near, cycle_within, settle, small_cycle};
 
+use embedding::Embedding;
+use multipliers::multipliers;
 use num_complex::Complex;
 use ripple::Ripple;
 use solve::Closed;
@@ -57,6 +61,8 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 const ON_THE_CIRCLE: f64 = 1e-7;
 /// Multipliers below this modulus are those of the exponentials rather than of f.
 const LEAST_MULTIPLIER: f64 = 1e-6;
+/// And so are those that come near what is left of a lattice of exponents after a period.
+const ABOVE_THE_LATTICE: f64 = 100.0;
 
 /// A periodic solution of (18). Lengths in σ, times in Γ/k.
 #[derive(Clone)]
@@ -77,7 +83,8 @@ impl Cycle {
         }
         let (alpha, r) = (closed.equation.alpha, closed.equation.r);
         let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
-        let multipliers = linearisation::multipliers(&closed.linearisation.monodromy());
+        let multipliers = closed.monodromy().and_then(multipliers);
+        let multipliers = multipliers.ok_or(CycleError::Multipliers { alpha, r })?;
         let motion = closed.orbit.trajectory(r);
         let extrema = latest_extrema(&motion);
         let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);
@@ -148,11 +155,14 @@ impl Cycle {
         &self.motion
     }
 
-    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow
-    /// in a period. One of them is 1, that of a shift in time.
+    /// The Floquet multipliers above 1e-6 in modulus, or above what tells them from those of the sum that stands
+    /// for f, the largest first: by how much small deviations grow in a period. One of them is 1, that of a shift in time.
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
-        let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
+        let Embedding { precise, r, .. } = &self.closed.equation;
+        let least =
+            LEAST_MULTIPLIER.max(ABOVE_THE_LATTICE * lattice::left(precise, r * self.period()));
+        let count = self.multipliers.partition_point(|m| m.norm() >= least);
         &self.multipliers[..count]
     }
 

@@ -11,7 +11,6 @@ use super::past::Past;
 use super::sensitivity::Sensitivity;
 use super::step::LinearStep;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
-use num_complex::Complex;
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::memory::Fit;
 
@@ -151,16 +150,4 @@ impl Phase {
         let value = equation.r - extension - equation.alpha * groove;
         Self { value, by_state, by_parameter }
     }
-}
-
-/// Eigenvalues of the monodromy matrix by falling modulus: the Floquet multipliers.
-pub(super) fn multipliers(monodromy: &DMatrix<f64>) -> Vec<Complex<f64>> {
-    let found = monodromy.clone().complex_eigenvalues();
-    let mut found: Vec<_> = found.iter().map(|m| Complex::new(m.re, m.im)).collect();
-    // Of a pair, the one with the positive imaginary part first.
-    found.sort_by(|a, b| {
-        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
-        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
-    });
-    found
 }

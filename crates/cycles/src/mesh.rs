@@ -1,7 +1,6 @@
 //! The mesh that a cycle needs: steps long where the motion is smooth, short in its slips.
 
 use super::orbit::Orbit;
-use stickslip_tip::TipFunction;
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::step::{defect, interpolation_error, longest_displacement, velocity_at_end};
 
@@ -30,13 +29,8 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
 }
 
 /// The mesh on which residuals would be evenly below the one allowed.
-pub(super) fn adapted(
-    orbit: &Orbit,
-    tip: &TipFunction,
-    residuals: &[f64],
-    allowed: f64,
-) -> Vec<f64> {
-    let longest = longest_displacement(tip);
+pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64) -> Vec<f64> {
+    let longest = longest_displacement(band);
     let shares: Vec<f64> = orbit.mesh.windows(2).map(|ends| ends[1] - ends[0]).collect();
     let wanted = |n: usize| {
         let moved = orbit.stages[n].iter().fold(0.0, |m: f64, d| m.max(d.abs()));

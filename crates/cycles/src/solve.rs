@@ -5,6 +5,7 @@ use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
 use super::mesh::{adapted, residuals};
 use super::orbit::Orbit;
+use nalgebra::DMatrix;
 use std::sync::Arc;
 use stickslip_tip::memory::Fit;
 
@@ -62,22 +63,23 @@ pub(super) fn close(
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
     let mut iterations = 0;
     for _ in 0..MOST_MESHES {
-        // The mesh is found with the short sum, and the solution on it with the fine one.
-        for (solved, enough) in [(&short, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
+        // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
+        let first = if equation.short_is_precise() { &short } else { &fine };
+        for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
             let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
             let (linearisation, count) = newton.solve(solved, enough)?;
             iterations += count;
             let residuals = residuals(&orbit, &linearisation.stiffness);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             if residual > ESTIMATE_FALLS_SHORT * allowed {
-                let mesh = adapted(&orbit, &equation.tip, &residuals, allowed);
+                let mesh = adapted(&orbit, equation.band, &residuals, allowed);
                 if mesh.len() > MOST_STEPS {
                     return Err(NotClosed);
                 }
                 orbit = orbit.on_mesh(equation.r, mesh);
                 break;
             }
-            if Arc::ptr_eq(solved, &fine) {
+            if enough <= ENOUGH {
                 let linearisation = Arc::new(linearisation);
                 return Ok(Closed { equation, orbit, linearisation, residual, iterations });
             }
@@ -115,7 +117,7 @@ impl Newton<'_> {
     }
 
     fn apply(&mut self, change: &Change) -> Result<(), NotClosed> {
-        let width = 8.7 / self.equation.tip.band();
+        let width = self.equation.width();
         let factor = damping(change, self.orbit.period, width);
         let free = self.condition.free;
         self.orbit.move_by(change, factor);
@@ -130,4 +132,17 @@ fn damping(change: &Change, period: f64, width: f64) -> f64 {
     let by_size = LONGEST_CORRECTION * width / change.size();
     let by_period = LARGEST_CHANGE_OF_PERIOD * period / change.period.abs();
     by_size.min(by_period).min(1.0)
+}
+
+impl Closed {
+    /// The monodromy matrix ∂X(T)/∂X(0), in the sum that multipliers are computed in.
+    pub(super) fn monodromy(&self) -> Option<DMatrix<f64>> {
+        if self.equation.short_is_precise() {
+            return Some(self.linearisation.monodromy());
+        }
+        let Self { equation, orbit, .. } = self;
+        let precise = Embedding { short: Arc::clone(&equation.precise), ..equation.clone() };
+        let again = Linearisation::new(&precise, orbit, Parameter::Alpha, &equation.fine);
+        again.ok().map(|linearisation| linearisation.monodromy())
+    }
 }

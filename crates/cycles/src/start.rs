@@ -13,6 +13,8 @@ use stickslip_tip::{Model, Scenario, Trajectory, run};
 const FEWEST_STEPS: f64 = 18.0;
 /// Amplitude to which the leading order is a guess, in widths.
 const LARGEST_MODE: f64 = 1.0;
+/// Where lobes are narrow the motion does not see their width: an eighth of its wavelength, in Gaussians one.
+const WIDTHS_PER_WAVELENGTH: f64 = 9.0;
 
 /// The linear mode with the amplitude and period of leading order in α - αc; `None` where that is
 /// imaginary, or so large that Newton's method might find any cycle from there.
@@ -24,7 +26,8 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     }
     let model = equation.model()?;
     let amplitude = square.sqrt();
-    if amplitude > LARGEST_MODE * 8.7 / equation.tip.band() {
+    let width = equation.width().max(onset.critical.wavelength / WIDTHS_PER_WAVELENGTH);
+    if amplitude > LARGEST_MODE * width {
         return None;
     }
     let period = onset.critical.period + onset.period_slope * above;
@@ -43,7 +46,7 @@ pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> 
 /// So many steps that none leads too far.
 pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> usize {
     let farthest = equation.r * period + PI * amplitude;
-    let longest = longest_displacement(&equation.tip);
+    let longest = longest_displacement(equation.band);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     return FEWEST_STEPS.max(1.5 * farthest / longest) as usize;
 }

@@ -215,6 +215,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn trial() {
+        let difference = |x: f64| {
+            let (mut last, mut here) = (1.0, x);
+            for n in 1..STAGES {
+                let n = n as f64;
+                (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
+            }
+            here - last
+        };
+        let mut brackets: Vec<f64> = gauss().as_node_weight_pairs().iter().map(|(x, _)| *x).collect();
+        brackets.sort_by(f64::total_cmp);
+        for (c, b) in RADAU.c.iter().zip(brackets.windows(2)) {
+            let x = crate::roots::zero_between(difference, b[0], b[1]);
+            println!("TRIAL {} {}", 0.5 * (1.0 + x) - c, c);
+        }
+    }
+
+    #[test]
     fn the_weights_integrate_polynomials_up_to_degree_2s_minus_2_and_no_further() {
         let miss = |degree: i32| {
             let sum: f64 = RADAU.b().iter().zip(&RADAU.c).map(|(b, c)| b * c.powi(degree)).sum();

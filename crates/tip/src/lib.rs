@@ -21,6 +21,7 @@ pub mod state;
 pub mod step;
 pub mod tip_function;
 
+mod eigenvalues;
 mod footprint;
 mod force;
 mod history;
@@ -33,6 +34,7 @@ mod series;
 mod spline;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
+pub use eigenvalues::eigenvalues;
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{STEP_NUMBERS, Step, Trajectory};

@@ -95,7 +95,7 @@ impl Continuation {
     /// Where the difference of the halves is zero two branches meet, and the equations are singular: the point
     /// is looked for on the other one.
     fn vanishing(&self, place: &Place, next: &Cycle, special: &mut Vec<Special>) -> Located {
-        let width = 8.7 / place.cycle.model().tip().band();
+        let width = place.cycle.closed.equation.width();
         let smaller = place.cycle.amplitude_x0().min(next.amplitude_x0());
         if smaller < SMALL * width {
             special.extend(self.hopf_near(&place.cycle));
@@ -109,7 +109,7 @@ impl Continuation {
 
     /// Where a small cycle vanishes: the parameter is a function of the square of its amplitude.
     fn hopf_near(&self, cycle: &Cycle) -> Option<Special> {
-        let width = 8.7 / cycle.model().tip().band();
+        let width = cycle.closed.equation.width();
         let of = |amplitude: f64| {
             let closed = small(self, cycle.model(), cycle.period(), amplitude).ok()?;
             Cycle::new(closed).ok()

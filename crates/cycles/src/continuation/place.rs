@@ -95,7 +95,7 @@ impl Scales {
     fn at(closed: &Closed, over: Parameter) -> Self {
         let Closed { equation, orbit, .. } = closed;
         Self {
-            l: 8.7 / equation.tip.band() + (orbit.extension - equation.r).abs(),
+            l: equation.width() + (orbit.extension - equation.r).abs(),
             period: orbit.period,
             parameter: equation.parameter(over),
         }

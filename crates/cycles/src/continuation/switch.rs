@@ -22,7 +22,7 @@ pub(super) fn to_doubled(settings: &Continuation, special: &Special) -> Result<P
     let Closed { equation, orbit, linearisation, .. } =
         solved_again(cycle.ok_or(lost.clone())?, settings)?;
     let deviation = alternating(&linearisation).ok_or(lost.clone())?;
-    let width = 8.7 / equation.tip.band();
+    let width = equation.width();
     // The higher maximum is to be the first.
     let unit = deviation.state[0].signum() / deviation.size();
     let first = DEVIATIONS.iter().find_map(|size| {

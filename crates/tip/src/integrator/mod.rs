@@ -194,7 +194,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
 
     /// A step of length h, accepted, or the shorter length to try instead.
     fn attempt(&mut self, h: f64) -> Result<Step, Retry> {
-        let longest = step::longest_displacement(self.model.tip());
+        let longest = step::longest_displacement(self.model.tip().band());
         let guess = self.predict(h, longest);
         let enough = ENOUGH * self.control.target();
         let (surface, force) = ((self.surface, &self.stretch), self.force);
@@ -287,7 +287,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         } else {
             self.position() - stretch.low
         };
-        let longest = step::longest_displacement(self.model.tip());
+        let longest = step::longest_displacement(self.model.tip().band());
         let distance = longest.min(1.2 * ahead.max(stretch.slack));
         self.force.longest_step(self.t).min(distance / speed)
     }

@@ -1,6 +1,5 @@
 //! Signs of the error of a step, and how long one may be.
 
-use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
 /// A step displaces the tip by at most this much over the band limit of f, 1.5 widths of a Gaussian:
@@ -9,10 +8,10 @@ const BANDS_PER_STEP: f64 = 13.0;
 /// And never by more than this.
 const LONGEST_DISPLACEMENT: f64 = 4.0;
 
-/// The farthest that one step is planned to lead.
+/// The farthest that one step is planned to lead, for an f of this band.
 #[must_use]
-pub fn longest_displacement(tip: &TipFunction) -> f64 {
-    (BANDS_PER_STEP / tip.band()).min(LONGEST_DISPLACEMENT)
+pub fn longest_displacement(band: f64) -> f64 {
+    (BANDS_PER_STEP / band).min(LONGEST_DISPLACEMENT)
 }
 
 /// Velocity at the end of a step of length h.

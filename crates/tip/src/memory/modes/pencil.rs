@@ -3,7 +3,8 @@
 //! References: Hua & Sarkar, IEEE Trans. ASSP 38, 814 (1990); Roy & Kailath, IEEE Trans. ASSP 37,
 //! 984 (1989).
 
-use nalgebra::{DMatrix, SVD, Schur};
+use crate::eigenvalues;
+use nalgebra::{DMatrix, SVD};
 use num_complex::Complex;
 
 /// The signal space of evenly spaced samples `y_n`: the left singular vectors of the Hankel matrix
@@ -50,8 +51,7 @@ impl Pencil {
         let product = upper.transpose() * lower;
         let rest = 1.0 - v.norm_squared();
         let shift = &product + &v * (v.transpose() * &product) / rest;
-        let eigenvalues = Schur::try_new(shift, f64::EPSILON, MOST_SWEEPS)?.complex_eigenvalues();
-        let exponents = eigenvalues.iter().map(|l| l.ln() / self.spacing);
+        let exponents = eigenvalues(shift)?.into_iter().map(|l| l.ln() / self.spacing);
         let kept: Vec<_> = exponents.filter(|s| s.im >= 0.0).collect();
         // The logarithm of a negative eigenvalue is at the end of what the samples resolve.
         let resolved = |s: &Complex<f64>| s.im * self.spacing < 3.0;

@@ -1,0 +1,140 @@
+//! Exponents on a lattice, for footprints that no few exponentials follow: narrow lobes, tables.
+//!
+//! On [-δ, P - δ], P longer than the reach of f by δ, f'(ξ)e^{aξ} is a Fourier series of period P but for the
+//! images of f' one period on, which are damped by e^{-aP}. So
+//!
+//! ```text
+//!     f'(ξ) ≈ Σ_k Re(w_k e^{s_k ξ}),    s_k = -a + 2πik/P,    w_k = (2/P) ∫ f'(ξ) e^{-s_k ξ} dξ
+//! ```
+//!
+//! with half of that for k = 0, and the integral over all ξ is -s·a√(2π)w e^{sc + s²w²/2} of a Gaussian, s = -s_k.
+
+use num_complex::Complex;
+use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, PoisonError};
+use stickslip_tip::memory::{Fit, FitError, Term};
+use stickslip_tip::{Gaussian, TipFunction};
+
+/// P over the reach: δ is at most a quarter of it.
+const PERIOD: f64 = 1.6;
+/// What the images of f' and the waves left out may amount to, over the accuracy wanted.
+const SHARE: f64 = 0.2;
+
+/// What is wanted is loosened by this factor until there are few enough waves, up to [`LOOSEST`].
+const LOOSER: f64 = 10.0;
+const LOOSEST: f64 = 1e-2;
+/// Where a lattice misses what is wanted by more, its waves cancel so much that a looser one is nearer.
+const MISSED: f64 = 3.0;
+
+/// The nearest sum to f' that has no more than so many waves, and is no nearer than wanted.
+///
+/// # Errors
+/// A footprint that never fades.
+pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit>, FitError> {
+    let mut wanted = wanted;
+    let mut best: Option<Arc<Fit>> = None;
+    while best.is_none() || wanted <= LOOSEST {
+        let terms = terms(tip, wanted, most)?;
+        if terms.len() <= most || wanted > LOOSEST {
+            let fit = known(tip, wanted, terms)?;
+            let error = |fit: &Fit| fit.certificate().slope;
+            if best.as_ref().is_some_and(|best| error(best) <= error(&fit)) {
+                break;
+            }
+            let met = error(&fit) <= MISSED * wanted;
+            best = Some(fit);
+            if met {
+                break;
+            }
+        }
+        wanted *= LOOSER;
+    }
+    best.ok_or(FitError::Terms)
+}
+
+/// The sum of these terms, certified, or one made before.
+fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, FitError> {
+    type Known = (TipFunction, f64, Arc<Fit>);
+    static KNOWN: Mutex<Vec<Known>> = Mutex::new(vec![]);
+    const MOST_KNOWN: usize = 16;
+    // A thread that panicked did not leave half an entry behind.
+    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let count = terms.len();
+    let same = |(t, w, f): &&Known| {
+        w.to_bits() == wanted.to_bits() && f.terms().len() == count && t == tip
+    };
+    if let Some((.., fit)) = lock().iter().find(same) {
+        return Ok(Arc::clone(fit));
+    }
+    let fit = Arc::new(Fit::from_terms(tip, terms)?);
+    let mut known = lock();
+    if known.len() == MOST_KNOWN {
+        drop(known.remove(0));
+    }
+    known.push((tip.clone(), wanted, Arc::clone(&fit)));
+    Ok(fit)
+}
+
+/// With so many waves as that takes; with at most so many where no accuracy is left to lose.
+fn terms(tip: &TipFunction, wanted: f64, most: usize) -> Result<Vec<Term>, FitError> {
+    let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
+        return Err(FitError::NeverFades);
+    };
+    let period = PERIOD * reach;
+    let damping = -(SHARE * wanted).clamp(f64::EPSILON * f64::EPSILON, 0.1).ln() / period;
+    let spacing = TAU / period;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let all = ((1.2 * tip.band() / spacing).ceil() as usize).min(MOST_LOOKED_AT);
+    let mut transform = vec![Complex::ZERO; all + 1];
+    for gaussian in sum.terms() {
+        add(&mut transform, gaussian, damping, spacing);
+    }
+    let term = |(k, value): (usize, &Complex<f64>)| {
+        let exponent = Complex::new(-damping, spacing * k as f64);
+        let share = if k == 0 { 1.0 } else { 2.0 } / period;
+        Term { exponent, weight: *value * exponent * share }
+    };
+    let mut terms: Vec<Term> = transform.iter().enumerate().map(term).collect();
+    let mut left_out = 0.0;
+    while terms.len() > 1 {
+        left_out += terms.last().map_or(0.0, |term| term.weight.norm());
+        if left_out > SHARE * wanted && (terms.len() <= most || wanted <= LOOSEST) {
+            break;
+        }
+        terms.pop();
+    }
+    Ok(terms)
+}
+
+/// Beyond, coefficients are not even looked at.
+const MOST_LOOKED_AT: usize = 20_000;
+
+/// Adds ∫ g(ξ) e^{-s_k ξ} dξ of a Gaussian g for each k.
+fn add(transform: &mut [Complex<f64>], g: &Gaussian, damping: f64, spacing: f64) {
+    let size = g.amplitude * g.width * TAU.sqrt();
+    let mut turn = Complex::<f64>::ONE;
+    let once = Complex::from_polar(1.0, -spacing * g.center);
+    for (k, value) in transform.iter_mut().enumerate() {
+        let (re, im) = (damping, -spacing * k as f64);
+        let log = 0.5 * g.width.powi(2) * (re * re - im * im) + re * g.center;
+        if log < -700.0 {
+            return;
+        }
+        let phase = g.width.powi(2) * re * im;
+        *value += turn * Complex::from_polar(size * log.exp(), phase);
+        turn *= once;
+    }
+}
+
+/// The largest wave number that f' has waves of, to this accuracy.
+pub(super) fn band(tip: &TipFunction, wanted: f64) -> Result<f64, FitError> {
+    let waves = terms(tip, wanted, MOST_LOOKED_AT)?;
+    Ok(waves.iter().map(|term| term.exponent.im).fold(0.0, f64::max))
+}
+
+/// What is left of a lattice's exponentials at this distance; of a sum of other exponents, 0.
+pub(super) fn left(fit: &Fit, distance: f64) -> f64 {
+    let rates = || fit.terms().iter().map(|term| term.exponent.re);
+    let (fastest, slowest) = (rates().fold(0.0, f64::min), rates().fold(f64::MIN, f64::max));
+    if fit.terms().len() > 1 && fastest >= slowest { (slowest * distance).exp() } else { 0.0 }
+}

@@ -1,0 +1,15 @@
+//! The Floquet multipliers: eigenvalues of the monodromy matrix.
+
+use nalgebra::DMatrix;
+use num_complex::Complex;
+use stickslip_tip::eigenvalues;
+
+/// By falling modulus, of a pair the one above the real axis first. `None` where there are none to be had.
+pub(super) fn multipliers(monodromy: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let mut found = eigenvalues(monodromy)?;
+    found.sort_by(|a, b| {
+        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
+        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
+    });
+    Some(found)
+}

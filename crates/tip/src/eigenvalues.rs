@@ -1,0 +1,335 @@
+//! Eigenvalues of a real matrix: balancing, its range, Hessenberg form, Francis's QR iteration.
+//!
+//! Matrices here are graded over dozens of orders of magnitude. Of the exponentials that carry the past most
+//! have faded after a period, and a monodromy matrix maps the whole state to the few directions in which a
+//! deviation can still be; what is left are zeros but for round-off. So the matrix is reduced to its range
+//! first: with the columns of V an orthonormal basis of it, M V = V (Vᵀ M V), and the eigenvalues but zero are
+//! those of the small matrix Vᵀ M V. Every entry that is negligible is set to zero where it is judged to be,
+//! shifts change when they do not help, and work is bounded.
+//!
+//! References: Golub & Van Loan, *Matrix Computations*, sections 5.2 and 7.5; Parlett & Reinsch, Numer. Math.
+//! 13, 293 (1969).
+
+use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
+use num_complex::Complex;
+
+/// What is smaller, in parts of the largest column, is round-off.
+const ROUND_OFF: f64 = 1e-15;
+/// Sweeps for one eigenvalue or pair; ordinary matrices need two or three.
+const MOST_SWEEPS: usize = 90;
+/// After so many without success the shifts are not those of the corner for once.
+const SWEEPS_PER_STALL: usize = 10;
+/// From here on an entry that is negligible in the whole matrix is so everywhere.
+const PATIENCE: usize = 40;
+
+/// All eigenvalues, of a conjugate pair the one above the real axis first; to about round-off of the norm
+/// of the balanced matrix. `None` where an entry is not finite, or the iteration does not end.
+///
+/// ```
+/// use nalgebra::DMatrix;
+/// let turn = DMatrix::from_row_slice(2, 2, &[0.0, -1.0, 1.0, 0.0]);
+/// let found = stickslip_tip::eigenvalues(turn).unwrap();
+/// assert!((found[0].im - 1.0).abs() < 1e-15 && (found[1].im + 1.0).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let largest = matrix.amax();
+    if !matrix.is_square() || !matrix.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    if largest <= 0.0 {
+        return Some(vec![Complex::ZERO; matrix.nrows()]);
+    }
+    matrix /= largest;
+    balance(&mut matrix);
+    let rows = matrix.nrows();
+    let basis = range(matrix.clone());
+    let reduced = if basis.ncols() < rows { basis.tr_mul(&matrix) * basis } else { matrix };
+    let upper = if reduced.nrows() > 2 { Hessenberg::new(reduced).unpack_h() } else { reduced };
+    let mut found = Deflation::new(upper).eigenvalues()?;
+    found.resize(rows, Complex::ZERO);
+    Some(found.into_iter().map(|value| value * largest).collect())
+}
+
+/// An orthonormal basis of what the columns span, by Gram and Schmidt, the largest column first.
+fn range(mut left: DMatrix<f64>) -> DMatrix<f64> {
+    let (rows, columns) = left.shape();
+    let mut basis: Vec<DVector<f64>> = vec![];
+    let mut least = 0.0;
+    while basis.len() < columns {
+        let sizes = left.column_iter().map(|column| column.norm());
+        let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((at, size)) = largest.filter(|(_, size)| *size > least) else { break };
+        if basis.is_empty() {
+            least = ROUND_OFF * size;
+        }
+        let mut column: DVector<f64> = left.column(at).into_owned();
+        // Once more: what round-off left of the others in it.
+        for other in &basis {
+            column -= other * other.dot(&column);
+        }
+        column.normalize_mut();
+        let shares = left.tr_mul(&column);
+        left -= &column * shares.transpose();
+        basis.push(column);
+    }
+    if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
+}
+
+/// Rows and columns of equal size, by a diagonal similarity in powers of two.
+fn balance(matrix: &mut DMatrix<f64>) {
+    const MOST_ROUNDS: usize = 100;
+    const GAIN: f64 = 0.95;
+    for _ in 0..MOST_ROUNDS {
+        let mut settled = true;
+        for i in 0..matrix.nrows() {
+            let beside = matrix[(i, i)].abs();
+            let row = matrix.row(i).iter().map(|e| e.abs()).sum::<f64>() - beside;
+            let column = matrix.column(i).iter().map(|e| e.abs()).sum::<f64>() - beside;
+            if !(row.is_normal() && column.is_normal()) {
+                continue;
+            }
+            // f² = row / column: both become their geometric mean.
+            let factor = (0.5 * (row.log2() - column.log2())).round().clamp(-200.0, 200.0).exp2();
+            if column * factor + row / factor < GAIN * (column + row) {
+                settled = false;
+                matrix.row_mut(i).scale_mut(1.0 / factor);
+                matrix.column_mut(i).scale_mut(factor);
+            }
+        }
+        if settled {
+            return;
+        }
+    }
+}
+
+/// A Hessenberg matrix, of whose upper left corner eigenvalues are still wanted.
+struct Deflation {
+    h: DMatrix<f64>,
+    norm: f64,
+}
+
+impl Deflation {
+    fn new(h: DMatrix<f64>) -> Self {
+        let norm = h.norm();
+        Self { h, norm }
+    }
+
+    fn eigenvalues(mut self) -> Option<Vec<Complex<f64>>> {
+        let mut found = vec![Complex::ZERO; self.h.nrows()];
+        let (mut end, mut sweeps) = (self.h.nrows(), 0);
+        while end > 0 {
+            let start = self.start_of_block(end, sweeps > PATIENCE);
+            match end - start {
+                1 => found[start] = self.h[(start, start)].into(),
+                2 => found[start..end].copy_from_slice(&self.pair(start)),
+                _ if sweeps == MOST_SWEEPS => return None,
+                _ => {
+                    sweeps += 1;
+                    self.sweep(start, end, sweeps.is_multiple_of(SWEEPS_PER_STALL));
+                    continue;
+                }
+            }
+            (end, sweeps) = (start, 0);
+        }
+        Some(found)
+    }
+
+    /// Where the last block that does not fall apart starts; what couples it to the rest becomes zero.
+    fn start_of_block(&mut self, end: usize, in_a_hurry: bool) -> usize {
+        for i in (1..end).rev() {
+            let beside = self.h[(i, i)].abs() + self.h[(i - 1, i - 1)].abs();
+            let scale = if in_a_hurry || beside <= 0.0 { self.norm } else { beside };
+            if self.h[(i, i - 1)].abs() <= f64::EPSILON * scale {
+                self.h[(i, i - 1)] = 0.0;
+                return i;
+            }
+        }
+        0
+    }
+
+    /// Those of the two by two block from here.
+    fn pair(&self, i: usize) -> [Complex<f64>; 2] {
+        let (a, d) = (self.h[(i, i)], self.h[(i + 1, i + 1)]);
+        let product = self.h[(i, i + 1)] * self.h[(i + 1, i)];
+        let half = 0.5 * (a - d);
+        let discriminant = half * half + product;
+        if discriminant < 0.0 {
+            let (re, im) = (0.5 * (a + d), (-discriminant).sqrt());
+            return [Complex::new(re, im), Complex::new(re, -im)];
+        }
+        // The one farther from d, and by their product the other, so that nothing cancels.
+        let far = half + discriminant.sqrt().copysign(half);
+        let near = if far.abs() > 0.0 { d - product / far } else { d };
+        [(d + far).into(), near.into()]
+    }
+
+    /// One double-shift step of the QR iteration on the block.
+    fn sweep(&mut self, start: usize, end: usize, stalled: bool) {
+        let mut column = self.first_column(start, end, stalled);
+        for k in start..end - 1 {
+            let rows = (end - k).min(3);
+            if k > start {
+                column =
+                    std::array::from_fn(|i| if i < rows { self.h[(k + i, k - 1)] } else { 0.0 });
+            }
+            let Some((reflector, head)) = reflector(&column) else { continue };
+            if k > start {
+                self.h[(k, k - 1)] = head;
+                (1..rows).for_each(|i| self.h[(k + i, k - 1)] = 0.0);
+            }
+            self.reflect(&reflector[..rows], k, (start, end));
+        }
+    }
+
+    /// Proportional to the first column of (H - a)(H - b), a and b the shifts.
+    fn first_column(&self, start: usize, end: usize, stalled: bool) -> [f64; 3] {
+        let h = |i: usize, k: usize| self.h[(i, k)];
+        let last = end - 1;
+        let (mut a, mut b) = (h(last, last), h(last - 1, last - 1));
+        let mut product = h(last, last - 1) * h(last - 1, last);
+        if stalled {
+            // A pair beside the corner, at the distance of what couples it to the rest.
+            let coupling = h(last, last - 1).abs() + h(last - 1, last - 2).abs();
+            a += 0.75 * coupling;
+            b = a;
+            product = -0.4375 * coupling * coupling;
+        }
+        let (a, b) = (a - h(start, start), b - h(start, start));
+        [
+            (a * b - product) / h(start + 1, start) + h(start, start + 1),
+            h(start + 1, start + 1) - h(start, start) - a - b,
+            h(start + 2, start + 1),
+        ]
+    }
+
+    /// Applies the reflection 1 - 2vvᵀ/vᵀv in the rows, and columns, from k on, within the block.
+    fn reflect(&mut self, v: &[f64], k: usize, (start, end): (usize, usize)) {
+        let factor = 2.0 / v.iter().map(|v| v * v).sum::<f64>();
+        for column in k..end {
+            let along: f64 = v.iter().enumerate().map(|(i, v)| v * self.h[(k + i, column)]).sum();
+            for (i, v) in v.iter().enumerate() {
+                self.h[(k + i, column)] -= factor * along * v;
+            }
+        }
+        for row in start..(k + 4).min(end) {
+            let along: f64 = v.iter().enumerate().map(|(i, v)| v * self.h[(row, k + i)]).sum();
+            for (i, v) in v.iter().enumerate() {
+                self.h[(row, k + i)] -= factor * along * v;
+            }
+        }
+    }
+}
+
+/// v of the reflection that leaves nothing of a vector but its first entry, and that entry; `None` for the
+/// zero vector.
+fn reflector(vector: &[f64; 3]) -> Option<([f64; 3], f64)> {
+    let scale = vector.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    if scale <= 0.0 {
+        return None;
+    }
+    let mut v = vector.map(|v| v / scale);
+    let length = v.iter().map(|v| v * v).sum::<f64>().sqrt().copysign(v[0]);
+    v[0] += length;
+    Some((v, -length * scale))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha20Rng;
+
+    fn sorted(mut values: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
+        values.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+        values
+    }
+
+    /// Block diagonal of these values (pairs by the one above the axis), in a random basis of sheared axes.
+    fn with_eigenvalues(upper: &[Complex<f64>], rng: &mut ChaCha20Rng) -> DMatrix<f64> {
+        let n = upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum();
+        let (mut matrix, mut i) = (DMatrix::zeros(n, n), 0);
+        for z in upper {
+            matrix[(i, i)] = z.re;
+            if z.im > 0.0 {
+                matrix[(i + 1, i + 1)] = z.re;
+                (matrix[(i, i + 1)], matrix[(i + 1, i)]) = (z.im, -z.im);
+                i += 1;
+            }
+            i += 1;
+        }
+        let basis = DMatrix::from_fn(n, n, |_, _| rng.random_range(-1.0..1.0)).qr().q();
+        let shear = DMatrix::from_fn(n, n, |i, k| match k.cmp(&i) {
+            std::cmp::Ordering::Less => 0.0,
+            std::cmp::Ordering::Equal => 1.0,
+            std::cmp::Ordering::Greater => rng.random_range(-0.3..0.3),
+        });
+        let basis = basis * shear;
+        let inverse = basis.clone().try_inverse().unwrap();
+        basis * matrix * inverse
+    }
+
+    #[test]
+    fn known_eigenvalues_are_found() {
+        let mut rng = ChaCha20Rng::seed_from_u64(1);
+        for n in 1..=24 {
+            let value = |i: usize, rng: &mut ChaCha20Rng| {
+                let size = 10_f64.powf(-0.2 * i as f64);
+                let im: f64 = rng.random_range(-1.0..1.0);
+                Complex::new(size * rng.random_range(-1.0..1.0), (size * im).max(0.0))
+            };
+            let upper: Vec<_> = (0..n).map(|i| value(i, &mut rng)).collect();
+            let wanted =
+                upper.iter().flat_map(|z| if z.im > 0.0 { vec![*z, z.conj()] } else { vec![*z] });
+            let found = sorted(eigenvalues(with_eigenvalues(&upper, &mut rng)).unwrap());
+            for (a, b) in found.iter().zip(sorted(wanted.collect())) {
+                assert!((a - b).norm() < 1e-11, "{n}: {a} for {b}");
+            }
+        }
+    }
+
+    /// What a monodromy matrix is: a few directions that matter, all others zero but for round-off, in
+    /// scales dozens of orders apart.
+    #[test]
+    fn graded_matrices_of_low_rank_end() {
+        let mut rng = ChaCha20Rng::seed_from_u64(2);
+        for case in 0..400 {
+            let n = 3 + case % 90;
+            let rank = 1 + case % 7;
+            let mut entry = |_: usize, _: usize| rng.random_range(-1.0..1.0);
+            let (left, right) =
+                (DMatrix::from_fn(n, rank, &mut entry), DMatrix::from_fn(rank, n, &mut entry));
+            let mut matrix = left * right;
+            let steepness = f64::from(u32::try_from(case % 5).unwrap());
+            for i in 0..n {
+                let scale = (-steepness * i as f64).exp2();
+                matrix.row_mut(i).scale_mut(scale);
+                matrix.column_mut(i).scale_mut(1.0 / scale);
+            }
+            let found = eigenvalues(matrix.clone()).unwrap();
+            let trace: f64 = found.iter().map(|z| z.re).sum();
+            let size = found.iter().map(|z| z.norm()).fold(1.0, f64::max);
+            assert!((trace - matrix.trace()).abs() < 1e-10 * size, "{case}: {trace}");
+            let left_over = found.iter().filter(|z| z.norm() > 1e-9 * size).count();
+            assert!(
+                left_over <= rank,
+                "{case}: {left_over} eigenvalues of a matrix of rank {rank}"
+            );
+        }
+    }
+
+    /// The cyclic shift, whose corner never tells a shift that helps; the zero matrix; what is no matrix.
+    #[test]
+    fn matrices_that_stall_end_too() {
+        for n in 1..40 {
+            let shift = DMatrix::from_fn(n, n, |i, k| if (k + 1) % n == i { 1.0 } else { 0.0 });
+            let found = eigenvalues(shift).unwrap();
+            assert!(found.iter().all(|z| (z.norm() - 1.0).abs() < 1e-12), "{n}: {found:?}");
+            let nilpotent = DMatrix::from_fn(n, n, |i, k| if k == i + 1 { 1e200 } else { 0.0 });
+            assert!(eigenvalues(nilpotent).unwrap().iter().all(|z| z.norm() <= 0.0));
+        }
+        assert_eq!(eigenvalues(DMatrix::zeros(4, 4)).unwrap(), [Complex::ZERO; 4]);
+        assert!(eigenvalues(DMatrix::from_element(3, 3, f64::NAN)).is_none());
+        assert_eq!(eigenvalues(DMatrix::zeros(0, 0)).unwrap(), []);
+    }
+}

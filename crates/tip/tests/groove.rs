@@ -39,6 +39,15 @@ fn each(judge: impl Fn(&TipFunction, MemoryChoice, &mut Policy)) {
     }
 }
 
+/// What a sum may miss: round-off, but for a sum of exponentials that fit f' to 1e-10 (and its integral, twice
+/// over a path of many widths, to less).
+fn allowed(choice: MemoryChoice) -> f64 {
+    match choice {
+        MemoryChoice::Direct | MemoryChoice::Fft => 1e-11,
+        MemoryChoice::Auto | MemoryChoice::Modes => 3e-8,
+    }
+}
+
 /// Heights, slopes and curvatures.
 fn told(memory: &mut Policy, at: &[f64]) -> [Vec<f64>; 3] {
     let [mut height, mut slope, mut curvature] = [(); 3].map(|()| vec![f64::NAN; at.len()]);
@@ -55,9 +64,15 @@ fn a_tip_that_stands_deepens_its_own_shape() {
         let [height, slope, curvature] = told(memory, &AT);
         for (i, x) in AT.into_iter().enumerate() {
             let (f1, f2) = tip.slope_and_curvature(x);
-            assert!((height[i] - 40.0 * tip.value(x)).abs() < 3e-8, "{tip:?} {choice:?} {x}");
-            assert!((slope[i] - 40.0 * f1).abs() < 1e-8, "{tip:?} {choice:?} {x}");
-            assert!((curvature[i] - 40.0 * f2).abs() < 1e-7, "{tip:?} {choice:?} {x}");
+            assert!(
+                (height[i] - 40.0 * tip.value(x)).abs() < allowed(choice),
+                "{tip:?} {choice:?} {x}"
+            );
+            assert!((slope[i] - 40.0 * f1).abs() < allowed(choice), "{tip:?} {choice:?} {x}");
+            assert!(
+                (curvature[i] - 40.0 * f2).abs() < 10.0 * allowed(choice),
+                "{tip:?} {choice:?} {x}"
+            );
         }
     });
 }
@@ -76,14 +91,14 @@ fn a_tip_that_passes_at_constant_speed_leaves_the_integral_of_its_shape() {
             let (here, there) = (x, x + length);
             let exact = (tip.tail(here) - tip.tail(there)) / v;
             assert!(
-                (height[i] - exact).abs() < 1e-9,
+                (height[i] - exact).abs() < allowed(choice),
                 "{tip:?} {choice:?} {x} {}",
                 height[i] - exact
             );
             let exact = (tip.value(there) - tip.value(here)) / v;
-            assert!((slope[i] - exact).abs() < 1e-9, "{tip:?} {choice:?} {x}");
+            assert!((slope[i] - exact).abs() < allowed(choice), "{tip:?} {choice:?} {x}");
             let exact = (tip.slope(there) - tip.slope(here)) / v;
-            assert!((curvature[i] - exact).abs() < 1e-9, "{tip:?} {choice:?} {x}");
+            assert!((curvature[i] - exact).abs() < allowed(choice), "{tip:?} {choice:?} {x}");
         }
     });
 }
@@ -113,12 +128,12 @@ fn a_tip_that_comes_and_goes_is_the_quadrature_over_its_motion() {
             };
             let exact = integral(&|xi| tip.value(xi));
             assert!(
-                (height[i] - exact).abs() < 1e-8,
+                (height[i] - exact).abs() < allowed(choice),
                 "{tip:?} {choice:?} {x} {}",
                 height[i] - exact
             );
             let exact = integral(&|xi| tip.slope(xi));
-            assert!((slope[i] - exact).abs() < 1e-8, "{tip:?} {choice:?} {x}");
+            assert!((slope[i] - exact).abs() < allowed(choice), "{tip:?} {choice:?} {x}");
         }
     });
 }
@@ -136,7 +151,12 @@ fn slices_may_be_of_any_length() {
         for (i, x) in AT.into_iter().enumerate() {
             let alone = told(&mut other, &[x]);
             for (a, b) in together.iter().zip(alone) {
-                assert!((a[i] - b[0]).abs() < 1e-8, "{tip:?} {choice:?} {x}: {} {}", a[i], b[0]);
+                assert!(
+                    (a[i] - b[0]).abs() < allowed(choice),
+                    "{tip:?} {choice:?} {x}: {} {}",
+                    a[i],
+                    b[0]
+                );
             }
         }
     });

@@ -89,7 +89,7 @@ impl InitialSurface {
     /// Where the given profile and the noise end, if there are any.
     #[must_use]
     pub fn texture_ends(&self) -> Option<f64> {
-        self.splines().into_iter().flatten().map(CubicSpline::last).reduce(f64::max)
+        self.reliefs.iter().filter_map(Relief::end).reduce(f64::max)
     }
 
     /// Position of the tip whose steady past, (24), is part of u0.

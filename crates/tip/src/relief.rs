@@ -123,6 +123,14 @@ impl Relief {
         }
     }
 
+    /// Where it ends, if it is one with breaks.
+    pub(crate) fn end(&self) -> Option<f64> {
+        match &self.0 {
+            Shape::SteadyPast(_) => None,
+            Shape::Spline(spline) => Some(spline.last()),
+        }
+    }
+
     /// Whether it has a slope at x.
     pub(crate) fn covers(&self, x: f64) -> bool {
         match &self.0 {

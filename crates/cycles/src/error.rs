@@ -43,6 +43,9 @@ pub enum CycleError {
         /// αc(r).
         critical: f64,
     },
+    /// Nobody waits for it any more: [`stickslip_tip::stop`].
+    #[error("stopped before a cycle was found")]
+    Stopped,
     /// Runs did not come near a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",

@@ -19,6 +19,7 @@ mod experiment;
 mod extreme_numbers;
 mod figures;
 mod image_files;
+mod interrupts;
 mod refusals;
 mod resume;
 mod stability_commands;

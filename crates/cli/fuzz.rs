@@ -8,7 +8,7 @@
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
 use crate::arguments::{Cli, Command, ModelArguments};
-use crate::commands::sweep::{diagram, merge};
+use crate::commands::sweep::merge;
 use crate::commands::{model, run};
 use crate::files::input::{parse_profile, parse_tip};
 use crate::files::lines::Lines;
@@ -18,6 +18,7 @@ use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip_documents::{RunDocument, SweepDocument};
+use stickslip_figures::{self as figures, Size, View};
 use stickslip_outcome::Watched;
 use stickslip_surface::Surface;
 use stickslip_tip::{Force, InitialSurface};
@@ -253,9 +254,9 @@ fn any_sweep_is_taken_or_refused() {
     fuzz("sweep", |text| {
         let sweep = stickslip_documents::read::<SweepDocument>(text, SweepDocument::FORMAT);
         let Ok(sweep) = sweep else { return false };
-        let is_whole = merge::complete(&sweep.parameters, &sweep.points).is_ok();
-        if is_whole && diagram::judge(&sweep.parameters).is_ok() {
-            diagram::draw(&sweep.parameters, &sweep.points);
+        let _ = merge::complete(&sweep.parameters, &sweep.points);
+        if let Ok(figure) = figures::of(&sweep, &View::default()) {
+            figures::svg(&figure, &Size::default()).unwrap();
         }
         true
     });

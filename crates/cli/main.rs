@@ -15,7 +15,6 @@ mod files;
 mod fuzz;
 mod interrupt;
 mod message;
-mod plot;
 
 use arguments::{Cli, Command};
 use clap::Parser;
@@ -47,6 +46,7 @@ fn main() -> ExitCode {
         Command::Continue(arguments) => commands::continuation::follow(arguments),
         Command::Sweep(arguments) => commands::sweep::sweep(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
+        Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };

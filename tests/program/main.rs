@@ -20,6 +20,7 @@ mod extreme_numbers;
 mod figures;
 mod image_files;
 mod interrupts;
+mod pictures;
 mod refusals;
 mod resume;
 mod stability_commands;

@@ -225,8 +225,8 @@ fn places_that_cannot_be_written_are_found_before_the_run() {
         ("--output", "folder", ".json, .csv, .jsonl or .npz will do"),
         ("--plot", "none/run.svg", "choose a place that exists"),
         ("--plot", "folder.svg", "choose a place"),
-        ("--plot", "run.pdf", ".svg or .png"),
-        ("--plot", "-", ".svg or .png"),
+        ("--plot", "run.jpg", ".svg, .png or .pdf"),
+        ("--plot", "-", ".svg, .png or .pdf"),
     ];
     for (option, place, advice) in cases {
         let named = format!("{option} {place}");
@@ -268,7 +268,7 @@ fn surfaces_that_cannot_be_had_are_refused() {
         ("--spacing 1e-300", &["--spacing 1e-300", "or above will do"]),
         ("--range -1e300,1e300", &["--spacing 0.05", "or above will do"]),
         ("-o none/u.json", &["--output none/u.json", "choose a place"]),
-        ("--plot u.pdf", &["--plot u.pdf", ".svg or .png"]),
+        ("--plot u.jpg", &["--plot u.jpg", ".svg, .png or .pdf"]),
     ];
     for (options, words) in cases {
         folder.refuses(&format!("surface run.json {options}"), words);

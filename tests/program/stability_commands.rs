@@ -338,7 +338,7 @@ fn unusable_input_is_refused_by_name_with_advice_and_nothing_on_standard_output(
         ("stability --r 1 --alpha -1", "--alpha -1", "0 or above"),
         ("stability --r 1 --roots 0", "--roots 0", "1 to 1000"),
         ("stability --r 1 --re-above=-1e9", "--re-above -1e9", "-50.000 or above"),
-        ("stability --r 1 --plot roots.pdf", "--plot roots.pdf", ".svg or .png"),
+        ("stability --r 1 --plot roots.jpg", "--plot roots.jpg", ".svg, .png or .pdf"),
         ("stability --r 1 -o roots.txt", "--output roots.txt", ".json, .csv or .npz"),
         ("stability --r 1e-12 --alpha 1", "--alpha 1 --r 1e-12", "alpha/r²"),
         ("boundary --r-range 3,1", "--r-range 3,1", "LO below HI"),

@@ -186,7 +186,7 @@ fn the_picture_of_a_row_shows_steady_and_trapped_tips_too() {
     let folder = Folder::new("sweep_row");
     folder.prints("sweep --r 1 --alpha 0.9:2.4:6 -o row.json --plot row.svg");
     let picture = String::from_utf8(folder.read("row.svg")).unwrap();
-    for name in ["steady (foot: no value)", "one slip a period", "trapped (foot: no value)"] {
+    for name in ["steady (no value)", "one slip a period", "trapped (no value)"] {
         assert!(picture.contains(name), "{name}");
     }
 }

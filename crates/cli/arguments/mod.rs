@@ -8,6 +8,7 @@ mod disturbance;
 mod figures;
 mod model;
 mod named;
+mod plot;
 mod response;
 mod run;
 mod sampling;
@@ -25,6 +26,7 @@ pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
+pub(crate) use plot::PlotArguments;
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
@@ -63,6 +65,7 @@ const EXAMPLES: &str = "Examples:
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
   stickslip schema run
 
@@ -81,6 +84,7 @@ pub(crate) enum Command {
     Continue(ContinueArguments),
     Sweep(SweepArguments),
     Units(UnitsArguments),
+    Plot(PlotArguments),
     Figures(FiguresArguments),
     Schema(SchemaArguments),
 }

@@ -2,8 +2,8 @@
 
 use super::named::named;
 use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
-use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use clap::{Arg, Args, ValueEnum};
+use std::path::{Path, PathBuf};
 use stickslip_documents::{MemoryName, RunFormat};
 
 /// Which part of the dense history a document holds.
@@ -17,7 +17,7 @@ pub(crate) enum HistoryName {
 
 /// Integrate the tip's motion, and say what became of it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required_unless_present("resume")))]
+#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required_unless_present("resume")), mut_args(not_on_resume))]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -58,9 +58,9 @@ pub(crate) struct RunArguments {
 
     /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
     /// arrays, .jsonl for samples written as the run passes them, in memory that does not grow; `-` is
-    /// standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    /// standard output [default: -].
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
 
     /// What is written, whatever the name of the file [default: by its extension; json on standard
     /// output].
@@ -95,10 +95,25 @@ pub(crate) struct RunArguments {
     )]
     pub(crate) checkpoint_every: Option<f64>,
 
-    /// Go on where the checkpoint FILE was made, and write what the run would have written: all other
-    /// options are those in FILE.
-    #[arg(long, value_name = "FILE", exclusive = true, help_heading = "Long runs")]
+    /// Go on where the checkpoint FILE was made, and write what the run would have written, to the files that it
+    /// names if they are in its folder, or else to -o and --plot; all other options are those in FILE.
+    #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) resume: Option<PathBuf>,
+}
+
+impl RunArguments {
+    /// Where the run is written to.
+    pub(crate) fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new("-"))
+    }
+}
+
+/// A checkpoint holds all options; only where the run is written to can be another place than then.
+fn not_on_resume(argument: Arg) -> Arg {
+    match argument.get_id().as_str() {
+        "resume" | "output" | "plot" => argument,
+        _ => argument.conflicts_with("resume"),
+    }
 }
 
 const EXAMPLES: &str = "Examples:

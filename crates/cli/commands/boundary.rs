@@ -1,6 +1,6 @@
 //! `stickslip boundary`.
 
-use super::figure::Figure;
+use super::figure::{Figure, undrawn};
 use super::model::tip;
 use super::progress::Progress;
 use crate::arguments::BoundaryArguments;
@@ -8,12 +8,11 @@ use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use std::f64::consts::PI;
 use stickslip_documents::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, FORMAT_VERSION, OnsetColumns, Software,
-    SpacingName,
+    BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Software, SpacingName,
 };
+use stickslip_figures::Size;
 use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::TipFunction;
 
@@ -40,10 +39,11 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
 
     let document = document(arguments, &tip, range)?;
     if let Some(figure) = plot {
-        figure.write(&draw(&document))?;
+        figure.draw(&document)?;
     }
     if let Some(figure) = plot_onset {
-        figure.write(&draw_onset(&document))?;
+        let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
+        figure.write(&onset, &Size::default())?;
     }
     write(&document, format, output)
 }
@@ -164,25 +164,4 @@ fn csv(document: &BoundaryDocument) -> String {
     };
     let heading = "Omega,r,alpha,amplitude_squared_slope,period_slope,lyapunov\n";
     std::iter::once(heading.to_owned()).chain((0..r.len()).map(row)).collect()
-}
-
-fn draw(document: &BoundaryDocument) -> String {
-    let BoundaryDocument { r, alpha, branches, .. } = document;
-    let turns = |b: &BranchDocument| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
-    let several = branches.len() > 1 || branches.iter().any(turns);
-    let further: Vec<(&[f64], &[f64])> =
-        branches.iter().filter(|_| several).map(|b| (b.r.as_slice(), b.alpha.as_slice())).collect();
-    plot::boundary("Where steady motion is stable", r, alpha, &further)
-}
-
-fn draw_onset(document: &BoundaryDocument) -> String {
-    let slopes = &document.onset.amplitude_squared_slope;
-    // d ln α/d(a²): the excess over αc, in parts of it, for an amplitude of 1.
-    let excess: Vec<f64> = slopes
-        .iter()
-        .zip(&document.alpha)
-        .map(|(slope, alpha)| slope.map_or(f64::NAN, |slope| 1.0 / (slope * alpha)))
-        .collect();
-    let logarithmic = document.parameters.spacing == SpacingName::Logarithmic;
-    plot::onset("What is born at the boundary", &document.r, &excess, logarithmic)
 }

@@ -1,7 +1,6 @@
 //! `stickslip compare`.
 
 mod closed;
-mod draw;
 mod grid;
 mod pace;
 
@@ -40,7 +39,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
         say(summary(&document));
     }
     if let Some(figure) = figure {
-        figure.write(&draw::draw(&document)?)?;
+        figure.draw(&document)?;
     }
     write(&document, format, output)
 }

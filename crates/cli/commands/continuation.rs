@@ -14,11 +14,10 @@ use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
 use crate::message::say_lines;
-use crate::plot;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
-use stickslip_documents::{ContinueDocument, CycleBranch, OverName, SpecialDocument, SpecialName};
+use stickslip_documents::{ContinueDocument, CycleBranch, OverName};
 use stickslip_stability::trapping_alpha;
 use stickslip_tip::{TipFunction, stop};
 
@@ -32,7 +31,8 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let start = &arguments.start;
     let read =
         [("--tip-file", start.model.tip.tip_file.as_deref()), ("--from", start.from.as_deref())];
-    apart(&[("--output", Some(&*arguments.output))], &read)?;
+    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
+    apart(&written, &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
@@ -51,7 +51,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
     if let Some(figure) = figure {
-        figure.write(&draw(&document))?;
+        figure.draw(&document)?;
     }
     write(&document, format, output)?;
     if arguments.output != Path::new("-") {
@@ -248,52 +248,5 @@ fn write(document: &ContinueDocument, format: OutputFormat, output: Output) -> R
             }
             output.write_bytes(&npz.bytes()?)
         }
-    }
-}
-
-fn draw(document: &ContinueDocument) -> String {
-    let model = &document.parameters.model;
-    let over_alpha = document.parameters.over == OverName::Alpha;
-    let (title, label) = if over_alpha {
-        (format!("Cycles at r = {}", plot::seven_digits(model.r)), "α = ΓNa/(k²σ²)")
-    } else {
-        (format!("Cycles at α = {}", plot::seven_digits(model.alpha)), "r = Γv₀/(kσ)")
-    };
-    let parameter = |b: &CycleBranch| if over_alpha { b.alpha.clone() } else { b.r.clone() };
-    let columns: Vec<Vec<f64>> = document.branches.iter().map(parameter).collect();
-    let branch = |(b, x): (&'_ CycleBranch, &'_ Vec<f64>)| plot::BranchCurve {
-        parameter: x.clone(),
-        amplitude: b.amplitude_x0.clone(),
-        period: b.period.clone(),
-        stable: b.stable.clone(),
-    };
-    let special = |s: &SpecialDocument| plot::SpecialMark {
-        parameter: if over_alpha { s.alpha } else { s.r },
-        amplitude: s.amplitude_x0,
-        period: s.period,
-        name: name(s.kind),
-    };
-    plot::bifurcations(&plot::BifurcationFigure {
-        title: &title,
-        label,
-        branches: document.branches.iter().zip(&columns).map(branch).collect(),
-        // A doubled branch ends where the mark of the doubling is already.
-        special: document
-            .special
-            .iter()
-            .filter(|s| s.kind != SpecialName::PeriodHalving)
-            .map(special)
-            .collect(),
-    })
-}
-
-fn name(kind: SpecialName) -> &'static str {
-    match kind {
-        SpecialName::Hopf => "Hopf",
-        SpecialName::Fold => "fold",
-        SpecialName::PeriodDoubling => "period doubling",
-        SpecialName::PeriodHalving => "period halving",
-        SpecialName::BranchPoint => "branch point",
-        SpecialName::Torus => "torus",
     }
 }

@@ -9,26 +9,23 @@ use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use crate::message::say;
-use crate::plot;
 use start::Start;
 use std::path::Path;
 use std::time::Instant;
-use stickslip_cycles::Cycle;
 use stickslip_documents::{CycleDocument, CycleParameters, CycleProfile, ModelParameters};
-use stickslip_tip::Step;
 
 /// More do not fit in a picture, nor are they needed in a table.
 const MOST_POINTS: usize = 1_000_000;
-/// Points of the drawn surface.
-const DRAWN_POINTS: usize = 1000;
-/// Wavelengths of it.
-const DRAWN_WAVELENGTHS: f64 = 2.0;
 
 pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
+    let model = &arguments.start.model;
+    // Another cycle may take the place of the one that it came from; the same one again would be for nothing.
+    let is_another = model.r.or(model.alpha).or(model.alpha_above).is_some();
+    let from = arguments.start.from.as_deref().filter(|_| !is_another);
     apart(
-        &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.start.model.tip.tip_file.as_deref())],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
+        &[("--tip-file", model.tip.tip_file.as_deref()), ("--from", from)],
     )?;
     let start = Start::asked(&arguments.start)?;
     if !(1..=MOST_POINTS).contains(&arguments.points) {
@@ -47,7 +44,7 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let seconds = started.elapsed().as_secs_f64();
     let document = CycleDocument::of(&cycle, parameters, arguments.points, seconds);
     if let Some(figure) = figure {
-        figure.write(&draw(&document, &cycle))?;
+        figure.draw(&document)?;
     }
     write(&document, format, output)?;
     if arguments.output != Path::new("-") {
@@ -80,28 +77,4 @@ fn write(document: &CycleDocument, format: OutputFormat, output: Output) -> Resu
             output.write_bytes(&npz.bytes()?)
         }
     }
-}
-
-fn draw(document: &CycleDocument, cycle: &Cycle) -> String {
-    let model = cycle.model();
-    let stable = if document.stable { "stable" } else { "unstable" };
-    let [alpha, r, period] = [model.alpha(), model.r(), document.period].map(plot::seven_digits);
-    let title = format!("α = {alpha}, r = {r}: {stable} cycle, T = {period}");
-    let length = DRAWN_WAVELENGTHS * document.wavelength;
-    let x: Vec<f64> = (0..=DRAWN_POINTS).map(|i| length * i as f64 / DRAWN_POINTS as f64).collect();
-    // The steps are short where the motion is fast.
-    let nodes = &document.history.nodes;
-    let motion = cycle.motion();
-    let at = |step: &Step| [0.0].iter().chain(nodes).map(|c| step.t + step.h * c).collect();
-    let t: Vec<f64> = motion.steps().iter().flat_map::<Vec<f64>, _>(at).collect();
-    plot::cycle(&plot::CycleFigure {
-        title: &title,
-        l: &t.iter().map(|t| motion.l(*t)).collect::<Vec<_>>(),
-        velocity: &t.iter().map(|t| motion.velocity(*t)).collect::<Vec<_>>(),
-        t: &t,
-        steady_l: model.steady_l(),
-        r: model.r(),
-        u: &cycle.surface_behind(&x),
-        x: &x,
-    })
 }

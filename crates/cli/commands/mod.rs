@@ -6,6 +6,7 @@ pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
 pub(crate) mod model;
+pub(crate) mod plot;
 pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod schema;
@@ -16,5 +17,6 @@ pub(crate) mod units;
 pub(crate) mod verify;
 
 mod figure;
+mod number;
 mod progress;
 mod roots;

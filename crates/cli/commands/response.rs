@@ -12,7 +12,6 @@ use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use stickslip_documents::{
     FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
     ResponseSamples, Software,
@@ -28,7 +27,7 @@ const WIDTHS_OF_PULSE: f64 = 5.5;
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
-        &[("--output", Some(&*arguments.output))],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
         &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
     )?;
     let asked = Asked::of(arguments)?;
@@ -37,7 +36,7 @@ pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
 
     let document = document(arguments, &asked)?;
     if let Some(figure) = figure {
-        figure.write(&draw(&document))?;
+        figure.draw(&document)?;
     }
     write(&document, format, output)
 }
@@ -203,13 +202,4 @@ fn csv(samples: &ResponseSamples) -> String {
         format!("{},{},{}\n", samples.t[i], cell(samples.l[i]), cell(samples.deviation[i]))
     };
     std::iter::once("t,l,deviation\n".to_owned()).chain((0..samples.t.len()).map(row)).collect()
-}
-
-fn draw(document: &ResponseDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    let title = format!("Linear response, α = {alpha}, r = {r}");
-    let deviation = numbers(&document.samples.deviation);
-    let series = [(String::new(), document.samples.t.as_slice(), deviation.as_slice())];
-    plot::lines(&title, "t (Γ/k)", "l − l₀ (σ)", &series)
 }

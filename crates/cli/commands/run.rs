@@ -7,6 +7,7 @@ mod journey;
 pub(crate) mod limits;
 mod order;
 mod record;
+mod resume;
 pub(crate) mod samples;
 mod write;
 
@@ -18,7 +19,6 @@ use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::files::place::{Place, Target as File, place};
-use crate::files::rows::journal_of;
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
 use journey::Journey;
@@ -33,7 +33,7 @@ use write::Target;
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     match &arguments.resume {
         None => start(arguments),
-        Some(path) => resume(path),
+        Some(path) => resume::resume(path, arguments),
     }
 }
 
@@ -47,7 +47,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
-    let (target, sink) = open(&arguments.output, &order, checkpoint.as_ref().map(File::path))?;
+    let (target, sink) = open(arguments.output(), &order, checkpoint.as_ref().map(File::path))?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
 
     let mut record = record(&order, &scenario, sink);
@@ -62,37 +62,6 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
         seconds: 0.0,
     };
     journey.checkpoint()?;
-    let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target, figure)
-}
-
-/// Goes on where a checkpoint was made.
-fn resume(path: &Path) -> Result<(), Failure> {
-    let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
-    let checkpoint = file("--resume", path)?;
-    let (head, state) = checkpoint::read(path)?;
-    let order = head.order;
-    let scenario = order.parameters.scenario().map_err(|error| named(error.to_string()))?;
-    let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
-    let running = Watched::resumed(&scenario, &surface, &state);
-    let running = running.map_err(|error| named(error.to_string()))?;
-    let figure = Figure::asked("--plot", order.plot.as_deref())?;
-    let (target, record) = if order.format == RunFormat::Jsonl {
-        let target = file("--output", &order.output)?;
-        let whole = target.path().to_path_buf();
-        let stream = Stream::resume(target, head.written, &[whole])?;
-        let mut record = record(&order, &scenario, Sink::Lines(stream));
-        record.taken = head.samples;
-        (Target::Lines, record)
-    } else {
-        let output = Output::open("--output", &order.output)?;
-        let mut record = record(&order, &scenario, Sink::Memory);
-        record.resume(&journal_of(checkpoint.path()), head.written)?;
-        (Target::Document(output), record)
-    };
-    let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
-    let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, head.t));
-    let journey = Journey { running, record, checkpoints, seconds: head.seconds };
     let travelled = journey.travel(&scenario)?;
     write::all(&order, &scenario, &surface, travelled, target, figure)
 }

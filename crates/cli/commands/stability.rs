@@ -8,7 +8,6 @@ use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::plot;
 use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
     StabilityParameters, TrappingDocument,
@@ -24,7 +23,7 @@ const DEFAULT_ROOTS: usize = 10;
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let format = OutputFormat::of(&arguments.output)?;
     apart(
-        &[("--output", Some(&*arguments.output))],
+        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
         &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
     )?;
     let point = Point::asked(arguments)?;
@@ -34,7 +33,7 @@ pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
 
     let document = document(arguments, &point)?;
     if let Some(figure) = figure {
-        figure.write(&draw(&document))?;
+        figure.draw(&document)?;
     }
     write(&document, format, output)
 }
@@ -201,17 +200,4 @@ fn write(
             output.write_bytes(&npz.bytes()?)
         }
     }
-}
-
-fn draw(document: &StabilityDocument) -> String {
-    let model = &document.parameters.model;
-    let what = match (document.parameters.at_critical_point, document.stable) {
-        (true, _) => "critical",
-        (_, true) => "stable",
-        (_, false) => "unstable",
-    };
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    let title = format!("α = {alpha}, r = {r}: {what}");
-    let (re, im) = columns(document);
-    plot::roots(&title, &re, &im, document.certificate.largest_error)
 }

@@ -1,6 +1,5 @@
 //! `stickslip sweep`.
 
-pub(crate) mod diagram;
 mod finished;
 mod grid;
 pub(crate) mod merge;
@@ -32,10 +31,13 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(SweepThen::Merge(merged)) = &arguments.then {
         return merge::merge(merged);
     }
-    let grid = Grid::asked(arguments)?;
     let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let threads = threads(arguments)?;
-    apart(&[("--output", Some(output))], &[("--tip-file", arguments.tip_file.as_deref())])?;
+    apart(
+        &[("--output", Some(output)), ("--plot", plot)],
+        &[("--tip-file", arguments.tip_file.as_deref())],
+    )?;
+    let grid = Grid::asked(arguments)?;
     let writer = Writer::asked(output, plot, &grid.parameters)?;
     let finished = match writer.file() {
         Some(file) => Finished::beside(file, &grid.parameters)?,

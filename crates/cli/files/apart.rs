@@ -1,5 +1,6 @@
 //! Files of one command line that must not be the same.
 
+use super::beside;
 use super::place::resolved;
 use crate::failure::Failure;
 use std::path::Path;
@@ -7,26 +8,101 @@ use std::path::Path;
 /// An option, and the file that it names, if it was given.
 pub(crate) type Named<'a> = (&'static str, Option<&'a Path>);
 
-/// Refuses a file to be written that another option writes too, or reads: the later would put an end to
-/// the earlier.
+/// What is put after the name of a file that is written, for another that goes with it. No option may name such a
+/// one, whether or not the command at hand makes it.
+const ENDINGS: [&str; 3] = [".part", ".partial", ".journal"];
+
+/// Refuses a file to be written that another option writes too, or reads, or that goes with one: the later would
+/// put an end to the earlier. Under whatever name: links of both kinds are seen through.
 ///
 /// # Errors
 /// Names the option, and the one that it collides with.
 pub(crate) fn apart(written: &[Named], read: &[Named]) -> Result<(), Failure> {
+    let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {
         let Some(path) = path.filter(|path| is_file(path)) else { continue };
-        let others = read.iter().chain(&written[..place]);
-        let same =
-            |(_, other): &&Named| other.is_some_and(|other| resolved(other) == resolved(path));
-        if let Some((other, _)) = others.into_iter().find(same) {
+        let named = format!("{option} {}", path.display());
+        let before = &all[..read.len() + place];
+        if let Some((other, _)) = before.iter().find(|(_, other)| is(*other, path)) {
             let message = format!("is the file of {other}: give it a name of its own");
-            return Err(Failure::input(format!("{option} {}", path.display()), message));
+            return Err(Failure::input(named, message));
+        }
+        for ending in ENDINGS {
+            let companion = beside::with(&resolved(path), ending);
+            if let Some((other, Some(found))) = all.iter().find(|(_, other)| is(*other, &companion))
+            {
+                let message = format!(
+                    "{} is a name that goes with it, and the file of {other}: give either a name of its own",
+                    found.display()
+                );
+                return Err(Failure::input(named, message));
+            }
         }
     }
     Ok(())
 }
 
+fn is(other: Option<&Path>, path: &Path) -> bool {
+    other.is_some_and(|other| resolved(other) == resolved(path) || is_linked(other, path))
+}
+
+/// Two names of the same contents.
+#[cfg(unix)]
+fn is_linked(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let which = |path: &Path| {
+        path.metadata().ok().filter(|m| m.is_file()).map(|data| (data.dev(), data.ino()))
+    };
+    which(a).is_some_and(|a| which(b) == Some(a))
+}
+
+#[cfg(not(unix))]
+fn is_linked(_: &Path, _: &Path) -> bool {
+    false
+}
+
 /// Neither a standard stream nor a device or a pipe, which may well be named twice.
 fn is_file(path: &Path) -> bool {
     path != Path::new("-") && path.metadata().map_or(true, |m| m.is_file())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_file_is_known_under_all_of_its_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("a"), "").unwrap();
+        fs::create_dir(at("sub")).unwrap();
+        let mut pairs = vec![("a", "a"), ("a", "sub/../a"), ("new", "sub/../new")];
+        for ending in ENDINGS {
+            pairs.push(match ending {
+                ".part" => ("new", "new.part"),
+                ".partial" => ("sub/../new", "new.partial"),
+                _ => ("a", "a.journal"),
+            });
+        }
+        if cfg!(unix) {
+            fs::hard_link(at("a"), at("hard")).unwrap();
+            fs::write(at("a.part"), "").unwrap();
+            fs::hard_link(at("a.part"), at("hard part")).unwrap();
+            #[cfg(unix)]
+            std::os::unix::fs::symlink(at("a"), at("soft")).unwrap();
+            pairs.extend([("hard", "a"), ("soft", "a"), ("soft", "hard"), ("soft", "a.part")]);
+            pairs.push(("soft", "hard part"));
+        }
+        for (one, other) in pairs {
+            let (one, other) = (at(one), at(other));
+            let named = [("--one", Some(&*one)), ("--other", Some(&*other))];
+            assert!(apart(&named, &[]).is_err(), "{named:?}");
+            assert!(apart(&[named[1], named[0]], &[]).is_err(), "{named:?}");
+            assert!(apart(&named[..1], &named[1..]).is_err(), "{named:?}");
+            assert!(apart(&[], &named).is_ok());
+        }
+        let (one, other) = (at("a"), at("b"));
+        assert!(apart(&[("--one", Some(&one))], &[("--other", Some(&other)), ("-", None)]).is_ok());
+    }
 }

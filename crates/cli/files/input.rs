@@ -14,7 +14,7 @@ pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 /// Measured series are small; this is a million rows and more.
 const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
-pub(super) const LARGEST_DOCUMENT: u64 = 4 << 30;
+pub(crate) const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
@@ -177,10 +177,8 @@ pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
 
 /// The same, from a file that is open.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
-    let run = text_of(reader, LARGEST_DOCUMENT).and_then(|text| {
-        documents::read(&text, RunDocument::FORMAT).map_err(|error| error.to_string())
-    });
-    run.map_err(|message| Failure::input(format!("RUN.json {}", path.display()), message))
+    documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)
+        .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))
 }
 
 /// A document of this format, that of a command of the same name.
@@ -189,9 +187,14 @@ pub(crate) fn read_document<D: DeserializeOwned>(
     path: &Path,
     wanted: &str,
 ) -> Result<D, Failure> {
-    let text = read_text(option, path, LARGEST_DOCUMENT)?;
-    documents::read(&text, wanted)
-        .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
+    let named = format!("{option} {}", path.display());
+    let read = if path == Path::new("-") {
+        documents::read_from(io::stdin().lock().take(LARGEST_DOCUMENT), wanted)
+    } else {
+        let file = File::open(path).map_err(|error| Failure::input(&named, unreadable(error)))?;
+        documents::read_from(file.take(LARGEST_DOCUMENT), wanted)
+    };
+    read.map_err(|error| Failure::input(named, error))
 }
 
 #[cfg(test)]

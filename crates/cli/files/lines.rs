@@ -1,15 +1,17 @@
 //! A run written as lines, read again, line by line: none of them is kept.
 
-use super::input::{LARGEST_DOCUMENT, unreadable};
+use super::input::unreadable;
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::ops::RangeInclusive;
 use std::path::Path;
-use stickslip_documents::{Kind, RunEnd, RunHead, SampleLine};
+use stickslip_documents::{Kind, RunEnd, RunHead, SampleLine, kind_of};
 
-/// The first line may hold a profile and a table of the force; the others are short.
+/// All lines but the first are short.
 const LONGEST_LINE: u64 = 1 << 20;
+/// The first may hold a profile and a table of the force.
+const LONGEST_HEAD: u64 = 1 << 29;
 /// Enough of a file to tell what it is.
 const BEGINNING: u64 = 64;
 /// So many parts of itself, and of 1, the start of a run may be off that was computed on another machine.
@@ -125,6 +127,27 @@ impl<R: BufRead> Lines<R> {
         Ok(!self.line.is_empty())
     }
 
+    /// Goes to the first line, of which no more is read than tells that it is something else.
+    fn advance_to_head(&mut self) -> Result<(), Flaw> {
+        (self.line, self.number) = (vec![], 1);
+        loop {
+            let before = self.line.len();
+            let mut limited = (&mut self.reader).take(LONGEST_LINE);
+            limited.read_until(b'\n', &mut self.line).map_err(|e| Flaw::Damaged(unreadable(e)))?;
+            if self.line.len() == before || !self.is_broken_off() {
+                return Ok(());
+            }
+            if before == 0 && self.line.len() as u64 == LONGEST_LINE {
+                let kind =
+                    kind_of(&*self.line, RunHead::FORMAT).and_then(|k| k.judge(RunHead::FORMAT));
+                kind.map_err(|error| self.damaged(error))?;
+            }
+            if self.line.len() as u64 > LONGEST_HEAD {
+                return Err(self.damaged(format!("it is longer than {LONGEST_HEAD} bytes")));
+            }
+        }
+    }
+
     fn parse<D: DeserializeOwned>(&self) -> serde_json::Result<D> {
         serde_json::from_slice(&self.line)
     }
@@ -140,7 +163,7 @@ impl<R: BufRead> Lines<R> {
 
     /// The first line.
     pub(crate) fn head(&mut self) -> Result<RunHead, Flaw> {
-        self.advance(LARGEST_DOCUMENT)?;
+        self.advance_to_head()?;
         let kind: Kind = match self.parse() {
             Err(_) if self.is_broken_off() => return Err(Flaw::NoHead),
             kind => kind.map_err(|error| self.damaged(within(&error)))?,

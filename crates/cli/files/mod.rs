@@ -15,3 +15,4 @@ pub(crate) mod rows;
 mod special;
 pub(crate) mod stream;
 mod temporary;
+pub(crate) mod within;

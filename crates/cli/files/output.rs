@@ -53,6 +53,7 @@ impl OutputFormat {
 pub(crate) struct Output {
     path: PathBuf,
     place: Place,
+    remark: Option<String>,
 }
 
 impl Output {
@@ -61,7 +62,12 @@ impl Output {
     /// # Errors
     /// It cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
-        Ok(Self { path: path.into(), place: place(option, path)? })
+        Ok(Self { path: path.into(), place: place(option, path)?, remark: None })
+    }
+
+    /// Adds a comment at the end of a CSV file.
+    pub(crate) fn with_remark(self, remark: Option<String>) -> Self {
+        Self { remark, ..self }
     }
 
     /// Where it goes, links resolved; `None` for what is no file.
@@ -87,7 +93,11 @@ impl Output {
 
     /// Writes columns of equal length as CSV under their headings.
     pub(crate) fn write_csv(self, headings: &str, columns: &[&[f64]]) -> Result<(), Failure> {
-        self.write_with(|out| csv(out, headings, columns))
+        let remark = self.remark.clone();
+        self.write_with(|out| {
+            csv(out, headings, columns)?;
+            remark.iter().try_for_each(|remark| writeln!(out, "# {remark}"))
+        })
     }
 
     /// Writes what the function writes, through a buffer. What no file could be made of is kept elsewhere: it may

@@ -40,13 +40,13 @@ pub struct Order {
     pub parameters: RunParameters,
     /// When samples are taken.
     pub samples: Times,
-    /// File to write, `-` for standard output.
+    /// File to write, seen from the folder of the checkpoint; `-` for standard output.
     pub output: PathBuf,
     /// What is written.
     pub format: RunFormat,
     /// Whether the document holds the dense history.
     pub history: bool,
-    /// Figure to draw.
+    /// Figure to draw, seen from the folder of the checkpoint.
     pub plot: Option<PathBuf>,
     /// Whether the run is repeated to verify it.
     pub verify: bool,

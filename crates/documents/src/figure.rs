@@ -1,11 +1,14 @@
-//! `stickslip/figure`.
+//! `stickslip/figure`: figures as data, from which they are drawn.
 
-use crate::{ModelParameters, Software};
+use crate::{FORMAT_VERSION, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// All that a figure shows, in the order in which it is drawn. Lengths in σ, times in Γ/k, heights in
 /// kσ²/a.
+///
+/// In texts `_` sets the next character, or what stands in braces, below the line and `^` above it; `\_` and
+/// `\^` are the characters themselves.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureDocument {
@@ -23,13 +26,31 @@ pub struct FigureDocument {
     pub parameters: FigureParameters,
     /// What differs from the paper's figure, and why.
     pub remarks: Vec<String>,
-    /// From top to bottom.
+    /// From left to right and from top to bottom.
     pub panels: Vec<PanelDocument>,
+    /// How many panels of span 1 make a row; 1 where it is left out.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub columns: usize,
 }
 
 impl FigureDocument {
-    /// Its `format`.
+    /// "stickslip/figure"
     pub const FORMAT: &'static str = "stickslip/figure";
+
+    /// A figure without panels.
+    pub fn new(name: &str, title: &str, models: Vec<ModelParameters>) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            name: name.into(),
+            title: title.into(),
+            parameters: FigureParameters { models },
+            remarks: vec![],
+            panels: vec![],
+            columns: 1,
+        }
+    }
 }
 
 /// What a figure was computed from.
@@ -40,7 +61,7 @@ pub struct FigureParameters {
     pub models: Vec<ModelParameters>,
 }
 
-/// Axes with curves, or with a map.
+/// Axes with curves, a map or cells.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PanelDocument {
@@ -56,26 +77,130 @@ pub struct PanelDocument {
     pub map: Option<MapDocument>,
     /// First and last y shown, in the unit of `y_label`; null where they are fitted to the curves.
     pub y_range: Option<[f64; 2]>,
+    /// First and last x shown, in the unit of `x_label`; fitted to the curves where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_range: Option<[f64; 2]>,
+    /// Of the abscissas; linear where it is left out.
+    #[serde(default, skip_serializing_if = "ScaleName::is_linear")]
+    pub x_scale: ScaleName,
+    /// Of the ordinates; linear where it is left out.
+    #[serde(default, skip_serializing_if = "ScaleName::is_linear")]
+    pub y_scale: ScaleName,
+    /// Kinds over a grid, drawn as coloured cells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells: Option<CellsDocument>,
+    /// Texts within the axes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<NoteDocument>,
+    /// Stretches of the abscissas, in the unit of `x_label`, with a light ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shades: Vec<[f64; 2]>,
+    /// Size that the ordinates have by nature, in the unit of `y_label`: a variation a million times smaller is
+    /// taken for round-off and not magnified. Unknown where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub natural: Option<f64>,
+    /// How many columns it takes; 1 where it is left out.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub span: usize,
+}
+
+impl PanelDocument {
+    /// Axes without curves.
+    pub fn new(heading: &str, (x_label, y_label): (&str, &str)) -> Self {
+        Self {
+            heading: heading.into(),
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            curves: vec![],
+            map: None,
+            y_range: None,
+            x_range: None,
+            x_scale: ScaleName::Linear,
+            y_scale: ScaleName::Linear,
+            cells: None,
+            notes: vec![],
+            shades: vec![],
+            natural: None,
+            span: 1,
+        }
+    }
+}
+
+/// How values lie along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ScaleName {
+    /// By their differences.
+    #[default]
+    Linear,
+    /// By their ratios.
+    Logarithmic,
+}
+
+impl ScaleName {
+    fn is_linear(&self) -> bool {
+        *self == Self::Linear
+    }
 }
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StyleName {
-    /// Solid.
+    /// What the panel is about.
     Line,
-    /// Dashes.
+    /// Thin, black.
+    Thin,
+    /// To compare with.
     Dashed,
-    /// Fine dots along a line.
+    /// What was before.
     Dotted,
-    /// A dot at each point.
+    /// An area between `low` and `y`.
+    Band,
+    /// Discs.
     Dots,
-    /// A triangle at each point.
-    Triangles,
+    /// Smaller ones.
+    SmallDots,
     /// Small, many of them.
     Points,
+    /// Triangles.
+    Triangles,
+    /// Smaller ones.
+    SmallTriangles,
+    /// Outlines of discs, which hide nothing.
+    OpenDots,
+    /// Outlines of triangles.
+    OpenTriangles,
+    /// Outlines of squares.
+    OpenSquares,
+    /// Outlines of squares on a corner.
+    OpenDiamonds,
     /// A line with all above it shaded.
     Boundary,
+}
+
+/// Colours that the colour-blind can tell apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ColourName {
+    /// #0072B2
+    Blue,
+    /// #D55E00
+    Vermillion,
+    /// #009E73
+    Green,
+    /// #CC79A7
+    Purple,
+    /// #E69F00
+    Orange,
+    /// #56B4E9
+    Sky,
+    /// #000000
+    Black,
+    /// #7F7F7F
+    Grey,
+    /// #D9D9D9
+    Silver,
 }
 
 /// Points of equal number in x and y.
@@ -90,6 +215,30 @@ pub struct CurveDocument {
     pub x: Vec<f64>,
     /// Ordinates, in the unit of `y_label`; null where there is no value.
     pub y: Vec<Option<f64>>,
+    /// Lower ordinates of a band.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub low: Option<Vec<Option<f64>>>,
+    /// That of its style where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colour: Option<ColourName>,
+    /// Whether a smooth line is drawn through the points rather than straight ones between them.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub smooth: bool,
+}
+
+impl CurveDocument {
+    /// A curve in the colour of its style; without a name it is not in the legend.
+    pub fn new(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> Self {
+        Self {
+            name: (!name.is_empty()).then(|| name.into()),
+            style,
+            x: x.to_vec(),
+            y: y.iter().map(|y| y.is_finite().then_some(*y)).collect(),
+            low: None,
+            colour: None,
+            smooth: false,
+        }
+    }
 }
 
 /// The colours of a map.
@@ -100,6 +249,8 @@ pub enum ColoursName {
     Grey,
     /// Blue is low, yellow is high.
     Cividis,
+    /// 0 is white, blue below and red above.
+    BlueRed,
 }
 
 /// z over evenly spaced x and y.
@@ -116,4 +267,63 @@ pub struct MapDocument {
     pub z_label: String,
     /// How values are coloured.
     pub colours: ColoursName,
+    /// Values of the first and the last colour; fitted to z where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z_range: Option<[f64; 2]>,
+}
+
+/// One of a few kinds at every point of a grid.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CellsDocument {
+    /// Positions of the columns, ascending, in the unit of `x_label`.
+    pub x: Vec<f64>,
+    /// Positions of the rows, ascending, in the unit of `y_label`.
+    pub y: Vec<f64>,
+    /// Place in `names` and `colours`: a row for each y; null where nothing is known.
+    pub kinds: Vec<Vec<Option<usize>>>,
+    /// Of the kinds, in the legend.
+    pub names: Vec<String>,
+    /// A colour for each kind.
+    pub colours: Vec<ColourName>,
+}
+
+/// A text at a place of a panel.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NoteDocument {
+    /// What it says.
+    pub text: String,
+    /// Its middle, in the unit of `x_label`.
+    pub x: f64,
+    /// Its middle, in the unit of `y_label`.
+    pub y: f64,
+    /// Points to what lies beyond the axes; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrow: Option<ArrowName>,
+}
+
+impl NoteDocument {
+    /// A text alone.
+    pub fn new(text: &str, (x, y): (f64, f64)) -> Self {
+        Self { text: text.into(), x, y, arrow: None }
+    }
+}
+
+/// Where an arrow at the edge of the axes points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ArrowName {
+    /// At the lower edge.
+    Down,
+    /// At the upper edge.
+    Up,
+}
+
+fn one() -> usize {
+    1
+}
+
+fn is_one(number: &usize) -> bool {
+    *number == 1
 }

@@ -53,12 +53,12 @@ pub use continuation::{
 };
 pub use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
 pub use figure::{
-    ColoursName, CurveDocument, FigureDocument, FigureParameters, MapDocument, PanelDocument,
-    StyleName,
+    ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
+    FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
 pub use history::{FARTHEST, History};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
-pub use read::{Kind, Unusable, read};
+pub use read::{Kind, Unusable, kind_of, read, read_from};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
 pub use run::{OscillationDocument, RegimeName, RunDocument, Samples, SteadyState, WorkDocument};

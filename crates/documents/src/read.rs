@@ -1,9 +1,11 @@
 //! From text to a document.
 
 use crate::FORMAT_VERSION;
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
-use std::fmt::Display;
+use serde::de::{DeserializeOwned, Error as _, IgnoredAny, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use serde_json::error::Category;
+use std::fmt::{self, Display};
+use std::io::{self, BufReader, Cursor, Read};
 use thiserror::Error;
 
 /// What is wrong with a document, or with a part of it.
@@ -54,12 +56,132 @@ impl Kind {
 /// # Errors
 /// The text is no JSON, a document of another format or version, or damaged.
 pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable> {
-    let kind: Kind = serde_json::from_str(text).map_err(|error| {
-        let command = wanted.replace('/', " ");
-        Unusable(format!(
-            "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
-        ))
-    })?;
-    kind.judge(wanted)?;
-    serde_json::from_str(text).map_err(|error| Unusable(format!("damaged: {error}")))
+    read_from(text.as_bytes(), wanted)
+}
+
+/// The same from a stream, of which no more is read than it takes to tell that it is something else.
+///
+/// # Errors
+/// As [`read`]; the stream fails.
+pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result<D, Unusable> {
+    let mut source = BufReader::with_capacity(BLOCK, source);
+    let mut seen = vec![];
+    kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?.judge(wanted)?;
+    let whole = BufReader::with_capacity(BLOCK, Cursor::new(seen).chain(source));
+    serde_json::from_reader(whole).map_err(|error| match error.classify() {
+        Category::Data => Unusable(format!("damaged: {error}")),
+        Category::Io => unreadable(&error),
+        Category::Syntax | Category::Eof => no_document(&error, wanted),
+    })
+}
+
+const BLOCK: usize = 1 << 16;
+/// Within so many bytes a document must say what it is: half of what one number per point of the largest table takes.
+const LARGEST_BEGINNING: u64 = 64 << 20;
+
+fn unreadable(error: &serde_json::Error) -> Unusable {
+    Unusable(format!("cannot be read: {error}"))
+}
+
+fn no_document(error: &serde_json::Error, wanted: &str) -> Unusable {
+    let command = wanted.replace('/', " ");
+    Unusable(format!(
+        "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
+    ))
+}
+
+/// What a document, or its beginning, says it is, which it does first unless somebody has put its fields in another
+/// order.
+///
+/// # Errors
+/// It is no JSON, or ends before it has said so.
+pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
+    let mut kind = Kind { format: None, format_version: None };
+    let source = BufReader::new(source.take(LARGEST_BEGINNING));
+    let read = serde_json::Deserializer::from_reader(source).deserialize_map(Fields(&mut kind));
+    match read {
+        // Stopped because all is known.
+        Err(_) if kind.format.is_some() && kind.format_version.is_some() => Ok(kind),
+        Err(error) if error.is_io() => Err(unreadable(&error)),
+        Err(error) => Err(no_document(&error, wanted)),
+        Ok(()) => Ok(kind),
+    }
+}
+
+/// Reads the fields of a document until it is known what it is.
+struct Fields<'a>(&'a mut Kind);
+
+impl<'de> Visitor<'de> for Fields<'_> {
+    type Value = ();
+
+    fn expecting(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str("a document")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        while let Some(key) = map.next_key::<String>()? {
+            match key.as_str() {
+                "format" => self.0.format = map.next_value()?,
+                "format_version" => self.0.format_version = map.next_value()?,
+                _ => drop(map.next_value::<IgnoredAny>()?),
+            }
+            if self.0.format.is_some() && self.0.format_version.is_some() {
+                return Err(A::Error::custom("no more is needed"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A stream that remembers what was read of it.
+struct Seen<'a, R> {
+    source: &'a mut R,
+    seen: &'a mut Vec<u8>,
+}
+
+impl<R: Read> Read for Seen<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        self.seen.extend(&buffer[..count]);
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SweepDocument;
+
+    /// Counts what is read of an endless stream.
+    struct Endless<'a>(&'a [u8], u64);
+
+    impl Read for Endless<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            for byte in buffer.iter_mut() {
+                let (first, rest) = self.0.split_first().unwrap_or((&0, &[]));
+                (*byte, self.0) = (*first, rest);
+            }
+            self.1 += buffer.len() as u64;
+            Ok(buffer.len())
+        }
+    }
+
+    #[test]
+    fn what_is_something_else_is_told_by_its_beginning() {
+        let begins = [
+            ("", "not a whole JSON document"),
+            ("0.1,0.2\n", "not a whole JSON document"),
+            ("{\"format\":\"stickslip/run\",\"format_version\":1,", "format is stickslip/run"),
+            ("{\"format\":\"stickslip/sweep\",\"format_version\":7,", "format_version is 7"),
+            ("{\"format\":\"stickslip/sweep\",\"format_version\":1,\"points\":[", "not a whole"),
+            ("{\"points\":[1,2,3],\"format_version\":1,", "not a whole"),
+        ];
+        for (begins, words) in begins {
+            let mut endless = Endless(begins.as_bytes(), 0);
+            let read = read_from::<SweepDocument>(&mut endless, SweepDocument::FORMAT);
+            let said = read.unwrap_err().to_string();
+            assert!(said.contains(words), "{begins}: {said}");
+            assert!(endless.1 < 4 * BLOCK as u64, "{begins}: {} bytes", endless.1);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What became of the branches, for a person who sent them to a file.
 
-use crate::plot::seven_digits;
+use crate::commands::number::seven_digits;
 use stickslip_documents::{ContinueDocument, CycleBranch, EndName, OverName};
 
 /// A line for each branch.

@@ -27,7 +27,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     ];
     let mut panel = panel("", ("x (σ)", "y (σ)"));
     let z_label = "u (kσ²/a)".into();
-    panel.map = Some(MapDocument { x, y, z, z_label, colours: ColoursName::Grey });
+    panel.map = Some(MapDocument { x, y, z, z_label, colours: ColoursName::Grey, z_range: None });
     document.panels.push(panel);
     Ok(document)
 }

@@ -21,7 +21,8 @@ pub(super) fn figure() -> Result<FigureDocument, Failure> {
     let mut document = empty("kymograph", title, std::slice::from_ref(&scenario.model));
     let mut panel = panel("", ("x (σ)", "t (Γ/k)"));
     let z_label = "u (kσ²/a)".into();
-    panel.map = Some(MapDocument { x, y: t, z, z_label, colours: ColoursName::Cividis });
+    panel.map =
+        Some(MapDocument { x, y: t, z, z_label, colours: ColoursName::Cividis, z_range: None });
     document.panels.push(panel);
     Ok(document)
 }

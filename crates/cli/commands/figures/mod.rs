@@ -4,7 +4,6 @@
 
 mod bifurcation;
 mod criticality;
-mod draw;
 mod fig1;
 mod fig2;
 mod fig3;
@@ -24,12 +23,12 @@ use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::files::place;
 use crate::message::say;
-use crate::plot::{self, PlotFormat};
 use clap::ValueEnum;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stickslip_documents::FigureDocument;
+use stickslip_figures::{self as figures, FigureFormat, Size};
 
 pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
@@ -81,13 +80,12 @@ fn write(document: &FigureDocument, folder: &Path) -> Result<Vec<String>, Failur
     };
     let (json, path) = place("json");
     open(&path)?.write_json(document)?;
-    let svg = draw::draw(document)?;
     let mut files = vec![json];
     for extension in ["svg", "png"] {
         let (name, path) = place(extension);
         // A build without PNG draws SVG alone.
-        let Ok(format) = PlotFormat::of(&path) else { continue };
-        let bytes = plot::encode(&svg, format)
+        let Ok(format) = FigureFormat::of(&path) else { continue };
+        let bytes = figures::draw(document, format, &Size::default())
             .map_err(|error| Failure::Run(format!("cannot draw {name}: {error}")))?;
         open(&path)?.write_bytes(&bytes)?;
         files.push(name);

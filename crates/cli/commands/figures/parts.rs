@@ -3,48 +3,25 @@
 use crate::failure::Failure;
 use std::fmt::Display;
 use stickslip_documents::{
-    CurveDocument, FORMAT_VERSION, FigureDocument, FigureParameters, ModelParameters,
-    PanelDocument, Software, StyleName,
+    CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Model, Run, Scenario, run};
 
 /// A figure without panels.
 pub(super) fn figure(name: &str, title: &str, models: &[Model]) -> FigureDocument {
-    FigureDocument {
-        format: FigureDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        name: name.into(),
-        title: title.into(),
-        parameters: FigureParameters {
-            models: models.iter().map(|model| ModelParameters::of(model, None)).collect(),
-        },
-        remarks: vec![],
-        panels: vec![],
-    }
+    let models = models.iter().map(|model| ModelParameters::of(model, None)).collect();
+    FigureDocument::new(name, title, models)
 }
 
 /// Axes without curves.
-pub(super) fn panel(heading: &str, (x_label, y_label): (&str, &str)) -> PanelDocument {
-    PanelDocument {
-        heading: heading.into(),
-        x_label: x_label.into(),
-        y_label: y_label.into(),
-        curves: vec![],
-        map: None,
-        y_range: None,
-    }
+pub(super) fn panel(heading: &str, labels: (&str, &str)) -> PanelDocument {
+    PanelDocument::new(heading, labels)
 }
 
 /// A curve; without a name it is not in the legend.
 pub(super) fn curve(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> CurveDocument {
-    CurveDocument {
-        name: (!name.is_empty()).then(|| name.into()),
-        style,
-        x: x.to_vec(),
-        y: y.iter().map(|y| y.is_finite().then_some(*y)).collect(),
-    }
+    CurveDocument::new(style, name, x, y)
 }
 
 /// What a library refused or could not do.

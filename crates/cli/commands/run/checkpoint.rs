@@ -2,16 +2,21 @@
 
 use super::record::Record;
 use crate::failure::{Failure, Typed};
-use crate::files::place::Target;
+use crate::files::place::{Target, folder_of};
+use crate::files::within::seen_from;
 use std::fs::File;
-use std::io::Read;
-use std::path::Path;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
 use stickslip_documents::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
 
 /// A run has so many checkpoints by default.
 const DEFAULT_NUMBER: f64 = 100.0;
+/// How every one begins.
+const MAGIC: &[u8] = b"{\"format\":\"stickslip/";
+/// It may hold a profile and a table of the force.
+const LONGEST_HEAD: u64 = 1 << 29;
 /// The state of a run within f64's reach is far below.
 const LARGEST: u64 = 1 << 30;
 
@@ -28,7 +33,11 @@ pub(super) struct Checkpoints {
 
 impl Checkpoints {
     pub(super) fn new(file: Target, order: &Order, start: f64, every: f64, t: f64) -> Self {
-        let mut checkpoints = Self { file, order: order.clone(), start, every, due: t, last: None };
+        // As it is seen from there: the folder may move, with all that is in it.
+        let seen = |path: &PathBuf| seen_from(folder_of(file.path()), path);
+        let (output, plot) = (seen(&order.output), order.plot.as_ref().map(seen));
+        let order = Order { output, plot, ..order.clone() };
+        let mut checkpoints = Self { file, order, start, every, due: t, last: None };
         checkpoints.plan(t);
         checkpoints
     }
@@ -97,10 +106,21 @@ fn bytes(head: &CheckpointHead, state: &State) -> serde_json::Result<Vec<u8>> {
 /// It cannot be read, is damaged, or is not of this version of this program.
 pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     let refused = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let unreadable = |error: io::Error| refused(format!("cannot be read: {error}"));
+    let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
     let mut bytes = vec![];
-    File::open(path)
-        .and_then(|file| file.take(LARGEST).read_to_end(&mut bytes))
-        .map_err(|error| refused(format!("cannot be read: {error}")))?;
+    // No more than tells that it is something else.
+    (&mut file).take(MAGIC.len() as u64).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes != MAGIC {
+        return Err(refused(
+            "is no checkpoint, or is damaged: it does not begin as one does".into(),
+        ));
+    }
+    (&mut file).take(LONGEST_HEAD).read_until(b'\n', &mut bytes).map_err(unreadable)?;
+    let head: CheckpointHead =
+        serde_json::from_slice(&bytes).map_err(|error| refused(format!("is damaged: {error}")))?;
+    let rest = head.words.saturating_mul(8).saturating_add(4).min(LARGEST);
+    file.take(rest + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     parse(&bytes).map_err(refused)
 }
 

@@ -52,13 +52,17 @@ impl<'a> Journey<'a> {
             .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
-        let mut signal = None;
+        let (mut signal, mut is_whole) = (None, true);
         while signal.is_none()
             && let Some(step) = self.step()?
         {
-            self.record.take(&step)?;
+            is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
             progress.reached(step.end());
             signal = interrupt.signal();
+            // Of a step whose samples were not all taken there is none: the last one is before it.
+            if !is_whole {
+                break;
+            }
             let due = |c: &Checkpoints| c.is_due(step.end()) || signal.is_some();
             if self.checkpoints.as_ref().is_some_and(due) {
                 self.seconds = before + started.elapsed().as_secs_f64();
@@ -66,9 +70,7 @@ impl<'a> Journey<'a> {
             }
         }
         let seconds = before + started.elapsed().as_secs_f64();
-        if let Some(last) = self.running.last() {
-            self.record.end(&last)?;
-        }
+        self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
         Ok(Travelled { running: self.running, record: self.record, seconds, signal })
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let order = Order {
         samples: sample_times(&arguments.sampling, span, "the run", are_kept)?,
         parameters: RunParameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
-        output: resolved(&arguments.output),
+        output: resolved(arguments.output()),
         format,
         history: arguments.history == HistoryName::All,
         plot: arguments.plot.as_deref().map(resolved),
@@ -67,7 +67,7 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
 /// Whether each file has a name of its own, which a checkpoint, if there is one, can hold.
 fn files(arguments: &RunArguments) -> Result<(), Failure> {
     let written = [
-        ("--output", Some(&*arguments.output)),
+        ("--output", Some(arguments.output())),
         ("--plot", arguments.plot.as_deref()),
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
@@ -89,11 +89,11 @@ fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if let Some(format) = arguments.format {
         return Ok(format);
     }
-    let extension = arguments.output.extension().and_then(|e| e.to_str());
+    let extension = arguments.output().extension().and_then(|e| e.to_str());
     if extension.is_some_and(|e| e.eq_ignore_ascii_case("jsonl")) {
         return Ok(RunFormat::Jsonl);
     }
-    Ok(match OutputFormat::or_also(&arguments.output, ", .jsonl")? {
+    Ok(match OutputFormat::or_also(arguments.output(), ", .jsonl")? {
         OutputFormat::Json => RunFormat::Json,
         OutputFormat::Csv => RunFormat::Csv,
         OutputFormat::Npz => RunFormat::Npz,

@@ -36,6 +36,9 @@ pub(super) enum Sink {
 /// Of a sample in a journal.
 pub(super) const SAMPLE_NUMBERS: usize = 4;
 
+/// A step may be as long as the run, and have all of its samples: so many are taken between two looks at the signals.
+const SAMPLES_PER_LOOK: u64 = 1024;
+
 impl Record {
     pub(super) fn new(r: f64, times: Times, keeps_history: bool, sink: Sink) -> Self {
         let (times, places) = times.in_order();
@@ -43,8 +46,12 @@ impl Record {
         Self { r, times, places, taken: 0, samples: vec![], steps, sink }
     }
 
-    /// Takes note of a step.
-    pub(super) fn take(&mut self, step: &Step) -> Result<(), Failure> {
+    /// Takes note of a step, unless it is told to stop amid its samples: whether it is done.
+    pub(super) fn take(
+        &mut self,
+        step: &Step,
+        is_stopped: impl Fn() -> bool,
+    ) -> Result<bool, Failure> {
         if let Some(steps) = &mut self.steps {
             if steps.len() == MOST_STEPS {
                 return Err(history_too_long(step.t));
@@ -55,12 +62,14 @@ impl Record {
             }
         }
         // A time at which one step ends is the next one's.
-        self.sample(step, |t| t < step.end())
+        self.sample(step, |t| t < step.end(), is_stopped)
     }
 
-    /// Takes the samples at the very end.
-    pub(super) fn end(&mut self, last: &Step) -> Result<(), Failure> {
-        self.sample(last, |t| t <= last.end())?;
+    /// Takes the samples at the very end of the last step, if that was taken.
+    pub(super) fn end(&mut self, last: Option<&Step>) -> Result<(), Failure> {
+        if let Some(last) = last {
+            self.sample(last, |t| t <= last.end(), || false)?;
+        }
         if !self.places.is_empty() {
             let places = self.places.iter().copied().zip(self.samples.drain(..));
             let mut placed: Vec<_> = places.collect();
@@ -70,8 +79,16 @@ impl Record {
         Ok(())
     }
 
-    fn sample(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) -> Result<(), Failure> {
+    fn sample(
+        &mut self,
+        step: &Step,
+        is_due: impl Fn(f64) -> bool,
+        is_stopped: impl Fn() -> bool,
+    ) -> Result<bool, Failure> {
         while let Some(t) = self.times.at(self.taken).filter(|t| is_due(*t)) {
+            if self.taken.is_multiple_of(SAMPLES_PER_LOOK) && is_stopped() {
+                return Ok(false);
+            }
             let (l, x0, velocity) = (step.l(self.r, t), step.x0(self.r, t), step.velocity(t));
             let sample = SampleLine { t, l, x0, velocity };
             match &mut self.sink {
@@ -85,7 +102,7 @@ impl Record {
             }
             self.taken += 1;
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Keeps the lines written so far, though no end will follow; where they are.
@@ -105,16 +122,20 @@ impl Record {
         }
     }
 
-    /// Fills the record with what a journal holds up to a mark, and goes on with it.
-    pub(super) fn resume(&mut self, path: &Path, mark: Mark) -> Result<(), Failure> {
+    /// Fills the record with what a journal holds up to a mark, which is all until time t, and goes on with it.
+    pub(super) fn resume(&mut self, path: &Path, mark: Mark, t: f64) -> Result<(), Failure> {
         let unusable = |error: io::Error| {
             let needed = "the checkpoint cannot be resumed without it";
             Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
         };
         let rows = if self.steps.is_some() {
             let (rows, steps) = Rows::resume::<STEP_NUMBERS>(path, mark).map_err(unusable)?;
-            for row in steps {
-                self.take(&Step::from_numbers(row))?;
+            let steps: Vec<Step> = steps.into_iter().map(Step::from_numbers).collect();
+            if !follow_each_other(&steps, t) {
+                return Err(unusable(io::Error::other(OTHER_ROWS)));
+            }
+            for step in &steps {
+                self.take(step, || false)?;
             }
             rows
         } else {
@@ -122,11 +143,26 @@ impl Record {
             let sample = |[t, l, x0, velocity]: [f64; 4]| SampleLine { t, l, x0, velocity };
             self.samples.extend(samples.into_iter().map(sample));
             self.taken = self.samples.len() as u64;
+            let due = |(i, sample): (u64, &SampleLine)| self.times.at(i) == Some(sample.t);
+            if !(0..).zip(&self.samples).all(due) {
+                return Err(unusable(io::Error::other(OTHER_ROWS)));
+            }
             rows
         };
         self.sink = Sink::Journal(path.into(), rows);
         Ok(())
     }
+}
+
+const OTHER_ROWS: &str = "its rows are not those of the run";
+
+/// Whether steps lead to time t, each beginning where the one before ends, round-off aside.
+fn follow_each_other(steps: &[Step], t: f64) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);
+    let lasts = |step: &Step| step.h > 0.0 && step.numbers().iter().all(|x| x.is_finite());
+    let follows = |pair: &[Step]| same(pair[1].t, pair[0].end());
+    let leads = steps.last().is_none_or(|last| same(last.end(), t));
+    steps.iter().all(lasts) && steps.windows(2).all(follows) && leads
 }
 
 /// A journal for the checkpoint at `path`, of rows of so many numbers.

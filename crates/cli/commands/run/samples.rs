@@ -46,8 +46,26 @@ pub(super) fn sample_times(
             ),
         ));
     }
-    // The end itself is a sample where the interval divides the run, round-off aside.
-    Ok(Times::Every { start, every, end, intervals: (count + 1e-9).floor() as u64 })
+    Ok(Times::Every { start, every, end, intervals: intervals(count) })
+}
+
+/// Whole ones. The end itself is a sample where the interval divides the run, round-off aside.
+fn intervals(count: f64) -> u64 {
+    (count + 1e-9).floor() as u64
+}
+
+/// Whether a run over this span can have been asked for these times.
+pub(super) fn are_of(times: &Times, (start, end): (f64, f64), are_kept: bool) -> bool {
+    match *times {
+        Times::At(ref times) => times.iter().all(|t| (start..=end).contains(t)),
+        Times::Every { start: from, every, end: to, intervals: found } => {
+            let count = (end - start) / every;
+            let most = if are_kept { MOST_SAMPLES } else { MOST_LINES };
+            let is_theirs = [from, to].map(f64::to_bits) == [start, end].map(f64::to_bits);
+            let is_usable = every > 0.0 && count <= most;
+            is_theirs && is_usable && (found == intervals(count) || found == DEFAULT_INTERVALS)
+        }
+    }
 }
 
 /// The times asked for, all between the start and the end of `what`.

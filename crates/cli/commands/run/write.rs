@@ -4,16 +4,14 @@ use super::document;
 use super::journey::Travelled;
 use super::record::{Record, Sink};
 use crate::commands::figure::Figure;
-use crate::commands::{surface, verify};
+use crate::commands::verify;
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::message::say;
-use crate::plot;
 use std::path::Path;
 use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
 use stickslip_stability::unstable_count;
-use stickslip_surface::{Surface, SurfaceError};
 use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -46,6 +44,7 @@ pub(super) fn all(
     let end = document::end(scenario, initial, &travelled)?;
     // Nobody reads it beside a document on standard output.
     let said = (order.output != Path::new("-")).then(|| summary(&end, &scenario.model));
+    let reached = end.end;
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let (mut failure, mut verified) = (None, String::new());
@@ -72,9 +71,11 @@ pub(super) fn all(
             let found = asked.map(|t| verify::of_history(scenario, &memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
             verified = document.verification.as_ref().map_or(String::new(), verify::kept);
-            write(&document, order.format, output)?;
+            write(&document, order.format, output, travelled.signal.map(|_| reached))?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
-                figure.write(&draw(&document, scenario, initial, trajectory)?)?;
+                // Drawn from the history, whether or not it is written.
+                document.history = Some(trajectory.into());
+                figure.draw(&document)?;
             }
             failure = match found {
                 Err(failure) => Some(failure),
@@ -89,11 +90,19 @@ pub(super) fn all(
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 
-fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<(), Failure> {
+/// What holds less than was asked for says so, in every format: JSON by its `interrupted`.
+fn write(
+    document: &RunDocument,
+    format: RunFormat,
+    output: Output,
+    interrupted: Option<f64>,
+) -> Result<(), Failure> {
     let samples = &document.samples;
+    let until = document.parameters.until;
+    let remark = interrupted.map(|t| format!("interrupted at t = {t} of {until}"));
     match format {
         RunFormat::Json | RunFormat::Jsonl => output.write_json(document),
-        RunFormat::Csv => output.write_csv(
+        RunFormat::Csv => output.with_remark(remark).write_csv(
             "t,l,x0,velocity",
             &[&samples.t, &samples.l, &samples.x0, &samples.velocity],
         ),
@@ -103,6 +112,9 @@ fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<()
             npz.vector("l", &samples.l)?;
             npz.vector("x0", &samples.x0)?;
             npz.vector("velocity", &samples.velocity)?;
+            if let Some(t) = interrupted {
+                npz.vector("interrupted", &[t])?;
+            }
             if let Some(history) = &document.history {
                 npz.vector("history_nodes", &history.nodes)?;
                 npz.vector("history_weights", &history.weights)?;
@@ -113,43 +125,6 @@ fn write(document: &RunDocument, format: RunFormat, output: Output) -> Result<()
             output.write_bytes(&npz.bytes()?)
         }
     }
-}
-
-/// Points of the drawn surface.
-const DRAWN_POINTS: usize = 4000;
-
-fn draw(
-    document: &RunDocument,
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    trajectory: &Trajectory,
-) -> Result<String, Failure> {
-    let failed = |error: SurfaceError| Failure::Run(format!("cannot draw: {error}"));
-    let (end, start) = (trajectory.end(), trajectory.start());
-    let (low, high) = surface::default_range(trajectory);
-    let x = surface::evenly(low, high, DRAWN_POINTS);
-    let surface = Surface::new(&scenario.model, initial, trajectory);
-    let u = surface.heights(end, &x).map_err(failed)?.to_vec();
-    let before = surface.heights(start, &x).map_err(failed)?.to_vec();
-    let title = title(document);
-    Ok(plot::run(&plot::RunFigure {
-        title: &title,
-        t: &document.samples.t,
-        l: &document.samples.l,
-        velocity: &document.samples.velocity,
-        steady_l: document.steady_state.l,
-        r: scenario.model.r(),
-        x: &x,
-        u: &u,
-        u_initial: Some(&before),
-        t_of_surface: end,
-    }))
-}
-
-fn title(document: &RunDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    format!("α = {alpha}, r = {r}: {}", document.regime)
 }
 
 /// One line for a person who sent the run to a file.

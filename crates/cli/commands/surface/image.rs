@@ -1,12 +1,10 @@
 //! Surfaces in three dimensions: which f(x,y), and its images.
 
 use super::places::Places;
-use super::{time_label, title};
 use crate::arguments::SurfaceArguments;
 use crate::failure::{Failure, Typed};
 use crate::message::say;
-use crate::plot;
-use stickslip_documents::{AcrossParameters, SurfaceDocument, SurfaceImage};
+use stickslip_documents::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, TipFunction};
 
@@ -117,24 +115,4 @@ fn common_width(tip: &TipFunction) -> Option<f64> {
     let alike = sum.terms().len() <= 3;
     let same = |w: f64| (w - width).abs() <= 1e-12 * width;
     (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
-}
-
-/// A height map for every time.
-pub(super) fn draw(document: &SurfaceDocument) -> Result<String, Failure> {
-    let labels: Vec<String> = document.images.iter().map(|image| time_label(image.t)).collect();
-    let maps: Vec<plot::Map> = document
-        .images
-        .iter()
-        .zip(&labels)
-        .map(|(image, label)| plot::Map {
-            x: &image.x,
-            y: &image.y,
-            z: &image.u,
-            labels: ("x (σ)", "y (σ)", "u (kσ²/a)"),
-            name: label,
-            colours: plot::Colours::Cividis,
-        })
-        .collect();
-    plot::maps(&title(document), &maps)
-        .map_err(|error| Failure::Run(format!("cannot draw: {error}")))
 }

@@ -5,7 +5,7 @@ mod places;
 mod units;
 mod write;
 
-pub(crate) use places::{default_range, evenly};
+pub(crate) use places::evenly;
 
 use super::figure::Figure;
 use crate::arguments::SurfaceArguments;
@@ -13,7 +13,6 @@ use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run;
 use crate::files::output::Output;
-use crate::plot;
 use image::Images;
 use places::Places;
 use stickslip_documents::{
@@ -27,7 +26,8 @@ use write::SurfaceFormat;
 pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = SurfaceFormat::of(arguments)?;
     let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
-    apart(&[("--output", Some(&*arguments.output))], &read)?;
+    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
+    apart(&written, &read)?;
     let document = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(
@@ -59,7 +59,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         }
     };
     if let Some(figure) = figure {
-        figure.write(&if images.is_some() { image::draw(&result)? } else { draw(&result) })?;
+        figure.draw(&result)?;
     }
     write::write(&result, format, &places, &scale, output)
 }
@@ -97,25 +97,4 @@ fn empty(
         surfaces: vec![],
         images: vec![],
     }
-}
-
-/// α and r, above a picture.
-fn title(document: &SurfaceDocument) -> String {
-    let model = &document.parameters.model;
-    let [alpha, r] = [model.alpha, model.r].map(plot::seven_digits);
-    format!("α = {alpha}, r = {r}")
-}
-
-/// Such as "t = 457".
-fn time_label(t: f64) -> String {
-    format!("t = {}", (t * 1e6).round() / 1e6)
-}
-
-fn draw(document: &SurfaceDocument) -> String {
-    let curves: Vec<(String, &[f64], &[f64])> = document
-        .surfaces
-        .iter()
-        .map(|s| (time_label(s.t), s.x.as_slice(), s.u.as_slice()))
-        .collect();
-    plot::surface(&plot::SurfaceFigure { title: &title(document), curves: &curves })
 }

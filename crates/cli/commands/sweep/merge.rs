@@ -4,6 +4,7 @@ use super::write::Writer;
 use super::{checksum, sealed};
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
+use crate::files::apart::{Named, apart};
 use crate::files::input::read_document;
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
@@ -11,6 +12,9 @@ use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
+    let named: Vec<Named> =
+        arguments.parts.iter().map(|part| ("PART.json", Some(&**part))).collect();
+    apart(&[("--output", Some(output)), ("--plot", plot)], &named)?;
     let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")

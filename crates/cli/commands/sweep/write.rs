@@ -1,12 +1,12 @@
 //! A sweep on its way out: JSON, columns, picture.
 
-use super::diagram;
 use crate::commands::figure::Figure;
 use crate::failure::Failure;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
+use stickslip_figures::judge_sweep;
 
 /// Where it goes, known to be writable.
 pub(super) struct Writer {
@@ -39,7 +39,7 @@ impl Writer {
         parameters: &SweepParameters,
     ) -> Result<Self, Failure> {
         if plot.is_some() {
-            diagram::judge(parameters)?;
+            judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
         }
         Ok(Self {
             format: OutputFormat::of(output)?,
@@ -60,7 +60,7 @@ impl Writer {
             OutputFormat::Npz => self.output.write_bytes(&npz(&document.points)?),
         }?;
         match self.figure {
-            Some(figure) => figure.write(&diagram::draw(&document.parameters, &document.points)),
+            Some(figure) => figure.draw(document),
             None => Ok(()),
         }
     }

@@ -1,0 +1,47 @@
+//! `stickslip plot`.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Draw a saved document: a run, a surface, a cycle, a sweep, any JSON that a command wrote and that has a picture.
+///
+/// The picture is the one that `--plot` of the command draws, with a width, a resolution and axes of your own.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct PlotArguments {
+    /// The document, JSON; `-` for standard input.
+    #[arg(value_name = "DOCUMENT.json")]
+    pub(crate) document: PathBuf,
+
+    /// The picture: .svg, .png or .pdf.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+
+    /// Width of the picture with its unit: 85mm on paper, 600px on a screen. [default: 900px]
+    ///
+    /// On paper letters have 7 to 9 points whatever the width. A width in pixels is that of a PNG, too.
+    #[arg(long, value_name = "WIDTH")]
+    pub(crate) width: Option<String>,
+
+    /// Pixels in an inch of a PNG. [default: 288; of a width in pixels 144]
+    #[arg(long, value_name = "N")]
+    pub(crate) dpi: Option<f64>,
+
+    /// Abscissas shown, LO:HI, of the first panel and of those with the same axis. A run is drawn from its history,
+    /// as fine as the range asks for.
+    #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
+    pub(crate) x_range: Option<String>,
+
+    /// Ordinates shown, LO:HI, of the first panel and of those with the same axis.
+    #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
+    pub(crate) y_range: Option<String>,
+
+    /// Of a boundary, draw what is born along it, as `boundary --plot-onset` does.
+    #[arg(long)]
+    pub(crate) onset: bool,
+}
+
+const EXAMPLES: &str = "Examples:
+  stickslip plot run.json -o run.pdf --width 85mm
+  stickslip plot run.json -o slips.png --x-range 400:420 --dpi 300
+  stickslip plot boundary.json --onset -o criticality.svg";

@@ -1,0 +1,139 @@
+//! The stability boundary, and what is born along it.
+
+use super::tip::tip_name;
+use super::{Drawn, View};
+use crate::axis::extremes;
+use crate::error::FigureError;
+use stickslip_documents::{
+    BoundaryDocument, BranchDocument, CurveDocument, FigureDocument, ModelParameters, NoteDocument,
+    PanelDocument, ScaleName, SpacingName, StyleName,
+};
+
+pub(super) const R: &str = "r = Γv₀/(kσ)";
+pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
+
+/// Room above the boundary.
+const AIR: f64 = 1.15;
+
+impl Drawn for BoundaryDocument {
+    /// The critical α over r, the unstable region above it shaded, and the lines within
+    /// that where further pairs of roots cross.
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let title = format!("Where steady motion is stable, {}", tip_name(&self.parameters.tip));
+        let mut figure = FigureDocument::new("boundary", &title, models(self));
+        let scale = scale(self);
+        let mut panel = PanelDocument::new("", (R, ALPHA));
+        (panel.x_scale, panel.y_scale) = (scale, scale);
+        let mut curve =
+            CurveDocument::new(StyleName::Boundary, "boundary, α = α_c(r)", &self.r, &self.alpha);
+        curve.smooth = self.r.len() < 400;
+        panel.curves.push(curve);
+        let turns = |b: &BranchDocument| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
+        if self.branches.len() > 1 || self.branches.iter().any(turns) {
+            for (i, branch) in self.branches.iter().enumerate() {
+                let name = if i == 0 { "where pairs of roots cross" } else { "" };
+                panel.curves.push(CurveDocument::new(
+                    StyleName::Dotted,
+                    name,
+                    &branch.r,
+                    &branch.alpha,
+                ));
+            }
+        }
+        // The branches may go to infinity: the axes are those of the boundary.
+        let of = |values: &[f64]| extremes(values.iter().copied().filter(|v| v.is_finite()));
+        if let (Some(x), Some(y)) = (of(&self.r), of(&self.alpha)) {
+            panel.x_range = (x.1 > x.0).then_some([x.0, x.1]);
+            panel.y_range = Some(match scale {
+                ScaleName::Linear => [0.0, AIR * y.1],
+                ScaleName::Logarithmic => [y.0 / 1.5, y.1 * 2.0],
+            });
+            panel.notes = notes(self, &panel);
+        }
+        figure.panels = vec![panel];
+        Ok(figure)
+    }
+}
+
+/// d ln α/d(a²), a half the peak-to-peak of x0: the small oscillation exists above the boundary where it is positive,
+/// below where it is negative.
+///
+/// # Errors
+/// None of the points of the boundary has a criticality.
+pub fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
+    let title = format!("What is born at the boundary, {}", tip_name(&document.parameters.tip));
+    let mut figure = FigureDocument::new("criticality", &title, models(document));
+    let slopes = &document.onset.amplitude_squared_slope;
+    let excess: Vec<f64> = slopes
+        .iter()
+        .zip(&document.alpha)
+        .map(|(slope, alpha)| slope.map_or(f64::NAN, |slope| 1.0 / (slope * alpha)))
+        .collect();
+    let finite = excess.iter().copied().filter(|v| v.is_finite());
+    let (Some((low, high)), Some((first, last))) =
+        (extremes(finite), extremes(document.r.iter().copied()))
+    else {
+        return Err(FigureError::Nothing("no point of the boundary has a criticality".into()));
+    };
+    let mut panel = PanelDocument::new("", (R, "d ln α/d(a²) (σ⁻²)"));
+    panel.x_scale = scale(document);
+    panel.x_range = (last > first).then_some([first, last]);
+    panel.curves = vec![
+        CurveDocument::new(StyleName::Dashed, "", &[first, last], &[0.0; 2]),
+        CurveDocument::new(StyleName::Line, "", &document.r, &excess),
+    ];
+    // Room on the other side of zero for the name of what would be there.
+    let (low, high) = (low.min(-0.2 * high), high.max(-0.2 * low));
+    let air = 0.06 * (high - low);
+    panel.y_range = Some([low - air, high + air]);
+    let middle = match panel.x_scale {
+        ScaleName::Linear => 0.5 * (first + last),
+        ScaleName::Logarithmic => (first * last).sqrt(),
+    };
+    panel.notes = vec![
+        NoteDocument::new("supercritical", (middle, 0.1 * high)),
+        NoteDocument::new("subcritical", (middle, 0.6 * low)),
+    ];
+    figure.panels = vec![panel];
+    Ok(figure)
+}
+
+fn scale(document: &BoundaryDocument) -> ScaleName {
+    match document.parameters.spacing {
+        SpacingName::Linear => ScaleName::Linear,
+        SpacingName::Logarithmic => ScaleName::Logarithmic,
+    }
+}
+
+/// That of the first point.
+fn models(document: &BoundaryDocument) -> Vec<ModelParameters> {
+    let first = document.r.first().zip(document.alpha.first());
+    let model = |(r, alpha): (&f64, &f64)| ModelParameters {
+        tip: document.parameters.tip.clone(),
+        alpha: *alpha,
+        alpha_above: None,
+        r: *r,
+    };
+    first.map(model).into_iter().collect()
+}
+
+/// A name in either region, where it is highest, but away from the sides.
+fn notes(document: &BoundaryDocument, panel: &PanelDocument) -> Vec<NoteDocument> {
+    let (Some([left, right]), Some([bottom, top])) = (panel.x_range, panel.y_range) else {
+        return vec![];
+    };
+    let logarithmic = panel.x_scale == ScaleName::Logarithmic;
+    let on = |value: f64| if logarithmic { value.ln() } else { value };
+    let back = |value: f64| if logarithmic { value.exp() } else { value };
+    let part = |r: f64| (on(r) - on(left)) / (on(right) - on(left));
+    let inside = |(r, a): &(&f64, &f64)| (0.2..0.8).contains(&part(**r)) && a.is_finite();
+    let middle: Vec<(&f64, &f64)> = document.r.iter().zip(&document.alpha).filter(inside).collect();
+    let lowest = middle.iter().min_by(|a, b| a.1.total_cmp(b.1));
+    let highest = middle.iter().max_by(|a, b| a.1.total_cmp(b.1));
+    let note = |text, r: f64, from: f64, to: f64| {
+        NoteDocument::new(text, (r, back(0.5 * (on(from) + on(to)))))
+    };
+    let unstable = lowest.map(|(r, a)| note("unstable", **r, **a, top));
+    let stable = highest.map(|(r, a)| note("stable", **r, bottom, **a));
+    unstable.into_iter().chain(stable).collect()
+}

@@ -1,0 +1,40 @@
+//! Both motions, and how far apart they are.
+
+use super::tip::model_name;
+use super::{Drawn, View};
+use crate::error::FigureError;
+use stickslip_documents::{
+    CompareDocument, CurveDocument, FigureDocument, PanelDocument, ScaleName, StyleName,
+};
+
+impl Drawn for CompareDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let model = &self.parameters.model;
+        let title = format!("Closed equation and grid, {}", model_name(model));
+        let mut figure = FigureDocument::new("compare", &title, vec![model.clone()]);
+        let lag = |x0: &[f64]| -> Vec<f64> {
+            self.t.iter().zip(x0).map(|(t, x)| model.r * t - x).collect()
+        };
+        let (closed, grid) = (lag(&self.closed.x0), lag(&self.grid.x0));
+        let mut motions = PanelDocument::new("", ("t (Γ/k)", "rt − x₀ (σ)"));
+        motions.curves = vec![
+            CurveDocument::new(StyleName::Line, "closed equation", &self.t, &closed),
+            CurveDocument::new(StyleName::Dashed, "grid", &self.t, &grid),
+        ];
+        let apart = |labels, x: &[f64], a: &[f64], b: &[f64]| {
+            // Equal values have no place on a logarithmic axis.
+            let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+            let shown: Vec<f64> = difference.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
+            let mut panel = PanelDocument::new("", labels);
+            panel.y_scale = ScaleName::Logarithmic;
+            panel.curves = vec![CurveDocument::new(StyleName::Line, "", x, &shown)];
+            panel
+        };
+        figure.panels = vec![
+            motions,
+            apart(("t (Γ/k)", "|Δx₀| (σ)"), &self.t, &self.closed.x0, &self.grid.x0),
+            apart(("x (σ)", "|Δu| (kσ²/a)"), &self.x, &self.closed.u, &self.grid.u),
+        ];
+        Ok(figure)
+    }
+}

@@ -1,0 +1,71 @@
+//! A limit cycle: spring, velocity, the ripple left behind.
+
+use super::dense::Part;
+use super::run::{L, NATURAL, VELOCITY, against};
+use super::tip::model_name;
+use super::{Drawn, View};
+use crate::error::FigureError;
+use crate::number::{seven_digits, short};
+use stickslip_documents::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName};
+use stickslip_surface::Surface;
+use stickslip_tip::{InitialSurface, Model, Step, Trajectory};
+
+/// Of the ripple.
+const WAVELENGTHS: f64 = 3.0;
+const POINTS: usize = 1500;
+/// On either side of them; a wave so much shorter than the tip is wide leaves no ripple.
+const MOST_PERIODS: f64 = 3000.0;
+
+impl Drawn for CycleDocument {
+    fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
+        let model = self.parameters.model.model()?;
+        let stable = if self.stable { "stable" } else { "unstable" };
+        let name = model_name(&self.parameters.model);
+        let title = format!("{name}: {stable} cycle, T = {}", seven_digits(self.period));
+        let mut figure = FigureDocument::new("cycle", &title, vec![self.parameters.model.clone()]);
+        let (r, steady) = (model.r(), model.steady_l());
+        let motion = self.history.trajectory(r)?;
+        let part = Part::of(&motion, view.x_range);
+        let l = part.line("l(t)", &|step, t| step.l(r, t));
+        let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
+        let ripple = ripple(self, &model, &motion)?;
+        figure.panels = vec![
+            against(L, l, steady, &format!("steady state, l₀ = {}", short(steady))),
+            against(VELOCITY, velocity, r, &format!("support, r = {}", short(r))),
+        ];
+        figure.panels.extend(ripple);
+        Ok(figure)
+    }
+}
+
+/// u far behind the tip: what the motion has left that went on for long enough.
+fn ripple(
+    cycle: &CycleDocument,
+    model: &Model,
+    motion: &Trajectory,
+) -> Result<Option<PanelDocument>, FigureError> {
+    let (wavelength, period) = (cycle.wavelength, motion.end() - motion.start());
+    // From out of reach before to out of reach behind; a motion leaves the mean by less than its amplitude.
+    let reach = model.tip().reach().unwrap_or(0.0) + 2.0 * cycle.amplitude_x0;
+    let before = (reach / wavelength).ceil() + 1.0;
+    if !(before < MOST_PERIODS) {
+        return Ok(None);
+    }
+    let periods = (2.0 * before + WAVELENGTHS) as usize;
+    let steps = (0..periods).flat_map(|i| {
+        let shift = period * i as f64;
+        motion.steps().iter().map(move |step| Step { t: step.t + shift, ..*step })
+    });
+    let long = Trajectory::new(model.r(), steps.collect());
+    let from = motion.x0(motion.start()) + before * wavelength;
+    let at = |i: usize| WAVELENGTHS * wavelength * i as f64 / POINTS as f64;
+    let x: Vec<f64> = (0..=POINTS).map(at).collect();
+    let shifted: Vec<f64> = x.iter().map(|x| from + x).collect();
+    let flat = InitialSurface::flat();
+    let u = Surface::new(model, &flat, &long).far_behind(long.end(), &shifted);
+    let u = u.map_err(|error| FigureError::Damaged(error.to_string()))?.to_vec();
+    let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
+    panel.natural = NATURAL;
+    panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
+    Ok(Some(panel))
+}

@@ -1,0 +1,145 @@
+//! From a document to its figure as data.
+
+mod boundary;
+mod compare;
+mod continuation;
+mod cycle;
+mod dense;
+mod response;
+mod run;
+mod stability;
+mod surface;
+mod sweep;
+mod tip;
+
+use crate::error::FigureError;
+use stickslip_documents::{
+    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument, Kind,
+    PanelDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
+    SweepDocument, Unusable, read,
+};
+
+pub use boundary::onset_of;
+pub use sweep::judge_sweep;
+
+/// What is asked of a figure beyond what its document says.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct View {
+    /// First and last abscissa of the first panel, and of those with the same axis label.
+    pub x_range: Option<[f64; 2]>,
+    /// First and last ordinate of the first panel, and of those with the same axis label.
+    pub y_range: Option<[f64; 2]>,
+}
+
+/// A document that has a figure.
+pub trait Drawn {
+    /// The figure; within `view.x_range` as fine as the document allows.
+    ///
+    /// # Errors
+    /// The document is damaged, or holds nothing that could be drawn.
+    fn figure(&self, view: &View) -> Result<FigureDocument, FigureError>;
+}
+
+/// The figure of a document.
+///
+/// # Errors
+/// The document is damaged, or holds nothing that could be drawn.
+pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
+    let mut figure = document.figure(view)?;
+    figure.panels.iter().try_for_each(judge)?;
+    let Some(first) = figure.panels.first() else {
+        return Err(FigureError::Nothing("there is nothing to draw".into()));
+    };
+    let (x_label, y_label) = (first.x_label.clone(), first.y_label.clone());
+    for panel in &mut figure.panels {
+        if panel.x_label == x_label && view.x_range.is_some() {
+            panel.x_range = view.x_range;
+        }
+        if panel.y_label == y_label && view.y_range.is_some() {
+            panel.y_range = view.y_range;
+        }
+    }
+    Ok(figure)
+}
+
+/// Refuses grids that are not as large as their axes.
+fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
+    let fits = |x: &[f64], y: &[f64], rows: &[usize]| {
+        rows.len() == y.len() && rows.iter().all(|row| *row == x.len())
+    };
+    let map = panel.map.as_ref().is_none_or(|map| {
+        let rows: Vec<usize> = map.z.iter().map(Vec::len).collect();
+        !map.x.is_empty() && !map.y.is_empty() && fits(&map.x, &map.y, &rows)
+    });
+    let cells = panel.cells.as_ref().is_none_or(|cells| {
+        let rows: Vec<usize> = cells.kinds.iter().map(Vec::len).collect();
+        fits(&cells.x, &cells.y, &rows)
+    });
+    if map && cells {
+        return Ok(());
+    }
+    Err(FigureError::Damaged("a map has not as many rows and columns as its axes".into()))
+}
+
+/// Formats of the documents that have a figure.
+pub const FORMATS: [&str; 10] = [
+    RunDocument::FORMAT,
+    SurfaceDocument::FORMAT,
+    StabilityDocument::FORMAT,
+    BoundaryDocument::FORMAT,
+    CycleDocument::FORMAT,
+    ContinueDocument::FORMAT,
+    SweepDocument::FORMAT,
+    ResponseDocument::FORMAT,
+    CompareDocument::FORMAT,
+    FigureDocument::FORMAT,
+];
+
+/// The document that a text holds, whatever it is of [`FORMATS`].
+///
+/// # Errors
+/// The text is no JSON, a document without a figure, or damaged.
+pub fn saved(text: &str) -> Result<Box<dyn Drawn>, Unusable> {
+    let kind: Kind = read_kind(text)?;
+    let format = kind.format.unwrap_or_default();
+    fn boxed<D: Drawn + serde::de::DeserializeOwned + 'static>(
+        text: &str,
+        format: &str,
+    ) -> Result<Box<dyn Drawn>, Unusable> {
+        Ok(Box::new(read::<D>(text, format)?))
+    }
+    match format.as_str() {
+        RunDocument::FORMAT => boxed::<RunDocument>(text, &format),
+        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(text, &format),
+        StabilityDocument::FORMAT => boxed::<StabilityDocument>(text, &format),
+        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(text, &format),
+        CycleDocument::FORMAT => boxed::<CycleDocument>(text, &format),
+        ContinueDocument::FORMAT => boxed::<ContinueDocument>(text, &format),
+        SweepDocument::FORMAT => boxed::<SweepDocument>(text, &format),
+        ResponseDocument::FORMAT => boxed::<ResponseDocument>(text, &format),
+        CompareDocument::FORMAT => boxed::<CompareDocument>(text, &format),
+        FigureDocument::FORMAT => boxed::<FigureDocument>(text, &format),
+        _ => Err(Unusable::new(format_args!(
+            "format is {}; a picture is there for {}",
+            if format.is_empty() { "missing" } else { &format },
+            FORMATS.join(", ")
+        ))),
+    }
+}
+
+fn read_kind(text: &str) -> Result<Kind, Unusable> {
+    serde_json::from_str(text)
+        .map_err(|error| Unusable::new(format_args!("not a whole JSON document ({error})")))
+}
+
+impl Drawn for FigureDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        Ok(self.clone())
+    }
+}
+
+impl From<Unusable> for FigureError {
+    fn from(error: Unusable) -> Self {
+        Self::Damaged(error.to_string())
+    }
+}

@@ -1,0 +1,38 @@
+//! The linear response to weak pulses.
+
+use super::tip::model_name;
+use super::{Drawn, View};
+use crate::error::FigureError;
+use stickslip_documents::{
+    CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName,
+};
+
+impl Drawn for ResponseDocument {
+    /// The deviation, and a ground where so many modes do not give it.
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let model = &self.parameters.model;
+        let title = format!("Linear response, {}", model_name(model));
+        let mut figure = FigureDocument::new("response", &title, vec![model.clone()]);
+        let mut panel = PanelDocument::new("", ("t (Γ/k)", "l − l₀ (σ)"));
+        let t = &self.samples.t;
+        let mut curve = CurveDocument::new(StyleName::Line, "", t, &[]);
+        curve.y = self.samples.deviation.clone();
+        panel.curves = vec![curve];
+        if let (Some(first), Some(last)) = (t.first().copied(), t.last().copied()) {
+            let mut shade = |from: f64, to: f64| {
+                if from < to {
+                    panel.shades.push([from, to]);
+                }
+            };
+            let (from, to) = (self.valid_from, self.valid_to);
+            shade(first.max(self.origin), from.min(last));
+            shade(to.max(first), last);
+            if !panel.shades.is_empty() {
+                let modes = self.modes.len();
+                panel.heading = format!("on the coloured ground {modes} modes are not enough");
+            }
+        }
+        figure.panels = vec![panel];
+        Ok(figure)
+    }
+}

@@ -1,0 +1,150 @@
+//! The surface that a run leaves, with the tip on it.
+
+use crate::axis::extremes;
+use crate::compose::run::NATURAL;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName,
+};
+use stickslip_surface::Surface;
+
+/// Shown on either side of the tip's way.
+pub(super) const MARGIN: f64 = 12.0;
+/// The tip's own groove reaches so far behind it.
+const GROOVE: f64 = 4.0;
+/// Ripples that take less of the height than this are drawn alone, and what is beyond is cut.
+const LEAST_PART: f64 = 0.3;
+/// A tip that made fewer has left no ripples.
+const FEW: usize = 4;
+/// Distance of the points, and how many there are at least and at most.
+const SPACING: f64 = 0.1;
+const POINTS: (f64, f64) = (1500.0, 120_000.0);
+const ENVELOPE: usize = 400;
+const RIPPLES: f64 = 1.5;
+
+/// A surface at time `end`, and where the tip is then.
+pub(super) struct Ground<'a> {
+    pub(super) surface: Surface<'a>,
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) tip: f64,
+}
+
+impl Ground<'_> {
+    /// The surface, and that at the start if that is of interest.
+    pub(super) fn lines(
+        &self,
+        range: (f64, f64),
+        with_start: bool,
+        ripples: usize,
+    ) -> Result<PanelDocument, FigureError> {
+        let x = points(range);
+        let u = self.heights(self.end, &x)?;
+        let mut panel = self.panel();
+        if with_start {
+            let before = self.heights(self.start, &x)?;
+            panel.curves.push(CurveDocument::new(StyleName::Dotted, "at the start", &x, &before));
+        }
+        let name = format!("u(x, t = {})", short(self.end));
+        panel.curves.push(CurveDocument::new(StyleName::Line, &name, &x, &u));
+        self.fit(&mut panel, &x, &u, ripples);
+        Ok(panel)
+    }
+
+    /// From lowest to highest, where ripples of that wavelength would run into each other.
+    pub(super) fn envelope(
+        &self,
+        range: (f64, f64),
+        wavelength: f64,
+        ripples: usize,
+    ) -> Result<PanelDocument, FigureError> {
+        let x = points(range);
+        let u = self.heights(self.end, &x)?;
+        let mut panel = self.panel();
+        let columns = ((ripples as f64 / RIPPLES) as usize).clamp(8, ENVELOPE);
+        let per_column = x.len().div_ceil(columns).max(1);
+        let spacing = (range.1 - range.0) / x.len() as f64;
+        // Where the tip is, and before it came, nothing is to be smoothed.
+        let of = |x: &[f64], u: &[f64]| -> (f64, f64, f64) {
+            let (low, high) = extremes(u.iter().copied()).unwrap_or((0.0, 0.0));
+            (0.5 * (x[0] + x[x.len() - 1]), low, high)
+        };
+        let ahead = x.partition_point(|x| *x < self.tip - GROOVE);
+        let (behind_x, behind_u) = (&x[..ahead], &u[..ahead]);
+        let columns: Vec<(f64, f64, f64)> = behind_x
+            .chunks(per_column)
+            .zip(behind_u.chunks(per_column))
+            .map(|(x, u)| of(x, u))
+            .collect();
+        let name = format!("u(x, t = {}), lowest to highest", short(self.end));
+        if spacing < wavelength / 6.0 && !columns.is_empty() {
+            let mut x: Vec<f64> = columns.iter().map(|c| c.0).collect();
+            let last = x.len() - 1;
+            (x[0], x[last]) = (behind_x[0], behind_x[behind_x.len() - 1]);
+            let high: Vec<f64> = columns.iter().map(|c| c.2).collect();
+            let mut band = CurveDocument::new(StyleName::Band, &name, &x, &high);
+            band.low = Some(columns.iter().map(|c| Some(c.1)).collect());
+            panel.curves.push(band);
+        }
+        let mut rest = CurveDocument::new(StyleName::Line, "", &x[ahead..], &u[ahead..]);
+        rest.colour = Some(ColourName::Blue);
+        panel.curves.push(rest);
+        panel.x_range = Some([range.0, range.1]);
+        self.fit(&mut panel, &x, &u, ripples);
+        Ok(panel)
+    }
+
+    fn heights(&self, t: f64, x: &[f64]) -> Result<Vec<f64>, FigureError> {
+        let u = self.surface.heights(t, x);
+        u.map(|u| u.to_vec()).map_err(|error| FigureError::Damaged(error.to_string()))
+    }
+
+    fn panel(&self) -> PanelDocument {
+        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
+        panel.natural = NATURAL;
+        panel
+    }
+
+    /// The ordinates: those of the ripples behind the tip, where its own pit and what it has not reached yet would
+    /// leave little room for them; and a mark where the tip is.
+    fn fit(&self, panel: &mut PanelDocument, x: &[f64], u: &[f64], count: usize) {
+        let all = extremes(u.iter().copied());
+        let behind = x.iter().zip(u).filter(|(x, _)| **x < self.tip - GROOVE).map(|(_, u)| *u);
+        let (Some((low, high)), Some(ripples)) = (all, extremes(behind)) else { return };
+        let span = ripples.1 - ripples.0;
+        let natural = NATURAL.unwrap_or(0.0);
+        let (mut from, mut to) = (low, high);
+        if count >= FEW && span < LEAST_PART * (high - low) && span > 1e-6 * natural {
+            (from, to) = (ripples.0 - 0.35 * span, ripples.1 + 0.35 * span);
+            let beyond = |value: f64, y: f64, arrow| {
+                let text = format!("{} at the tip", short(value));
+                NoteDocument { arrow: Some(arrow), ..NoteDocument::new(&text, (self.tip, y)) }
+            };
+            if low < from {
+                panel.notes.push(beyond(low, from + 0.12 * (to - from), ArrowName::Down));
+            }
+            if high > to {
+                let text = format!("{} ahead", short(high));
+                let y = to - 0.12 * (to - from);
+                let note = NoteDocument {
+                    arrow: Some(ArrowName::Up),
+                    ..NoteDocument::new(&text, (self.tip, y))
+                };
+                panel.notes.push(note);
+            }
+            panel.y_range = Some([from, to]);
+        } else {
+            let pad = 0.06 * (to - from).max(1e-6 * natural);
+            (from, to) = (from - pad, to + pad);
+        }
+        let mut mark = CurveDocument::new(StyleName::Dashed, "tip", &[self.tip; 2], &[from, to]);
+        mark.colour = Some(ColourName::Grey);
+        panel.curves.insert(0, mark);
+    }
+}
+
+fn points((low, high): (f64, f64)) -> Vec<f64> {
+    let count = ((high - low) / SPACING).clamp(POINTS.0, POINTS.1).floor();
+    (0..=count as usize).map(|i| low + (high - low) * i as f64 / count).collect()
+}

@@ -1,0 +1,70 @@
+//! Growth exponents in the complex plane.
+
+use super::tip::model_name;
+use super::{Drawn, View};
+use crate::axis::extremes;
+use crate::error::FigureError;
+use stickslip_documents::{
+    ColourName, ComplexDocument, CurveDocument, FigureDocument, PanelDocument, StabilityDocument,
+    StyleName,
+};
+
+/// Part of the width that the unstable half has at least, even when no root is there.
+const UNSTABLE_PART: f64 = 0.15;
+const PADDING: f64 = 0.06;
+
+impl Drawn for StabilityDocument {
+    /// Those at the critical point neither grow nor decay, whatever round-off says.
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let model = &self.parameters.model;
+        let what = match (self.parameters.at_critical_point, self.stable) {
+            (true, _) => "critical",
+            (_, true) => "stable",
+            (_, false) => "unstable",
+        };
+        let title = format!("{}: {what}", model_name(model));
+        let mut figure = FigureDocument::new("stability", &title, vec![model.clone()]);
+        let mut panel = PanelDocument::new("", ("Re λ (k/Γ)", "Im λ (k/Γ)"));
+        let (x, y) = axes(&self.roots);
+        panel.x_range = Some(x);
+        panel.y_range = Some(y);
+        panel.shades = vec![[0.0, x[1]]];
+        let error = self.certificate.largest_error;
+        let zero = [0.0; 2];
+        panel.curves = vec![
+            CurveDocument::new(StyleName::Thin, "", &zero, &y),
+            CurveDocument::new(StyleName::Thin, "", &x, &zero),
+            dots(&self.roots, "decaying", ColourName::Blue, |re| re < -error),
+            dots(&self.roots, "growing", ColourName::Vermillion, |re| re > error),
+            dots(&self.roots, "neither", ColourName::Black, |re| re.abs() <= error),
+        ];
+        figure.panels = vec![panel];
+        Ok(figure)
+    }
+}
+
+/// The roots in a part of the plane, with those below the real axis.
+fn dots(
+    roots: &[ComplexDocument],
+    name: &str,
+    colour: ColourName,
+    wanted: impl Fn(f64) -> bool,
+) -> CurveDocument {
+    let here = roots.iter().filter(|root| wanted(root.re));
+    let (x, y): (Vec<f64>, Vec<f64>) = here.map(|root| (root.re, root.im)).unzip();
+    let mut dots = CurveDocument::new(StyleName::Dots, name, &x, &y);
+    dots.colour = Some(colour);
+    dots
+}
+
+/// Both axes hold the origin, and the abscissas a part of the unstable half.
+fn axes(roots: &[ComplexDocument]) -> ([f64; 2], [f64; 2]) {
+    let of = |part: fn(&ComplexDocument) -> f64| {
+        let values = roots.iter().map(part).filter(|v| v.is_finite());
+        let (low, high) = extremes(values.chain([0.0])).unwrap_or((0.0, 0.0));
+        let span = if high > low { high - low } else { 1.0 };
+        [low - PADDING * span, high + PADDING * span]
+    };
+    let (x, y) = (of(|root| root.re), of(|root| root.im));
+    ([x[0], x[1].max(-UNSTABLE_PART * x[0])], y)
+}

@@ -1,0 +1,111 @@
+//! Surfaces, and their images.
+
+use super::tip::model_name;
+use super::{Drawn, View};
+use crate::axis::extremes;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    ColoursName, CurveDocument, FigureDocument, MapDocument, PanelDocument, StyleName,
+    SurfaceCurve, SurfaceDocument,
+};
+
+/// So many surfaces have a panel each; more are drawn upon each other, by colour.
+const MOST_PANELS: usize = 8;
+/// Shown of a surface that nothing has touched, beyond what has been.
+const UNTOUCHED: f64 = 6.0;
+/// What changes by less than this part of all heights counts as untouched.
+const LEVEL: f64 = 1e-3;
+
+impl Drawn for SurfaceDocument {
+    fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
+        let model = &self.parameters.model;
+        let far = if self.parameters.far_behind { ", far behind the tip" } else { "" };
+        let title = format!("{}{far}", model_name(model));
+        let mut figure = FigureDocument::new("surface", &title, vec![model.clone()]);
+        figure.panels =
+            if self.images.is_empty() { curves(&self.surfaces, view) } else { images(self) };
+        Ok(figure)
+    }
+}
+
+/// A height map for every time, with one scale of colours for all.
+fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
+    let heights = document.images.iter().flat_map(|image| image.u.iter().flatten().copied());
+    let range = extremes(heights.filter(|u| u.is_finite()));
+    let range = range.filter(|(low, high)| low < high).map(|(low, high)| [low, high]);
+    let panel = |image: &stickslip_documents::SurfaceImage| {
+        let mut panel = PanelDocument::new(&time(image.t), ("x (σ)", "y (σ)"));
+        panel.map = Some(MapDocument {
+            x: image.x.clone(),
+            y: image.y.clone(),
+            z: image.u.clone(),
+            z_label: "u (kσ²/a)".into(),
+            colours: ColoursName::Cividis,
+            z_range: range,
+        });
+        panel
+    };
+    document.images.iter().map(panel).collect()
+}
+
+/// Panels with the same axes: surfaces upon each other would hide one another.
+fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
+    let all = surfaces.iter().flat_map(|s| s.u.iter().copied().filter(|u| u.is_finite()));
+    let Some((low, high)) = extremes(all) else { return vec![] };
+    let shown: Vec<[f64; 2]> = surfaces.iter().filter_map(|s| touched(s, high - low)).collect();
+    let from = shown.iter().map(|range| range[0]).fold(f64::INFINITY, f64::min);
+    let to = shown.iter().map(|range| range[1]).fold(f64::NEG_INFINITY, f64::max);
+    let x_range = view.x_range.or((from < to).then_some([from, to]));
+    let mut panels = vec![];
+    for surface in surfaces {
+        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
+        panel.natural = Some(1.0);
+        panel.x_range = x_range;
+        if high - low > 1e-6 {
+            let air = 0.06 * (high - low);
+            panel.y_range = Some([low - air, high + air]);
+        }
+        // The line ends where the tip has not come yet.
+        let end = touched(surface, high - low).map_or(f64::INFINITY, |range| range[1]);
+        let shown = surface.x.partition_point(|x| *x <= end);
+        let (x, u) = (&surface.x[..shown], &surface.u[..shown.min(surface.u.len())]);
+        let curve = CurveDocument::new(StyleName::Line, &time(surface.t), x, u);
+        panel.curves.push(curve);
+        panels.push(panel);
+    }
+    if panels.len() <= MOST_PANELS {
+        return panels;
+    }
+    overlaid(panels)
+}
+
+/// All in the first panel, in colours and dashes of their own.
+fn overlaid(panels: Vec<PanelDocument>) -> Vec<PanelDocument> {
+    use stickslip_documents::ColourName::{Black, Blue, Green, Orange, Purple, Sky, Vermillion};
+    const COLOURS: [stickslip_documents::ColourName; 7] =
+        [Blue, Vermillion, Green, Purple, Orange, Sky, Black];
+    const STYLES: [StyleName; 3] = [StyleName::Line, StyleName::Dashed, StyleName::Dotted];
+    let mut all = panels.into_iter();
+    let Some(mut first) = all.next() else { return vec![] };
+    first.curves.extend(all.flat_map(|panel| panel.curves));
+    for (i, curve) in first.curves.iter_mut().enumerate() {
+        curve.colour = Some(COLOURS[i % COLOURS.len()]);
+        curve.style = STYLES[i / COLOURS.len() % STYLES.len()];
+    }
+    vec![first]
+}
+
+/// The abscissas without what lies far beyond all that the tip has touched.
+fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
+    let (first, last) = (*surface.x.first()?, *surface.x.last()?);
+    let end = *surface.u.last()?;
+    let beyond = surface.u.iter().rposition(|u| (u - end).abs() > LEVEL * span);
+    let to = beyond.map_or(last, |i| (surface.x[i] + UNTOUCHED).min(last));
+    Some([first, to])
+}
+
+/// Such as "t = 457".
+fn time(t: f64) -> String {
+    format!("t = {}", short(t))
+}

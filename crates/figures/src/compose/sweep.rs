@@ -1,0 +1,163 @@
+//! A sweep: a phase diagram over two parameters, amplitude and period over one.
+
+mod cells;
+mod row;
+
+use super::boundary::{ALPHA, R};
+use super::tip::tip_name;
+use super::{Drawn, View};
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    ColourName, FigureDocument, ModelParameters, RegimeName, SweepDocument, SweepParameters,
+    SweepPoint,
+};
+
+/// A parameter that varies.
+#[derive(Debug, Clone, Copy)]
+struct Varied<'a> {
+    values: &'a [f64],
+    label: &'static str,
+    /// Index of a point in the grid to its place along this axis.
+    stride: usize,
+}
+
+impl Varied<'_> {
+    fn place(&self, point: &SweepPoint) -> usize {
+        point.index / self.stride % self.values.len()
+    }
+}
+
+/// Those that vary, the slowest first.
+fn varied(parameters: &SweepParameters) -> Vec<Varied<'_>> {
+    let SweepParameters { beta, r, alpha, alpha_above, .. } = parameters;
+    let above = alpha_above.as_deref().map(|values| (values, "α − α_c"));
+    let (alphas, label) =
+        alpha.as_deref().map(|values| (values, ALPHA)).or(above).unwrap_or((&[], ALPHA));
+    let stride = alphas.len().max(1);
+    let all = [
+        Varied {
+            values: beta.as_deref().unwrap_or(&[]),
+            label: "β",
+            stride: stride * r.len().max(1),
+        },
+        Varied { values: r, label: R, stride },
+        Varied { values: alphas, label, stride: 1 },
+    ];
+    all.into_iter().filter(|axis| axis.values.len() > 1).collect()
+}
+
+/// Refuses a grid that no picture shows, before its points are computed.
+///
+/// # Errors
+/// It is a single point, or has more than two parameters that vary.
+pub fn judge_sweep(parameters: &SweepParameters) -> Result<(), FigureError> {
+    match varied(parameters).len() {
+        1 | 2 => Ok(()),
+        0 => Err(FigureError::Nothing("a single point is no picture: give a range LO:HI:N".into())),
+        _ => {
+            let advice = "a picture has room for two ranges: fix one of them";
+            Err(FigureError::Nothing(advice.into()))
+        }
+    }
+}
+
+impl Drawn for SweepDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        judge_sweep(&self.parameters)?;
+        let title = format!("What the tip settles into, {}", fixed(&self.parameters));
+        let mut figure = FigureDocument::new("sweep", &title, models(&self.parameters));
+        figure.panels = match varied(&self.parameters).as_slice() {
+            [slow, fast] => vec![cells::panel(self, *slow, *fast)],
+            [axis] => row::panels(self, *axis),
+            _ => vec![],
+        };
+        Ok(figure)
+    }
+}
+
+/// What does not vary.
+fn fixed(parameters: &SweepParameters) -> String {
+    let SweepParameters { tips, beta, r, alpha, alpha_above, .. } = parameters;
+    let mut said = vec![];
+    match (beta.as_deref().map(<[f64]>::len), tips.first()) {
+        (Some(2..), _) => said.push("triple Gaussian".to_owned()),
+        (_, Some(tip)) => said.push(tip_name(tip)),
+        (_, None) => {}
+    }
+    let mut one = |name: &str, values: &[f64]| {
+        if let [value] = values {
+            said.push(format!("{name} = {}", short(*value)));
+        }
+    };
+    one("r", r);
+    one("α", alpha.as_deref().unwrap_or(&[]));
+    one("α − α_c", alpha_above.as_deref().unwrap_or(&[]));
+    said.join(", ")
+}
+
+/// That of the first point.
+fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
+    let first = |values: &Option<Vec<f64>>| values.as_ref().and_then(|v| v.first().copied());
+    let (alpha, alpha_above) = (first(&parameters.alpha), first(&parameters.alpha_above));
+    let model = |tip: &stickslip_documents::TipDocument| {
+        let (alpha, r) = (alpha.or(alpha_above)?, *parameters.r.first()?);
+        Some(ModelParameters { tip: tip.clone(), alpha, alpha_above, r })
+    };
+    parameters.tips.first().and_then(model).into_iter().collect()
+}
+
+/// Kinds of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Steady,
+    OneSlip,
+    TwoSlips,
+    MoreSlips,
+    Trapped,
+    Unsettled,
+}
+
+impl Phase {
+    const ALL: [Self; 6] = [
+        Self::Steady,
+        Self::OneSlip,
+        Self::TwoSlips,
+        Self::MoreSlips,
+        Self::Trapped,
+        Self::Unsettled,
+    ];
+
+    fn of(point: &SweepPoint) -> Option<Self> {
+        Some(match (point.regime?, point.slips) {
+            (RegimeName::Steady, _) => Self::Steady,
+            (RegimeName::StickSlip, Some(1)) => Self::OneSlip,
+            (RegimeName::StickSlip, Some(2)) => Self::TwoSlips,
+            (RegimeName::StickSlip, _) => Self::MoreSlips,
+            (RegimeName::Trapped, _) => Self::Trapped,
+            (RegimeName::Transient, _) => Self::Unsettled,
+        })
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Steady => "steady",
+            Self::OneSlip => "one slip a period",
+            Self::TwoSlips => "two slips",
+            Self::MoreSlips => "three or more",
+            Self::Trapped => "trapped",
+            Self::Unsettled => "not settled",
+        }
+    }
+
+    fn colour(self) -> ColourName {
+        match self {
+            Self::Steady => ColourName::Silver,
+            Self::OneSlip => ColourName::Blue,
+            Self::TwoSlips => ColourName::Vermillion,
+            Self::MoreSlips => ColourName::Orange,
+            Self::Trapped => ColourName::Black,
+            Self::Unsettled => ColourName::Purple,
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The phase diagram: what the motion comes to, over two parameters.
+
+use super::{Phase, Varied};
+use crate::compose::boundary::ALPHA;
+use stickslip_documents::{
+    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
+    TipDocument,
+};
+use stickslip_stability::{critical, trapping_alpha};
+use stickslip_tip::TipFunction;
+
+/// A column of cells for every value of the slow parameter, and the lines of theory across them.
+pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> PanelDocument {
+    let mut panel = PanelDocument::new("", (slow.label, fast.label));
+    let mut kinds = vec![vec![None; slow.values.len()]; fast.values.len()];
+    for point in &document.points {
+        let kind = Phase::of(point).and_then(|p| Phase::ALL.iter().position(|all| *all == p));
+        kinds[fast.place(point)][slow.place(point)] = kind;
+    }
+    let (x, columns) = ascending(slow.values);
+    let (y, rows) = ascending(fast.values);
+    let row = |row: &usize| columns.iter().map(|column| kinds[*row][*column]).collect();
+    panel.x_range = ends(&x);
+    panel.y_range = ends(&y);
+    panel.cells = Some(CellsDocument {
+        kinds: rows.iter().map(row).collect(),
+        x,
+        y,
+        names: Phase::ALL.iter().map(|phase| phase.name().into()).collect(),
+        colours: Phase::ALL.iter().map(|phase| phase.colour()).collect(),
+    });
+    panel.curves = lines(document, slow, fast);
+    panel
+}
+
+/// Values from the lowest to the highest, and the place where each was.
+fn ascending(values: &[f64]) -> (Vec<f64>, Vec<usize>) {
+    let mut places: Vec<usize> = (0..values.len()).collect();
+    places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    (places.iter().map(|place| values[*place]).collect(), places)
+}
+
+fn ends(values: &[f64]) -> Option<[f64; 2]> {
+    let (first, last) = (*values.first()?, *values.last()?);
+    (first < last).then_some([first, last])
+}
+
+/// αc and the trapping threshold, where α is one of the axes.
+fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocument> {
+    let parameters = &document.parameters;
+    let is_above = fast.label != ALPHA;
+    if parameters.alpha.as_ref().or(parameters.alpha_above.as_ref()).is_none_or(|a| a.len() < 2) {
+        return vec![];
+    }
+    let thresholds: Vec<(f64, f64, f64)> =
+        (0..slow.values.len()).map(|i| threshold(document, slow, i)).collect();
+    let x: Vec<f64> = thresholds.iter().map(|t| t.0).collect();
+    let line = |style, name: &str, y: fn(&(f64, f64, f64)) -> f64, colour| {
+        let shown: Vec<f64> =
+            thresholds.iter().map(|t| if is_above { y(t) - t.1 } else { y(t) }).collect();
+        let mut curve = CurveDocument::new(style, name, &x, &shown);
+        curve.colour = Some(colour);
+        curve.smooth = true;
+        curve
+    };
+    vec![
+        line(StyleName::Line, "α_c", |t| t.1, ColourName::Black),
+        line(StyleName::Dashed, "α of trapping", |t| t.2, ColourName::Green),
+    ]
+}
+
+/// The slow parameter, αc and the trapping threshold there; NaN where there is none.
+fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64) {
+    let parameters = &document.parameters;
+    let of_r = slow.values.len() == parameters.r.len() && slow.label != "β";
+    let r = if of_r { slow.values[i] } else { parameters.r.first().copied().unwrap_or(f64::NAN) };
+    let tip: Option<&TipDocument> =
+        if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
+    let tip: Option<TipFunction> = tip.and_then(|tip| tip.tip().ok());
+    // What the points say costs nothing.
+    let here = |point: &&SweepPoint| slow.place(point) == i;
+    let known = document.points.iter().filter(here).find_map(|point| point.critical_alpha);
+    let of = |value: &dyn Fn(&TipFunction) -> Option<f64>| tip.as_ref().and_then(value);
+    let onset = known.or_else(|| of(&|tip| critical(tip, r).ok().map(|c| c.alpha)));
+    let trapped = of(&|tip| trapping_alpha(tip, r).ok());
+    (slow.values[i], onset.unwrap_or(f64::NAN), trapped.unwrap_or(f64::NAN))
+}

@@ -1,0 +1,79 @@
+//! Amplitude and period of what the motion comes to, over one parameter. Steady and trapped tips have neither: they
+//! are marked at the foot of the axes.
+
+use super::{Phase, Varied};
+use crate::axis::extremes;
+use crate::compose::continuation::WIDE;
+use stickslip_documents::{
+    CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint,
+};
+
+/// Two panels of dots.
+pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
+    let panel = |label, value: fn(&SweepPoint) -> Option<f64>| panel(document, axis, label, value);
+    vec![panel("amplitude of x₀ (σ)", |p| p.amplitude_x0), panel("period (Γ/k)", |p| p.period)]
+}
+
+fn panel(
+    document: &SweepDocument,
+    axis: Varied,
+    label: &str,
+    value: fn(&SweepPoint) -> Option<f64>,
+) -> PanelDocument {
+    let mut panel = PanelDocument::new("", (axis.label, label));
+    let values = document.points.iter().filter_map(value).filter(|v| v.is_finite());
+    let positive = extremes(values.clone().filter(|v| *v > 0.0));
+    if positive.is_some_and(|(low, high)| high > WIDE * low) {
+        panel.y_scale = ScaleName::Logarithmic;
+    }
+    let range = range(extremes(values), positive, panel.y_scale);
+    panel.y_range = Some([range.0, range.1]);
+    panel.x_range = extremes(axis.values.iter().copied()).map(|(low, high)| {
+        let air = 0.02 * (high - low);
+        [low - air, high + air]
+    });
+    for phase in Phase::ALL {
+        let here = || document.points.iter().filter(move |p| Phase::of(p) == Some(phase));
+        let place = |p: &SweepPoint| axis.values[axis.place(p)];
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            here().filter_map(|p| Some((place(p), value(p)?))).unzip();
+        let without: Vec<f64> = here().filter(|p| value(p).is_none()).map(place).collect();
+        let foot = vec![range.2; without.len()];
+        let name = phase.name();
+        let at_foot = format!("{name} (no value)");
+        let kinds = [
+            (StyleName::SmallDots, name, x, y),
+            (StyleName::SmallTriangles, at_foot.as_str(), without, foot),
+        ];
+        for (style, name, x, y) in kinds.into_iter().filter(|(_, _, x, _)| !x.is_empty()) {
+            let mut curve = CurveDocument::new(style, name, &x, &y);
+            curve.colour = Some(phase.mark());
+            panel.curves.push(curve);
+        }
+    }
+    panel
+}
+
+/// First and last ordinate, and that of points without a value: at the foot of the axes, never at a value.
+fn range(
+    all: Option<(f64, f64)>,
+    positive: Option<(f64, f64)>,
+    scale: ScaleName,
+) -> (f64, f64, f64) {
+    match (scale, positive, all) {
+        (ScaleName::Logarithmic, Some((low, high)), _) => {
+            let span = (high / low).ln();
+            let at = |part: f64| low * (part * span).exp();
+            (at(-0.16), at(1.08), at(-0.11))
+        }
+        (_, _, Some((_, high))) if high > 0.0 => (0.0, 1.08 * high, 0.02 * high),
+        _ => (0.0, 1.0, 0.02),
+    }
+}
+
+impl Phase {
+    /// The silver of areas is too light for dots.
+    fn mark(self) -> stickslip_documents::ColourName {
+        if self == Self::Steady { stickslip_documents::ColourName::Grey } else { self.colour() }
+    }
+}

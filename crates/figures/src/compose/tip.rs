@@ -1,0 +1,94 @@
+//! What a tip and a model are called in titles.
+
+use crate::number::{seven_digits, short};
+use stickslip_documents::{GaussianDocument, ModelParameters, TipDocument};
+
+/// Numbers closer than this are taken for the same.
+const SAME: f64 = 1e-9;
+
+/// Such as "β = 1" for the triple Gaussian (48) of width 1.
+pub(crate) fn tip_name(tip: &TipDocument) -> String {
+    match tip {
+        TipDocument::Bessel {} => "f = J₀(x)".into(),
+        TipDocument::Footprint { .. } => "f(x, y) of a file".into(),
+        TipDocument::Gaussians { gaussians } => gaussians_name(gaussians),
+    }
+}
+
+/// Tip, α and r.
+pub(crate) fn model_name(model: &ModelParameters) -> String {
+    let [alpha, r] = [model.alpha, model.r].map(seven_digits);
+    format!("{}, α = {alpha}, r = {r}", tip_name(&model.tip))
+}
+
+fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
+    if let Some((beta, width)) = triple(gaussians) {
+        return with_width(&format!("β = {}", short(beta)), width);
+    }
+    match gaussians {
+        [g] if is(g.amplitude, 1.0) && is(g.center, 0.0) => {
+            if is(g.width, std::f64::consts::FRAC_1_SQRT_2) {
+                return "f = exp(−x²)".into();
+            }
+            with_width("f = exp(−x²/2)", g.width)
+        }
+        // A table is made of many.
+        many if many.len() > 9 => "f of a table".into(),
+        many => {
+            format!("f = sum of {} Gaussian{}", many.len(), if many.len() == 1 { "" } else { "s" })
+        }
+    }
+}
+
+fn with_width(name: &str, width: f64) -> String {
+    if is(width, 1.0) { name.into() } else { format!("{name}, width {}", short(width)) }
+}
+
+fn is(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * b.abs().max(1.0)
+}
+
+/// β and the width of a triple Gaussian: exp(-x²/2w²) - β exp(-(x ± 2w)²/2w²)… as (48) has it.
+fn triple(gaussians: &[GaussianDocument]) -> Option<(f64, f64)> {
+    let [a, b, c] = gaussians else { return None };
+    let mut all = [a, b, c];
+    all.sort_by(|a, b| a.center.total_cmp(&b.center));
+    let [left, middle, right] = all;
+    let width = middle.width;
+    let alike = is(left.amplitude, right.amplitude)
+        && is(left.width, width)
+        && is(right.width, width)
+        && is(left.center, -right.center)
+        && is(middle.center, 0.0)
+        && is(middle.amplitude, 1.0);
+    let model = stickslip_tip::TipFunction::triple_gaussian(1.0, width).ok()?;
+    let stickslip_tip::TipFunction::Gaussians(sum) = &model else { return None };
+    let lobe = sum.terms().iter().find(|g| g.center > 0.0)?;
+    (alike && is(right.center, lobe.center)).then(|| (right.amplitude / lobe.amplitude, width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_tip::{Gaussian, TipFunction};
+
+    fn name(tip: &TipFunction) -> String {
+        tip_name(&tip.into())
+    }
+
+    #[test]
+    fn tips_are_called_what_the_command_line_calls_them() {
+        for (beta, width, said) in
+            [(1.0, 1.0, "β = 1"), (0.5, 1.0, "β = 0.5"), (0.3, 2.0, "β = 0.3, width 2")]
+        {
+            assert_eq!(name(&TipFunction::triple_gaussian(beta, width).unwrap()), said);
+        }
+        assert_eq!(name(&TipFunction::gaussian(1.0).unwrap()), "f = exp(−x²/2)");
+        let narrow = std::f64::consts::FRAC_1_SQRT_2;
+        assert_eq!(name(&TipFunction::gaussian(narrow).unwrap()), "f = exp(−x²)");
+        assert_eq!(name(&TipFunction::Bessel), "f = J₀(x)");
+        let lobe = |amplitude, center| Gaussian { amplitude, center, width: 0.7 };
+        let sum = vec![lobe(1.0, 0.0), lobe(0.3, 1.5)];
+        assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 2 Gaussians");
+    }
+}

@@ -1,0 +1,231 @@
+//! Curves: from their data to paths and marks within the axes.
+
+use crate::axis::{Axis, drawable};
+use crate::style::{BAND_OPACITY, Mark, Pen, SHADE_OPACITY, Shape, colour};
+use crate::svg::{Paint, Rect, Svg, number, polyline};
+use crate::thin::{Point, thin};
+use std::fmt::Write;
+use stickslip_documents::{ColourName, CurveDocument, StyleName};
+
+/// About how many points all lines of a panel may have together, so that a file of three panels
+/// stays below 300 kB (a point takes some 14 bytes).
+const POINTS: usize = 12_000;
+
+/// Axes and their place on the sheet.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frame<'a> {
+    pub(crate) x: &'a Axis,
+    pub(crate) y: &'a Axis,
+    pub(crate) at: Rect,
+}
+
+impl Frame<'_> {
+    /// The place of a value, in units.
+    pub(crate) fn place(&self, (x, y): Point) -> Option<Point> {
+        let (x, y) = (self.x.part(x)?, self.y.part(y)?);
+        Some((self.at.left + x * self.at.width(), self.at.bottom - y * self.at.height()))
+    }
+
+    /// Draws one of `of` curves.
+    pub(crate) fn draw(&self, curve: &CurveDocument, of: usize, svg: &mut Svg) {
+        let pen = Pen::of(curve.style, curve.colour);
+        match pen.mark {
+            Mark::Band => self.band(curve, pen, svg),
+            Mark::Line { width, dashes } => {
+                if curve.style == StyleName::Boundary {
+                    self.shade_above(curve, svg);
+                }
+                let columns = (self.at.width() as usize).min(POINTS / (2 * of.max(1))).max(2);
+                let across = (self.at.left, self.at.right);
+                for stretch in self.stretches(&curve.x, &curve.y) {
+                    let stretch = thin(stretch, across, columns);
+                    if let [(x, y)] = stretch[..] {
+                        // A line of a single point would not show.
+                        svg.path(&shape((x, y), Shape::Disc, 3.0), Paint::fill(pen.colour));
+                        continue;
+                    }
+                    let path = if curve.smooth { smooth(&stretch) } else { polyline(&stretch) };
+                    svg.path(&path, Paint { dashes, ..Paint::stroke(pen.colour, width) });
+                }
+            }
+            Mark::Point { shape: of, radius, filled } => {
+                let places =
+                    curve.x.iter().zip(&curve.y).filter_map(|(x, y)| self.place((*x, (*y)?)));
+                let inside = places.filter(|p| self.is_near(*p));
+                let path: String = inside.map(|place| shape(place, of, radius)).collect();
+                svg.path(&path, marked(pen.colour, filled));
+            }
+        }
+    }
+
+    /// Whether a mark there shows.
+    fn is_near(&self, (x, y): Point) -> bool {
+        let Rect { left, top, right, bottom } = self.at;
+        (left - 10.0..=right + 10.0).contains(&x) && (top - 10.0..=bottom + 10.0).contains(&y)
+    }
+
+    /// The places of a curve, broken where it has no value, and cut to what can show.
+    fn stretches(&self, x: &[f64], y: &[Option<f64>]) -> Vec<Vec<Point>> {
+        let places: Vec<Option<Point>> =
+            x.iter().zip(y).map(|(x, y)| self.place((*x, (*y)?))).collect();
+        let in_reach =
+            |p: &Option<Point>| p.is_some_and(|p| (self.at.left..=self.at.right).contains(&p.0));
+        // What is left and right of the axes shows only where it joins what is within.
+        let shows = |i: usize| {
+            let crosses = |j: usize| match (places[i], places.get(j).copied().flatten()) {
+                (Some(a), Some(b)) => {
+                    in_reach(&Some(b)) || (a.0 < self.at.left) != (b.0 < self.at.left)
+                }
+                _ => false,
+            };
+            in_reach(&places[i]) || crosses(i + 1) || (i > 0 && crosses(i - 1))
+        };
+        let shown: Vec<Option<Point>> =
+            (0..places.len()).map(|i| places[i].filter(|_| shows(i))).collect();
+        let stretches = shown.split(Option::is_none);
+        stretches
+            .map(|s| s.iter().flatten().copied().collect())
+            .filter(|s: &Vec<_>| !s.is_empty())
+            .collect()
+    }
+
+    /// The area between a curve and the top of the axes.
+    fn shade_above(&self, curve: &CurveDocument, svg: &mut Svg) {
+        let across = (self.at.left, self.at.right);
+        for stretch in self.stretches(&curve.x, &curve.y) {
+            let mut area = thin(stretch, across, self.at.width() as usize);
+            let (Some(first), Some(last)) = (area.first().copied(), area.last().copied()) else {
+                continue;
+            };
+            area.extend([(last.0, self.at.top), (first.0, self.at.top)]);
+            let ground = colour(ColourName::Vermillion);
+            let paint = Paint { fill_opacity: Some(SHADE_OPACITY), ..Paint::fill(ground) };
+            svg.path(&(polyline(&area) + "Z"), paint);
+        }
+    }
+
+    /// The area between two curves, with its edges.
+    fn band(&self, curve: &CurveDocument, pen: Pen, svg: &mut Svg) {
+        let none = vec![];
+        let low = curve.low.as_ref().unwrap_or(&none);
+        let (above, below) = (self.stretches(&curve.x, &curve.y), self.stretches(&curve.x, low));
+        for (above, below) in above.iter().zip(&below) {
+            let area: Vec<Point> = above.iter().chain(below.iter().rev()).copied().collect();
+            let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(pen.colour) };
+            svg.path(&(polyline(&area) + "Z"), paint);
+            for edge in [above, below] {
+                svg.path(&polyline(edge), Paint::stroke(pen.colour, 1.2));
+            }
+        }
+    }
+}
+
+/// Whether a curve has a point to show.
+pub(crate) fn is_empty(curve: &CurveDocument) -> bool {
+    !curve.x.iter().zip(&curve.y).any(|(x, y)| drawable(*x) && y.is_some_and(drawable))
+}
+
+/// Filled, or an outline with a white ground that lets through what is below.
+pub(crate) fn marked(colour: &str, filled: bool) -> Paint<'_> {
+    if filled {
+        return Paint::fill(colour);
+    }
+    Paint { fill: None, ..Paint::stroke(colour, 1.6) }
+}
+
+/// The outline of a mark.
+pub(crate) fn shape((x, y): Point, of: Shape, radius: f64) -> String {
+    let corners = |corners: &[Point]| {
+        let places: Vec<Point> =
+            corners.iter().map(|c| (x + radius * c.0, y + radius * c.1)).collect();
+        polyline(&places) + "Z"
+    };
+    match of {
+        Shape::Disc => {
+            let (r, across) = (number(radius), number(2.0 * radius));
+            let (left, y) = (number(x - radius), number(y));
+            format!("M{left} {y}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 -{across} 0Z")
+        }
+        Shape::Triangle => corners(&[(0.0, -1.0), (0.866, 0.5), (-0.866, 0.5)]),
+        Shape::Down => corners(&[(0.0, 1.0), (-0.7, -0.5), (0.7, -0.5)]),
+        Shape::Square => corners(&[(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]),
+        Shape::Diamond => corners(&[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]),
+    }
+}
+
+/// A centripetal Catmull-Rom spline through the points, as Bézier arcs: no kinks, no loops.
+fn smooth(points: &[Point]) -> String {
+    let mut distinct = points.to_vec();
+    distinct.dedup_by(|a, b| (a.0 - b.0).hypot(a.1 - b.1) < 1e-3);
+    if distinct.len() < 3 {
+        return polyline(&distinct);
+    }
+    let at = |i: isize| distinct[i.clamp(0, distinct.len() as isize - 1) as usize];
+    let mut path = polyline(&distinct[..1]);
+    for i in 0..distinct.len() as isize - 1 {
+        let [before, from, to, after] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
+        let (a, b) = (handle(before, from, to), handle(after, to, from));
+        let n = number;
+        let _ =
+            write!(path, "C{} {} {} {} {} {}", n(a.0), n(a.1), n(b.0), n(b.1), n(to.0), n(to.1));
+    }
+    path
+}
+
+/// The Bézier handle at `here` toward `next`.
+fn handle(before: Point, here: Point, next: Point) -> Point {
+    let root = |a: Point, b: Point| (a.0 - b.0).hypot(a.1 - b.1).sqrt();
+    let (d1, d2) = (root(before, here), root(here, next));
+    if d1 < 1e-9 {
+        return (here.0 + (next.0 - here.0) / 3.0, here.1 + (next.1 - here.1) / 3.0);
+    }
+    let blend = |before: f64, here: f64, next: f64| {
+        (d1 * d1 * next - d2 * d2 * before + (2.0 * d1 * d1 + 3.0 * d1 * d2 + d2 * d2) * here)
+            / (3.0 * d1 * (d1 + d2))
+    };
+    (blend(before.0, here.0, next.0), blend(before.1, here.1, next.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_documents::ScaleName;
+
+    fn axis(low: f64, high: f64) -> Axis {
+        Axis::new(low, high, ScaleName::Linear, 5.0)
+    }
+
+    fn drawn(curve: &CurveDocument) -> String {
+        let (x, y) = (axis(0.0, 10.0), axis(0.0, 1.0));
+        let at = Rect { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
+        let mut svg = Svg::default();
+        Frame { x: &x, y: &y, at }.draw(curve, 1, &mut svg);
+        svg.finish((100.0, 100.0), ("100".into(), "100".into()))
+    }
+
+    #[test]
+    fn a_spike_between_the_pixels_is_drawn() {
+        let x: Vec<f64> = (0..100_000).map(|i| 1e-4 * f64::from(i)).collect();
+        let mut y = vec![0.5; x.len()];
+        y[33_333] = 0.875;
+        let svg = drawn(&CurveDocument::new(StyleName::Line, "", &x, &y));
+        assert!(svg.contains(" 12.5L") && svg.len() < 10_000, "{} bytes", svg.len());
+    }
+
+    #[test]
+    fn a_curve_is_broken_where_it_has_no_value_and_cut_where_it_does_not_show() {
+        let x = [-4.0, -3.0, 1.0, 2.0, 3.0, 4.0, 12.0, 13.0];
+        let y = [0.1, 0.2, 0.3, f64::NAN, 0.5, 0.6, 0.7, 0.8];
+        let svg = drawn(&CurveDocument::new(StyleName::Line, "", &x, &y));
+        assert!(svg.contains("M-30 80L10 70\"") && svg.contains("M30 50L40 40L120 30\""), "{svg}");
+    }
+
+    #[test]
+    fn a_smooth_line_passes_its_points_and_keeps_to_a_straight_one() {
+        let path = smooth(&[(0.0, 0.0), (10.0, 10.0), (30.0, 30.0), (40.0, 40.0)]);
+        assert!(path.starts_with("M0 0C3.33 3.33 ") && path.ends_with(" 40 40"), "{path}");
+        let numbers: Vec<f64> =
+            path.split(['M', 'C', ' ']).filter_map(|number| number.parse().ok()).collect();
+        assert!(numbers.chunks(2).all(|p| (p[0] - p[1]).abs() < 1e-9), "{path}");
+    }
+}

@@ -1,0 +1,35 @@
+//! The bytes of a file that shows a figure.
+
+use crate::error::FigureError;
+use crate::format::FigureFormat;
+use crate::sheet::sheet;
+use crate::size::Size;
+use stickslip_documents::FigureDocument;
+
+/// Draws a figure. The same figure gives the same bytes.
+///
+/// # Errors
+///
+/// If a picture is too large.
+pub fn draw(
+    figure: &FigureDocument,
+    format: FigureFormat,
+    size: &Size,
+) -> Result<Vec<u8>, FigureError> {
+    match format {
+        FigureFormat::Svg => Ok(svg(figure, size)?.into_bytes()),
+        #[cfg(feature = "png")]
+        FigureFormat::Png => crate::raster::raster(&sheet(figure, size, false)?, size),
+        #[cfg(feature = "pdf")]
+        FigureFormat::Pdf => crate::pdf::pdf(&sheet(figure, size, false)?),
+    }
+}
+
+/// Draws a figure as an SVG document.
+///
+/// # Errors
+///
+/// If the picture of a map cannot be packed.
+pub fn svg(figure: &FigureDocument, size: &Size) -> Result<String, FigureError> {
+    sheet(figure, size, true)
+}

@@ -1,0 +1,71 @@
+//! The format of a figure, chosen by the name of its file.
+
+use crate::error::FigureError;
+use std::path::Path;
+
+/// How a figure is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FigureFormat {
+    /// Vector graphics for the web.
+    Svg,
+    /// Pixels.
+    #[cfg(feature = "png")]
+    Png,
+    /// Vector graphics for print; texts are outlines.
+    #[cfg(feature = "pdf")]
+    Pdf,
+}
+
+impl FigureFormat {
+    /// By the extension of `path`, in letters of either case. A build without a format says so here,
+    /// before the work, rather than when the figure is there.
+    ///
+    /// # Errors
+    ///
+    /// If the extension names none, or one that this build does not write.
+    pub fn of(path: &Path) -> Result<Self, FigureError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("svg") => Ok(Self::Svg),
+            #[cfg(feature = "png")]
+            Some("png") => Ok(Self::Png),
+            #[cfg(not(feature = "png"))]
+            Some("png") => Err(FigureError::Missing("PNG", "png")),
+            #[cfg(feature = "pdf")]
+            Some("pdf") => Ok(Self::Pdf),
+            #[cfg(not(feature = "pdf"))]
+            Some("pdf") => Err(FigureError::Missing("PDF", "pdf")),
+            _ => Err(FigureError::Extension),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_decides_in_either_case() {
+        assert_eq!(FigureFormat::of(Path::new("a/b.svg")).unwrap(), FigureFormat::Svg);
+        assert_eq!(FigureFormat::of(Path::new("b.SVG")).unwrap(), FigureFormat::Svg);
+        #[cfg(feature = "png")]
+        assert_eq!(FigureFormat::of(Path::new("c.png")).unwrap(), FigureFormat::Png);
+        #[cfg(feature = "pdf")]
+        assert_eq!(FigureFormat::of(Path::new("c.Pdf")).unwrap(), FigureFormat::Pdf);
+    }
+
+    #[cfg(not(feature = "png"))]
+    #[test]
+    fn png_without_its_feature_is_refused_with_a_way_out() {
+        let message = FigureFormat::of(Path::new("c.png")).unwrap_err().to_string();
+        assert!(message.contains("--features png"), "{message}");
+    }
+
+    #[test]
+    fn an_unknown_extension_is_refused_with_those_that_work() {
+        for name in ["figure.jpg", "figure", "png"] {
+            let message = FigureFormat::of(Path::new(name)).unwrap_err().to_string();
+            assert!(message.contains(".svg, .png or .pdf"), "{message}");
+        }
+    }
+}

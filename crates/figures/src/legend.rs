@@ -1,0 +1,114 @@
+//! The legend: samples and names in rows above the axes, where they hide nothing.
+
+use crate::curve::{is_empty, marked, shape};
+use crate::style::{BAND_OPACITY, LEGEND_SIZE, Mark, Pen, Shape, colour};
+use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::text::width;
+use stickslip_documents::PanelDocument;
+
+/// Length of a sample line.
+const LINE: f64 = 34.0;
+/// Between a sample and its name.
+const GAP: f64 = 8.0;
+/// Between an entry and the next.
+const SPACE: f64 = 20.0;
+const ROW: f64 = 24.0;
+
+#[derive(Debug, Clone, Copy)]
+struct Entry<'a> {
+    sample: Sample,
+    name: &'a str,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Sample {
+    Curve(Pen),
+    Cell(&'static str),
+}
+
+/// Entries with their places, in units from the upper left corner.
+pub(crate) struct Legend<'a> {
+    entries: Vec<(f64, f64, Entry<'a>)>,
+    rows: usize,
+}
+
+impl<'a> Legend<'a> {
+    /// Of the cells that are there and the curves that have a name, broken into rows of the given width.
+    pub(crate) fn of(panel: &'a PanelDocument, most: f64) -> Self {
+        let mut legend = Self { entries: vec![], rows: 0 };
+        let mut x = f64::INFINITY;
+        for entry in cells(panel).chain(curves(panel)) {
+            let needed = entry.sample.length() + GAP + width(entry.name, LEGEND_SIZE);
+            if x + needed > most {
+                x = 0.0;
+                legend.rows += 1;
+            }
+            legend.entries.push((x, ROW * (legend.rows as f64 - 0.5), entry));
+            x += needed + SPACE;
+        }
+        legend
+    }
+
+    pub(crate) fn height(&self) -> f64 {
+        ROW * self.rows as f64
+    }
+
+    pub(crate) fn draw(&self, left: f64, top: f64, svg: &mut Svg) {
+        let top = top - 0.15 * ROW;
+        for (x, y, entry) in &self.entries {
+            entry.sample.draw((left + x, top + y), svg);
+            let x = left + x + entry.sample.length() + GAP;
+            let (y, label, size) = (top + y + 0.35 * LEGEND_SIZE, entry.name, LEGEND_SIZE);
+            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
+        }
+    }
+}
+
+fn curves(panel: &PanelDocument) -> impl Iterator<Item = Entry<'_>> {
+    let named = panel.curves.iter().filter(|curve| !is_empty(curve));
+    named.filter_map(|curve| {
+        let sample = Sample::Curve(Pen::of(curve.style, curve.colour));
+        Some(Entry { sample, name: curve.name.as_deref()? })
+    })
+}
+
+fn cells(panel: &PanelDocument) -> impl Iterator<Item = Entry<'_>> {
+    panel.cells.iter().flat_map(|cells| {
+        let is_there = |kind| cells.kinds.iter().flatten().any(|cell| *cell == Some(kind));
+        let kinds = cells.names.iter().zip(&cells.colours).enumerate();
+        let present = kinds.filter(move |(kind, _)| is_there(*kind));
+        present.map(|(_, (name, of))| Entry { sample: Sample::Cell(colour(*of)), name })
+    })
+}
+
+impl Sample {
+    fn length(self) -> f64 {
+        match self {
+            Self::Cell(_) => 16.0,
+            Self::Curve(Pen { mark: Mark::Point { radius, .. }, .. }) => 2.0 * radius.max(3.0),
+            Self::Curve(_) => LINE,
+        }
+    }
+
+    fn draw(self, (x, y): (f64, f64), svg: &mut Svg) {
+        let (left, right) = (x, x + self.length());
+        match self {
+            Self::Cell(colour) => {
+                svg.rect(Rect { left, right, top: y - 8.0, bottom: y + 8.0 }, Paint::fill(colour));
+            }
+            Self::Curve(Pen { colour, mark: Mark::Line { width, dashes } }) => {
+                let paint = Paint { dashes, ..Paint::stroke(colour, width + 0.4) };
+                svg.segment((left, y), (right, y), paint);
+            }
+            Self::Curve(Pen { colour, mark: Mark::Band }) => {
+                let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(colour) };
+                svg.rect(Rect { left, right, top: y - 6.0, bottom: y + 6.0 }, paint);
+            }
+            Self::Curve(Pen { colour, mark: Mark::Point { shape: of, radius, filled } }) => {
+                let radius = if of == Shape::Disc { radius.max(3.0) } else { radius };
+                let path = shape((0.5 * (left + right), y), of, radius);
+                svg.path(&path, marked(colour, filled));
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Figures: from a document to a figure as data, and from that to SVG, PNG and PDF.
+//!
+//! [`of`] makes the figure of any saved document, a `FigureDocument`: panels of curves, maps and cells with
+//! their axes, which can be saved and drawn again. [`draw`] makes the bytes of a file of it, [`svg`] an SVG
+//! document. Nothing here knows of files or arguments. The same document gives the same bytes.
+//!
+//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines. Both carry the font
+//! DejaVu Sans; an SVG names it and leaves it to the viewer.
+
+mod axis;
+mod cells;
+mod colours;
+mod compose;
+mod curve;
+mod encode;
+mod error;
+mod format;
+mod legend;
+mod map;
+mod number;
+mod panel;
+#[cfg(feature = "pdf")]
+mod pdf;
+mod picture;
+#[cfg(feature = "png")]
+mod raster;
+mod sheet;
+mod size;
+mod style;
+mod svg;
+mod text;
+mod thin;
+mod ticks;
+#[cfg(any(feature = "png", feature = "pdf"))]
+mod vector;
+
+pub use compose::{Drawn, FORMATS, View, judge_sweep, of, onset_of, saved};
+pub use encode::{draw, svg};
+pub use error::FigureError;
+pub use format::FigureFormat;
+pub use size::{Size, Width};

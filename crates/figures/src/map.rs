@@ -1,0 +1,139 @@
+//! Height maps: one colour for each height, and a bar that says which.
+
+use crate::axis::{Axis, Fit, extremes};
+use crate::colours::{at, hex};
+use crate::error::FigureError;
+use crate::picture::data_url;
+use crate::style::{INK, LABEL_SIZE, TICK_SIZE};
+use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::text::width;
+use stickslip_documents::{ColoursName, MapDocument, ScaleName};
+
+const BAR_GAP: f64 = 16.0;
+const BAR: f64 = 18.0;
+const BAR_STEPS: usize = 128;
+
+/// A map, the part of it that shows, and the scale of its heights.
+pub(crate) struct Map<'a> {
+    document: &'a MapDocument,
+    /// First and last column, first and last row that show, and one more.
+    columns: (usize, usize),
+    rows: (usize, usize),
+    scale: Axis,
+}
+
+impl<'a> Map<'a> {
+    /// The cells whose middle lies within the ranges.
+    pub(crate) fn new(document: &'a MapDocument, x: Option<[f64; 2]>, y: Option<[f64; 2]>) -> Self {
+        let columns = within(&document.x, x);
+        let rows = within(&document.y, y);
+        let heights = document.z.iter().flatten().copied();
+        let scale = match (document.z_range, document.colours) {
+            (Some([low, high]), _) => Axis::new(low, high, ScaleName::Linear, 5.0),
+            (None, ColoursName::BlueRed) => {
+                let most = heights.fold(0.0_f64, |most, z| most.max(z.abs()));
+                Axis::fit([-most, most], FIT)
+            }
+            (None, _) => Axis::fit(heights, FIT),
+        };
+        Self { document, columns, rows, scale }
+    }
+
+    /// The edges of what shows, half a cell beyond the first and the last middle.
+    pub(crate) fn ranges(&self) -> ((f64, f64), (f64, f64)) {
+        let of = |middles: &[f64], (from, to): (usize, usize)| {
+            edges(middles.get(from..to).unwrap_or(&[]), middles)
+        };
+        (of(&self.document.x, self.columns), of(&self.document.y, self.rows))
+    }
+
+    /// Room right of the axes for the bar, its numbers and its label.
+    pub(crate) fn margin_right(&self) -> f64 {
+        let widest = self.scale.labelled().map(|(_, l)| width(l, TICK_SIZE)).fold(0.0, f64::max);
+        BAR_GAP + BAR + 10.0 + widest + 1.9 * LABEL_SIZE
+    }
+
+    /// The picture, stretched over the axes.
+    pub(crate) fn draw(&self, axes: Rect, svg: &mut Svg) -> Result<(), FigureError> {
+        let ((from, to), (first, last)) = (self.columns, self.rows);
+        let rows: Vec<&[f64]> =
+            self.document.z[first..last].iter().map(|row| &row[from..to]).collect();
+        let part = |z: f64| self.scale.part(z).unwrap_or(0.0);
+        svg.image(axes, &data_url(&rows, |z| at(self.document.colours, part(z)))?);
+        Ok(())
+    }
+
+    /// The bar and its numbers, right of the axes.
+    pub(crate) fn draw_bar(&self, axes: Rect, svg: &mut Svg) {
+        let left = axes.right + BAR_GAP;
+        let bar = Rect { left, right: left + BAR, ..axes };
+        let step = bar.height() / BAR_STEPS as f64;
+        for i in 0..BAR_STEPS {
+            let colour = hex(at(self.document.colours, (i as f64 + 0.5) / BAR_STEPS as f64));
+            let bottom = bar.bottom - step * i as f64;
+            // The next one covers what is more: no seam is left.
+            let top = (bottom - step - 0.5).max(bar.top);
+            svg.rect(Rect { top, bottom, ..bar }, Paint::fill(&colour));
+        }
+        svg.rect(bar, Paint::stroke(INK, 1.0));
+        for (value, label) in self.scale.labelled() {
+            let y = bar.bottom - bar.height() * self.scale.part(value).unwrap_or(0.0);
+            svg.segment((bar.right, y), (bar.right + 5.0, y), Paint::stroke(INK, 1.0));
+            let (x, y, size) = (bar.right + 9.0, y + 0.35 * TICK_SIZE, TICK_SIZE);
+            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
+        }
+        let x = axes.right + self.margin_right() - 0.4 * LABEL_SIZE;
+        let y = 0.5 * (axes.top + axes.bottom);
+        let (label, size, anchor) = (self.document.z_label.as_str(), LABEL_SIZE, Anchor::Middle);
+        svg.text(Text { x, y, label, size, anchor, upright: true });
+    }
+}
+
+const FIT: Fit = Fit { scale: ScaleName::Linear, padding: 0.0, natural: 0.0, ticks: 5.0 };
+
+/// From the first middle within the range to beyond the last; all where none is.
+fn within(middles: &[f64], range: Option<[f64; 2]>) -> (usize, usize) {
+    let all = (0, middles.len());
+    let Some([low, high]) = range else { return all };
+    let shows = |m: &f64| (low..=high).contains(m);
+    match (middles.iter().position(shows), middles.iter().rposition(shows)) {
+        (Some(first), Some(last)) => (first, last + 1),
+        _ => all,
+    }
+}
+
+/// Half a cell beyond the first and the last of `shown`, the size of cells taken from all.
+fn edges(shown: &[f64], all: &[f64]) -> (f64, f64) {
+    let (first, last) = extremes(shown.iter().copied()).unwrap_or((0.0, 0.0));
+    let (low, high) = extremes(all.iter().copied()).unwrap_or((0.0, 0.0));
+    let half = 0.5 * (high - low) / (all.len().max(2) - 1) as f64;
+    let half = if half > 0.0 { half } else { 0.5 };
+    (first - half, last + half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map(colours: ColoursName) -> MapDocument {
+        let (x, y) = ((0..5).map(f64::from).collect(), vec![0.0, 1.0]);
+        let z = vec![vec![-8.0, 0.0, 1.0, 2.0, 3.0], vec![0.0; 5]];
+        MapDocument { x, y, z, z_label: "u".into(), colours, z_range: None }
+    }
+
+    #[test]
+    fn zero_is_the_middle_of_a_scale_from_blue_to_red() {
+        let document = map(ColoursName::BlueRed);
+        let scale = Map::new(&document, None, None).scale;
+        assert!((scale.low + 8.0).abs() < 1e-12 && (scale.high - 8.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_range_cuts_the_map_to_whole_cells() {
+        let document = map(ColoursName::Grey);
+        let cut = Map::new(&document, Some([0.8, 3.2]), None);
+        assert_eq!(cut.ranges(), ((0.5, 3.5), (-0.5, 1.5)));
+        let outside = Map::new(&document, Some([70.0, 80.0]), None);
+        assert_eq!(outside.ranges().0, (-0.5, 4.5));
+    }
+}

@@ -1,0 +1,233 @@
+//! One set of axes with what it shows.
+
+use crate::axis::{Axis, Fit};
+use crate::cells;
+use crate::curve::{Frame, shape};
+use crate::error::FigureError;
+use crate::legend::Legend;
+use crate::map::Map;
+use crate::style::{GRID, INK, LABEL_SIZE, Pen, SHADE_OPACITY, Shape, TICK_SIZE, colour};
+use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::text::width;
+use stickslip_documents::{ArrowName, ColourName, PanelDocument};
+
+/// Room right of the axes, for half of the last tick label.
+const MARGIN_RIGHT: f64 = 28.0;
+/// Room above the axes when no legend is there.
+const MARGIN_TOP: f64 = 16.0;
+/// Room below the axes, for tick labels and axis label.
+const MARGIN_BOTTOM: f64 = 54.0;
+/// About as far apart are the ticks.
+const TICK_DISTANCE: (f64, f64) = (95.0, 62.0);
+
+/// Axes fitted to what they show.
+pub(crate) struct Panel<'a> {
+    pub(crate) document: &'a PanelDocument,
+    x: Axis,
+    y: Axis,
+    map: Option<Map<'a>>,
+}
+
+impl<'a> Panel<'a> {
+    /// For axes of about that width and height.
+    pub(crate) fn new(document: &'a PanelDocument, (width, height): (f64, f64)) -> Self {
+        let map =
+            document.map.as_ref().map(|map| Map::new(map, document.x_range, document.y_range));
+        let (many_x, many_y) =
+            ((width / TICK_DISTANCE.0).max(2.0), (height / TICK_DISTANCE.1).max(2.0));
+        let of = |[low, high]: [f64; 2], scale, ticks| Axis::new(low, high, scale, ticks);
+        let (x_scale, y_scale) = (document.x_scale, document.y_scale);
+        if let Some(((left, right), (bottom, top))) = map.as_ref().map(Map::ranges) {
+            let (x, y) = (of([left, right], x_scale, many_x), of([bottom, top], y_scale, many_y));
+            return Self { document, x, y, map };
+        }
+        let x = document.x_range.map(|range| of(range, x_scale, many_x));
+        let x = x.unwrap_or_else(|| abscissas(document, many_x));
+        let y = document.y_range.map(|range| of(range, y_scale, many_y));
+        let y = y.unwrap_or_else(|| ordinates(document, &x, many_y));
+        Self { document, x, y, map }
+    }
+
+    /// Room that tick labels and axis label need on the left.
+    pub(crate) fn margin_left(&self) -> f64 {
+        let widest = self.y.labelled().map(|(_, l)| width(l, TICK_SIZE)).fold(0.0, f64::max);
+        widest + 16.0 + 1.7 * LABEL_SIZE
+    }
+
+    /// Room right of the axes.
+    pub(crate) fn margin_right(&self) -> f64 {
+        self.map.as_ref().map_or(MARGIN_RIGHT, Map::margin_right)
+    }
+
+    /// Height beside that of the axes and their margins, with axes between `left` and `right`.
+    pub(crate) fn head(&self, (left, right): (f64, f64)) -> f64 {
+        let heading = if self.document.heading.is_empty() { 0.0 } else { 1.5 * LABEL_SIZE };
+        heading + Legend::of(self.document, right - left).height()
+    }
+
+    /// Draws the panel within `space`, its axes between `left` and `right`.
+    pub(crate) fn draw(
+        &self,
+        space: Rect,
+        (left, right): (f64, f64),
+        svg: &mut Svg,
+    ) -> Result<(), FigureError> {
+        let legend = Legend::of(self.document, right - left);
+        let heading = if self.document.heading.is_empty() { 0.0 } else { 1.5 * LABEL_SIZE };
+        let legend_top = space.top + MARGIN_TOP + heading;
+        let top = legend_top + legend.height();
+        let at = Rect { left, right, top, bottom: (space.bottom - MARGIN_BOTTOM).max(top + 10.0) };
+        let frame = Frame { x: &self.x, y: &self.y, at };
+        if let Some(map) = &self.map {
+            map.draw(at, svg)?;
+        }
+        self.ground(frame, svg);
+        svg.open_clip(at);
+        if let Some(cells) = &self.document.cells {
+            cells::draw(cells, frame, svg);
+        }
+        let is_line = |style| Pen::of(style, None).is_line();
+        let lines = self.document.curves.iter().filter(|c| is_line(c.style)).count();
+        for curve in &self.document.curves {
+            frame.draw(curve, lines, svg);
+        }
+        svg.close();
+        self.notes(frame, svg);
+        svg.rect(at, Paint::stroke(INK, 1.2));
+        self.ticks(frame, svg);
+        self.labels(space, at, svg);
+        legend.draw(left, legend_top, svg);
+        if let Some(map) = &self.map {
+            map.draw_bar(at, svg);
+        }
+        Ok(())
+    }
+
+    /// Shades and grid lines.
+    fn ground(&self, frame: Frame, svg: &mut Svg) {
+        let at = frame.at;
+        for [from, to] in &self.document.shades {
+            let place = |x: f64| {
+                let part = self.x.part(x).unwrap_or(0.0);
+                at.left + part.clamp(0.0, 1.0) * at.width()
+            };
+            let ground = Paint::fill(colour(ColourName::Vermillion));
+            let (left, right) = (place(*from), place(*to));
+            svg.rect(
+                Rect { left, right, ..at },
+                Paint { fill_opacity: Some(SHADE_OPACITY), ..ground },
+            );
+        }
+        if self.map.is_some() || self.document.cells.is_some() {
+            return;
+        }
+        let grid = Paint::stroke(GRID, 1.0);
+        for (x, _) in self.x.labelled().filter_map(|(x, l)| Some((self.x_of(x, at)?, l))) {
+            svg.segment((x, at.top), (x, at.bottom), grid);
+        }
+        for (y, _) in self.y.labelled().filter_map(|(y, l)| Some((self.y_of(y, at)?, l))) {
+            svg.segment((at.left, y), (at.right, y), grid);
+        }
+    }
+
+    fn x_of(&self, value: f64, at: Rect) -> Option<f64> {
+        Some(at.left + self.x.part(value)? * at.width())
+    }
+
+    fn y_of(&self, value: f64, at: Rect) -> Option<f64> {
+        Some(at.bottom - self.y.part(value)? * at.height())
+    }
+
+    /// Outward, the small ones shorter; and their labels.
+    fn ticks(&self, frame: Frame, svg: &mut Svg) {
+        let (at, ink, size) = (frame.at, Paint::stroke(INK, 1.0), TICK_SIZE);
+        let length = |label: &Option<String>| if label.is_some() { 5.0 } else { 3.0 };
+        for tick in &self.x.ticks {
+            let Some(x) = self.x_of(tick.value, at) else { continue };
+            svg.segment((x, at.bottom), (x, at.bottom + length(&tick.label)), ink);
+            if let Some(label) = &tick.label {
+                let y = at.bottom + 8.0 + 0.9 * size;
+                svg.text(Text { x, y, label, size, anchor: Anchor::Middle, upright: false });
+            }
+        }
+        for tick in &self.y.ticks {
+            let Some(y) = self.y_of(tick.value, at) else { continue };
+            svg.segment((at.left - length(&tick.label), y), (at.left, y), ink);
+            if let Some(label) = &tick.label {
+                let (x, y) = (at.left - 8.0, y + 0.36 * size);
+                svg.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
+            }
+        }
+    }
+
+    /// Heading and axis labels.
+    fn labels(&self, space: Rect, at: Rect, svg: &mut Svg) {
+        let (size, middle) = (LABEL_SIZE, Anchor::Middle);
+        let (across, upward) = (0.5 * (at.left + at.right), 0.5 * (at.top + at.bottom));
+        let (x, y, label) = (across, at.bottom + 46.0, self.document.x_label.as_str());
+        svg.text(Text { x, y, label, size, anchor: middle, upright: false });
+        // At the margin, hence at the same place in panels below each other.
+        let (x, y, label) = (space.left + 1.2 * size, upward, self.document.y_label.as_str());
+        svg.text(Text { x, y, label, size, anchor: middle, upright: true });
+        let (x, y) = (at.left, space.top + MARGIN_TOP + 0.65 * size);
+        let label = self.document.heading.as_str();
+        if !label.is_empty() {
+            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
+        }
+    }
+
+    fn notes(&self, frame: Frame, svg: &mut Svg) {
+        let size = LABEL_SIZE;
+        for note in &self.document.notes {
+            let Some((x, y)) = frame.place((note.x, note.y)) else { continue };
+            // Within the axes, whole.
+            let half = 0.5 * width(&note.text, size) + 6.0;
+            let (from, to) = (frame.at.left + half, frame.at.right - half);
+            let shown = if from < to { x.clamp(from, to) } else { x };
+            let (label, anchor, upright) = (note.text.as_str(), Anchor::Middle, false);
+            let (left, right) = (shown - half, shown + half);
+            let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
+            svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
+            svg.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
+            let (edge, of) = match note.arrow {
+                Some(ArrowName::Down) => (frame.at.bottom - 9.0, Shape::Down),
+                Some(ArrowName::Up) => (frame.at.top + 9.0, Shape::Triangle),
+                None => continue,
+            };
+            svg.path(&shape((x, edge), of, 7.0), Paint::fill(INK));
+        }
+    }
+}
+
+/// Whether marks are drawn, which are not to be cut in half at the ends.
+fn has_marks(document: &PanelDocument) -> bool {
+    document.curves.iter().any(|c| !Pen::of(c.style, None).is_line())
+}
+
+/// Full width unless marks are drawn or a curve winds back.
+fn abscissas(document: &PanelDocument, ticks: f64) -> Axis {
+    let winding = document.curves.iter().any(|c| !c.x.is_sorted());
+    let padding = match (winding, has_marks(document)) {
+        (true, _) => 0.06,
+        (_, true) => 0.03,
+        _ => 0.0,
+    };
+    let curves = document.curves.iter().flat_map(|c| c.x.iter().copied());
+    let of_cells = document.cells.iter().flat_map(|cells| cells.x.iter().copied());
+    let scale = document.x_scale;
+    Axis::fit(curves.chain(of_cells), Fit { scale, padding, natural: 0.0, ticks })
+}
+
+/// With air above and below what the abscissas show.
+fn ordinates(document: &PanelDocument, x: &Axis, ticks: f64) -> Axis {
+    let shown = |c: &'_ f64| (x.low..=x.high).contains(c);
+    let of_cells = document.cells.iter().flat_map(|cells| cells.y.iter().copied());
+    let curves = document.curves.iter().flat_map(|c| {
+        let low = c.low.iter().flat_map(|low| c.x.iter().zip(low));
+        let points = c.x.iter().zip(&c.y).chain(low);
+        points.filter(|(x, _)| shown(x)).filter_map(|(_, y)| *y)
+    });
+    let padding = if document.cells.is_some() { 0.0 } else { 0.06 };
+    let (scale, natural) = (document.y_scale, document.natural.unwrap_or(0.0));
+    Axis::fit(curves.chain(of_cells), Fit { scale, padding, natural, ticks })
+}

@@ -1,0 +1,81 @@
+//! The pixels of a height map as a PNG within an SVG.
+
+use crate::error::FigureError;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+/// More columns or rows than these do not show: they are averaged.
+const MOST: (usize, usize) = (1700, 840);
+
+/// A PNG of rows from below, coloured by `colour`, as a data URL.
+pub(crate) fn data_url(
+    rows: &[&[f64]],
+    colour: impl Fn(f64) -> [u8; 3],
+) -> Result<String, FigureError> {
+    let rows = averaged(rows);
+    let (width, height) = (rows.first().map_or(0, Vec::len), rows.len());
+    let pixels: Vec<u8> = rows.iter().rev().flatten().flat_map(|z| colour(*z)).collect();
+    let file = png_file((width, height), png::ColorType::Rgb, &pixels, None)?;
+    Ok(format!("data:image/png;base64,{}", STANDARD.encode(file)))
+}
+
+/// A PNG file of so many columns and rows, which says how many pixels there are in an inch. Compressed fast: a
+/// picture is up to twice as large, and takes half the time.
+pub(crate) fn png_file(
+    (width, height): (usize, usize),
+    colours: png::ColorType,
+    pixels: &[u8],
+    dots_per_inch: Option<f64>,
+) -> Result<Vec<u8>, FigureError> {
+    let failed = |error: png::EncodingError| FigureError::Png(error.to_string());
+    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let mut bytes = vec![];
+    let mut encoder = png::Encoder::new(&mut bytes, side(width), side(height));
+    encoder.set_color(colours);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    if let Some(dots) = dots_per_inch {
+        // PNG counts by the metre.
+        let per_metre = (dots / 0.0254).round().clamp(1.0, f64::from(u32::MAX)) as u32;
+        let (xppu, yppu, unit) = (per_metre, per_metre, png::Unit::Meter);
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
+    }
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(pixels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// Blocks of rows and columns averaged, so many that no more than [`MOST`] are left.
+fn averaged(rows: &[&[f64]]) -> Vec<Vec<f64>> {
+    let width = rows.first().map_or(0, |row| row.len());
+    let (by_x, by_y) = (width.div_ceil(MOST.0).max(1), rows.len().div_ceil(MOST.1).max(1));
+    let block = |rows: &[&[f64]], from: usize| -> f64 {
+        let to = (from + by_x).min(width);
+        let cells = rows.iter().flat_map(|row| &row[from..to]);
+        cells.sum::<f64>() / (rows.len() * (to - from)) as f64
+    };
+    let row = |rows: &[&[f64]]| (0..width).step_by(by_x).map(|from| block(rows, from)).collect();
+    rows.chunks(by_y).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_maps_are_averaged_and_small_ones_are_not() {
+        let ramp: Vec<f64> = (0..4000).map(f64::from).collect();
+        let small = averaged(&[&ramp[..10]]);
+        assert_eq!((small.len(), small[0].len()), (1, 10));
+        let large = averaged(&[&ramp, &ramp]);
+        assert_eq!((large.len(), large[0].len()), (2, 1334));
+        assert!((large[0][0] - 1.0).abs() < 1e-12 && (large[1][1333] - 3999.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_map_is_a_png_in_a_url() {
+        let url = data_url(&[&[0.0, 1.0]], |_| [1, 2, 3]).unwrap();
+        assert!(url.starts_with("data:image/png;base64,iVBORw0KGgo"));
+    }
+}

@@ -1,0 +1,51 @@
+//! SVG to PNG, by resvg.
+
+use crate::error::FigureError;
+use crate::picture::png_file;
+use crate::size::Size;
+use crate::vector::tree;
+use resvg::tiny_skia::{Color, FilterQuality, Pixmap, PixmapPaint, Transform};
+use resvg::usvg::{Group, Image, ImageKind, Node};
+
+/// More pixels than these are 1.6 GB.
+const MOST: f64 = 4e8;
+
+/// Draws `svg`, which has no ground, on white.
+pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
+    let tree = tree(svg)?;
+    let (density, dots_per_inch) = size.pixels();
+    let side = |length: f32| (f64::from(length) * density).round().max(1.0);
+    let (width, height) = (side(tree.size().width()), side(tree.size().height()));
+    let too_many = || FigureError::Pixels(width as u64, height as u64);
+    if width * height > MOST {
+        return Err(too_many());
+    }
+    let mut picture = Pixmap::new(width as u32, height as u32).ok_or_else(too_many)?;
+    picture.fill(Color::WHITE);
+    let scale = Transform::from_scale(density as f32, density as f32);
+    draw_images(tree.root(), scale, &mut picture);
+    resvg::render(&tree, scale, &mut picture.as_mut());
+    let size = (picture.width() as usize, picture.height() as usize);
+    let pixels: Vec<u8> = picture.data().chunks(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    png_file(size, png::ColorType::Rgb, &pixels, Some(dots_per_inch))
+}
+
+/// Draws the pictures within the SVG, which lie below all else. resvg would do it with decoders of four formats;
+/// ours is PNG.
+fn draw_images(group: &Group, scale: Transform, picture: &mut Pixmap) {
+    for node in group.children() {
+        match node {
+            Node::Group(group) => draw_images(group, scale, picture),
+            Node::Image(image) => draw_image(image, scale, picture),
+            _ => {}
+        }
+    }
+}
+
+fn draw_image(image: &Image, scale: Transform, picture: &mut Pixmap) {
+    let ImageKind::PNG(bytes) = image.kind() else { return };
+    let Ok(pixels) = Pixmap::decode_png(bytes) else { return };
+    let paint = PixmapPaint { quality: FilterQuality::Bilinear, ..PixmapPaint::default() };
+    let place = scale.pre_concat(image.abs_transform());
+    picture.draw_pixmap(0, 0, pixels.as_ref(), &paint, place, None);
+}

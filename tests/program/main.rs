@@ -12,6 +12,7 @@ mod runs;
 mod checkpoints;
 mod command_line;
 mod compare_command;
+mod confined_files;
 mod cycle_commands;
 mod documents;
 #[cfg(unix)]
@@ -20,6 +21,7 @@ mod extreme_numbers;
 mod figures;
 mod image_files;
 mod interrupts;
+mod outcomes;
 mod pictures;
 mod refusals;
 mod resume;

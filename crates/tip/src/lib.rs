@@ -19,6 +19,7 @@ pub mod motion;
 pub mod roots;
 pub mod state;
 pub mod step;
+pub mod stop;
 pub mod tip_function;
 
 mod eigenvalues;

@@ -8,7 +8,6 @@ use super::job::{Job, judge_places};
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::failure::{Failure, Typed};
-use crate::interrupt::Interrupt;
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip_documents::{
@@ -24,12 +23,9 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
     let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-
-    let closed = closed::run(&asked, &interrupt)?;
+    let closed = closed::run(&asked)?;
     let x = asked.positions(&closed)?;
-    let motion = grid::run(&asked, &x, &interrupt)?;
+    let motion = grid::run(&asked, &x)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
     job.finish(&document)
 }

@@ -71,6 +71,11 @@ pub enum StabilityError {
         /// As given.
         width: f64,
     },
+    /// A pitch that is no distance, or one that crowds more lines within reach than can be summed.
+    #[error(
+        "the pitch is {0:?}: the distance of scan lines must be a finite number above 0, and no less than 1e-5 of the reach of the tip across them"
+    )]
+    Pitch(f64),
     /// p ∫e^{-ps}(-f')ds is nowhere positive: nothing can hold the tip.
     #[error("this tip function cannot trap the tip at any alpha")]
     NoTrapping,

@@ -12,6 +12,7 @@ mod runs;
 mod checkpoints;
 mod command_line;
 mod compare_command;
+mod confined_files;
 mod cycle_commands;
 mod documents;
 #[cfg(unix)]
@@ -19,6 +20,7 @@ mod experiment;
 mod extreme_numbers;
 mod figures;
 mod image_files;
+mod outcomes;
 mod pictures;
 mod refusals;
 mod resume;

@@ -129,7 +129,7 @@ fn the_period_printed_for_alpha_1_is_the_wavelength() {
     let name = |what| reference(&format!("critical.triple_gaussian.alpha_1.{what}"));
     assert!((at.r - name("r")).abs() < 1e-12 && (at.omega - name("omega")).abs() < 1e-12);
     let scenario =
-        Scenario { kick: 0.15, ..Scenario::new(model(triple(1.0), 1.0, at.r - 0.003), 900.0) };
+        Scenario { kick: 0.15, ..Scenario::new(model(triple(1.0), 1.0, at.r - 0.003), 4000.0) };
     let oscillation = run_and_judge(&scenario).unwrap().1.oscillation.unwrap();
     // T = 2π/ω, approached as r → rc; 6.59 is 2πr/ω, as the paper's own expression says.
     assert!((oscillation.period - name("period")).abs() < 0.05, "{oscillation:?}");

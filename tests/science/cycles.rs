@@ -253,7 +253,8 @@ fn the_ripple_is_that_of_a_run() {
         let (run, outcome) = run_and_judge(&scenario).unwrap();
         let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
         let ripple =
-            ripple_behind(&surface, &run.trajectory, &outcome.oscillation.unwrap()).unwrap();
+            ripple_behind(&surface, &run.trajectory, outcome.oscillation.unwrap().wavelength)
+                .unwrap();
         let difference = (ripple.amplitude - cycle.amplitude_u()).abs();
         Acceptance { floor: 1e-8, slack: 0.0 }.judge(&format!("{case:?}"), difference, 0.0);
     }

@@ -112,6 +112,41 @@ fn the_residue_sum_is_what_a_weak_pulse_does_to_a_run() {
     }
 }
 
+/// The sum over twenty modes is off by up to a quarter then.
+#[test]
+fn while_a_pulse_lasts_the_response_is_what_it_does_to_runs() {
+    const STRENGTH: f64 = 1e-3;
+    for (tip, alpha, r, width) in
+        [(triple(1.0), 0.9, 1.0, 0.5), (triple(0.0), 1.5, 1.0, 0.2), (apex(), 0.3, 0.7, 1.0)]
+    {
+        let model = Model::new(tip, alpha, r).unwrap();
+        let center = Scenario::new(model.clone(), 0.0).start_time() + 12.0 * width;
+        let (from, until) = (center - 3.0 * width, center + 6.0);
+        let pushed = |strength: f64| {
+            let pulse = Pulse { amplitude: strength, time: center, width };
+            let force = Force::new(vec![pulse], None).unwrap();
+            let base = Scenario::new(model.clone(), until);
+            run(&Scenario { force, tolerance: 1e-13, ..base }).unwrap().trajectory
+        };
+        let (up, down) = (pushed(STRENGTH), pushed(-STRENGTH));
+        let pulse = Pulse { amplitude: 1.0, time: 0.0, width };
+        let modes = response(&model, &[pulse], 20).unwrap();
+        let early = modes.while_pulses_last(&model, until - center).unwrap();
+        let (mut worst, mut worst_of_modes, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for i in 0..=400 {
+            let t = from + (until - from) * f64::from(i) / 400.0;
+            let exact = 0.5 * (up.l(t) - down.l(t)) / STRENGTH;
+            worst = worst.max((early.at(t - center) - exact).abs());
+            worst_of_modes = worst_of_modes.max((modes.at(t - center) - exact).abs());
+            largest = largest.max(exact.abs());
+        }
+        println!("off by {:.1e}, modes {:.1e}", worst / largest, worst_of_modes / largest);
+        // Of third order in the pulse.
+        assert!(worst < 1e-5 * largest);
+        assert!(worst_of_modes > 1e-3 * largest);
+    }
+}
+
 /// Half peak-to-peak of l over the period that ends at `end`.
 fn amplitude(trajectory: &Trajectory, end: f64, period: f64) -> f64 {
     let extreme = |sign: f64| {

@@ -5,7 +5,7 @@ use crate::acceptance::Acceptance;
 use gauss_quad::legendre::GaussLegendre;
 use std::f64::consts::PI;
 use std::num::NonZeroUsize;
-use stickslip_outcome::classify;
+use stickslip_outcome::judge_trajectory;
 use stickslip_stability::critical;
 use stickslip_surface::{Method, Surface, carved_by, ripple_behind, steady_profile};
 use stickslip_tip::{InitialSurface, Model, Run, Scenario, Start, TipFunction, Trajectory, run};
@@ -129,9 +129,9 @@ fn ripple_and_tip_amplitudes_are_tied_at_onset() {
             let scenario = Scenario { kick: 0.05, tolerance: 1e-10, ..Scenario::new(model, until) };
             let (run, initial) = finished(&scenario);
             let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
-            let outcome = classify(&run.trajectory, &scenario.model, scenario.tolerance);
+            let outcome = judge_trajectory(&scenario, &run.initial_surface, &run.trajectory);
             let oscillation = outcome.oscillation.unwrap();
-            let ripple = ripple_behind(&surface, &run.trajectory, &oscillation).unwrap();
+            let ripple = ripple_behind(&surface, &run.trajectory, oscillation.wavelength).unwrap();
             ripple.amplitude / oscillation.amplitude_x0
         };
         let found = ratio(3e-4, 30_000.0);

@@ -121,6 +121,9 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
                        which is left out here and in valid_from";
         said.push(message.into());
     }
+    let valid_from = asked.valid_from(&response)?;
+    let samples = samples(asked, &response, valid_from);
+    said.extend(beyond_linear(asked, &response, &samples));
     Ok(ResponseDocument {
         format: ResponseDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
@@ -135,10 +138,10 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
         steady_state: model.into(),
         modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
         origin: asked.origin,
-        valid_from: asked.valid_from(&response)?,
+        valid_from,
         valid_to: VALID_TO,
         certificate: (&response.spectrum.certificate).into(),
-        samples: samples(asked, &response),
+        samples,
         remarks: said,
     })
 }
@@ -156,16 +159,50 @@ fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {
     })
 }
 
-fn samples(asked: &Asked, response: &Response) -> ResponseSamples {
+/// From `valid_from` on the sum over modes, and before that the inverse transform: for J0, to whose modes something
+/// is missing at any time, throughout.
+fn samples(asked: &Asked, response: &Response, valid_from: f64) -> ResponseSamples {
     let l0 = asked.model.steady_l();
     let finite = |value: f64| value.is_finite().then_some(value);
-    let deviation: Vec<Option<f64>> =
-        asked.times.iter().map(|t| finite(response.at(t - asked.origin))).collect();
+    let until = if matches!(asked.model.tip(), TipFunction::Bessel) {
+        asked.times.iter().copied().fold(valid_from, f64::max)
+    } else {
+        valid_from
+    };
+    let early = response.while_pulses_last(&asked.model, until - asked.origin);
+    let at = |t: f64| match &early {
+        Some(early) if t < until => early.at(t - asked.origin),
+        _ => response.at(t - asked.origin),
+    };
+    let deviation: Vec<Option<f64>> = asked.times.iter().map(|t| finite(at(*t))).collect();
     ResponseSamples {
         t: asked.times.clone(),
         l: deviation.iter().map(|d| d.and_then(|d| finite(l0 + d))).collect(),
         deviation,
     }
+}
+
+/// Deviations above this part of the tip's width are no longer small.
+const SMALL: f64 = 0.01;
+
+/// Where linear theory is not what the tip does.
+fn beyond_linear(asked: &Asked, response: &Response, samples: &ResponseSamples) -> Vec<String> {
+    let largest = samples.deviation.iter().flatten().fold(0.0, |most: f64, d| most.max(d.abs()));
+    let widths = largest * asked.model.tip().band() / 8.7;
+    let strong = (widths > SMALL).then(|| {
+        format!(
+            "samples: l leaves l0 by up to {widths:.1e} widths of the tip; linear theory is off by about that part \
+             of itself: make the pulses weaker, or integrate with `stickslip run --pulse A,T,W`"
+        )
+    });
+    let grows = response.modes.first().filter(|mode| mode.lambda.re > 0.0).map(|mode| {
+        format!(
+            "samples: steady motion is unstable here (α is above αc): the response grows at the rate {:.3} and holds \
+             only as long as it is small",
+            mode.lambda.re
+        )
+    });
+    strong.into_iter().chain(grows).collect()
 }
 
 /// Null as NaN, where a column of numbers must hold something.

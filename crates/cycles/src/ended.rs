@@ -43,7 +43,7 @@ impl Ended {
     pub(super) fn told(ended: Option<Self>) -> &'static str {
         match ended {
             Some(Self::Repeating) => "in stick-slip that no cycle near it closes",
-            Some(Self::Stuck) => "stuck: the groove holds the tip, it may be for ever",
+            Some(Self::Stuck) => "stuck: trapped for ever, or for longer than they last",
             Some(Self::Unsettled) | None => "without having settled",
         }
     }

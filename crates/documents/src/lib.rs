@@ -25,6 +25,7 @@ mod cycle;
 mod figure;
 mod history;
 mod model;
+mod outcome;
 mod read;
 mod reproduction;
 mod response;
@@ -58,10 +59,13 @@ pub use figure::{
 };
 pub use history::{FARTHEST, History};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
+pub use outcome::{
+    CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
+};
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
-pub use run::{OscillationDocument, RegimeName, RunDocument, Samples, SteadyState, WorkDocument};
+pub use run::{RunDocument, Samples, SteadyState, WorkDocument};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,

@@ -26,7 +26,8 @@ pub struct ResponseDocument {
     /// l(t) - l0 = Σ residue e^{λ(t-t0)}.
     pub origin: f64,
     /// Time, in Γ/k, from which on, after the last pulse, the modes left out are estimated to add less than
-    /// `valid_to` of the leading mode. While a pulse lasts the sum is off by up to a half of the whole.
+    /// `valid_to` of the leading mode. While a pulse lasts the sum over modes is off by up to a half of the whole: the
+    /// samples of that time are had by the inverse Laplace transform instead, to 1e-9 of their largest.
     pub valid_from: f64,
     /// 1e-6, a ratio.
     pub valid_to: f64,

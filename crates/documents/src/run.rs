@@ -1,14 +1,11 @@
 //! `stickslip/run`.
 
 use crate::{
-    FORMAT_VERSION, History, RunEnd, RunParameters, SampleLine, Software, Unusable,
-    VerificationDocument,
+    CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters,
+    SampleLine, Software, TransientDocument, Unusable, VerificationDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::Regime;
-use stickslip_surface::Ripple;
-use stickslip_tip::motion::Oscillation;
 use stickslip_tip::{Model, Trajectory};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
@@ -33,6 +30,15 @@ pub struct RunDocument {
     pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// The rate of creep, where the regime is trapped.
+    #[serde(default)]
+    pub creep: Option<CreepDocument>,
+    /// What it seems to go to, where the regime is transient.
+    #[serde(default)]
+    pub transient: Option<TransientDocument>,
+    /// Where round-off, the start, the tolerance or a disturbance decides; empty if nothing does.
+    #[serde(default)]
+    pub remarks: Vec<String>,
     /// Whether a signal stopped the run before `until`.
     pub interrupted: bool,
     /// The run against a repetition, where that was asked for.
@@ -64,6 +70,9 @@ impl RunDocument {
             history,
             regime: end.regime,
             oscillation: end.oscillation,
+            creep: end.creep,
+            transient: end.transient,
+            remarks: end.remarks,
             interrupted: end.interrupted,
             verification: None,
             work: end.work,
@@ -129,75 +138,6 @@ impl From<&[SampleLine]> for Samples {
     }
 }
 
-/// Kinds of motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RegimeName {
-    /// l stays at l0.
-    Steady,
-    /// A periodic motion that repeats itself.
-    StickSlip,
-    /// The tip creeps logarithmically in its own pit and will not come out.
-    Trapped,
-    /// None of these yet.
-    Transient,
-}
-
-impl From<Regime> for RegimeName {
-    fn from(regime: Regime) -> Self {
-        match regime {
-            Regime::Steady => Self::Steady,
-            Regime::StickSlip => Self::StickSlip,
-            Regime::Trapped => Self::Trapped,
-            Regime::Transient => Self::Transient,
-        }
-    }
-}
-
-impl std::fmt::Display for RegimeName {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.write_str(match self {
-            Self::Steady => "steady",
-            Self::StickSlip => "stick-slip",
-            Self::Trapped => "trapped",
-            Self::Transient => "transient",
-        })
-    }
-}
-
-/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct OscillationDocument {
-    /// T, in Γ/k.
-    pub period: f64,
-    /// r times the period, in σ.
-    pub wavelength: f64,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
-    pub amplitude_x0: f64,
-    /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
-    /// of reach of the tip, or f never fades.
-    pub amplitude_u: Option<f64>,
-    /// Maxima of l in one period.
-    pub slips: usize,
-    /// Largest change of a maximum of l from one period to the next, over the amplitude.
-    pub drift: f64,
-}
-
-impl OscillationDocument {
-    /// The motion, and the ripple that it leaves behind where that could be told.
-    pub fn of(motion: &Oscillation, ripple: Option<Ripple>) -> Self {
-        Self {
-            period: motion.period,
-            wavelength: motion.wavelength,
-            amplitude_x0: motion.amplitude_x0,
-            amplitude_u: ripple.map(|ripple| ripple.amplitude),
-            slips: motion.slips,
-            drift: motion.drift,
-        }
-    }
-}
-
 /// Counts that depend on the input alone, and the time that it took.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -232,6 +172,9 @@ mod tests {
             end: 40.0,
             regime: RegimeName::Transient,
             oscillation: None,
+            creep: None,
+            transient: None,
+            remarks: vec![],
             interrupted: false,
             work: WorkDocument {
                 memory: done.memory.into(),

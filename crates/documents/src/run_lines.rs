@@ -1,8 +1,8 @@
 //! `stickslip/run-lines`.
 
 use crate::{
-    FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, Software, SteadyState,
-    WorkDocument,
+    CreepDocument, FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, Software,
+    SteadyState, TransientDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,6 +76,15 @@ pub struct RunEnd {
     pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// The rate of creep, where the regime is trapped.
+    #[serde(default)]
+    pub creep: Option<CreepDocument>,
+    /// What it seems to go to, where the regime is transient.
+    #[serde(default)]
+    pub transient: Option<TransientDocument>,
+    /// Where round-off, the start, the tolerance or a disturbance decides; empty if nothing does.
+    #[serde(default)]
+    pub remarks: Vec<String>,
     /// Whether a signal stopped the run before `until`.
     pub interrupted: bool,
     /// What it took.

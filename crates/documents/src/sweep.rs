@@ -20,6 +20,10 @@ pub struct SweepDocument {
     pub parameters: SweepParameters,
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
+    /// How the machine that computed the points rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": one that rounds otherwise
+    /// gives other last digits. Null where parts came from machines that do not agree.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
     /// CRC-32 (IEEE) of the JSON `[parameters,points]`, without spaces and with the shortest digits: tells `merge`
     /// whether anything was changed.
     #[serde(default)]
@@ -104,12 +108,24 @@ pub struct SweepPoint {
     pub source: Option<SourceName>,
     /// Period of l(t), Γ/k.
     pub period: Option<f64>,
+    /// Error of `period`, Γ/k.
+    #[serde(default)]
+    pub period_error: Option<f64>,
     /// Wavelength of the surface left behind, σ.
     pub wavelength: Option<f64>,
+    /// Error of `wavelength`, σ.
+    #[serde(default)]
+    pub wavelength_error: Option<f64>,
     /// Half peak-to-peak of l, σ.
     pub amplitude_x0: Option<f64>,
+    /// Error of `amplitude_x0`, σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
     /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles only.
     pub amplitude_u: Option<f64>,
+    /// Error of `amplitude_u`, kσ²/a.
+    #[serde(default)]
+    pub amplitude_u_error: Option<f64>,
     /// Maxima of l in one period.
     pub slips: Option<usize>,
     /// Largest modulus of the Floquet multipliers but that of a shift in time; of cycles only.
@@ -149,9 +165,13 @@ impl SweepPoint {
             regime: None,
             source: None,
             period: None,
+            period_error: None,
             wavelength: None,
+            wavelength_error: None,
             amplitude_x0: None,
+            amplitude_x0_error: None,
             amplitude_u: None,
+            amplitude_u_error: None,
             slips: None,
             multiplier: None,
             error: None,
@@ -167,7 +187,7 @@ impl SweepPoint {
                 self.source = Some(SourceName::Stability);
             }
             Motion::Cycle(cycle) => self.is_periodic(&cycle),
-            Motion::Run(outcome) => self.ended(outcome),
+            Motion::Run(outcome) => self.ended(&outcome),
         }
         self
     }
@@ -177,16 +197,23 @@ impl SweepPoint {
         (self.period, self.wavelength) = (Some(cycle.period()), Some(cycle.wavelength()));
         self.amplitude_x0 = Some(cycle.amplitude_x0());
         self.amplitude_u = Some(cycle.amplitude_u());
+        let error = cycle.error();
+        (self.period_error, self.wavelength_error) = (Some(error), Some(self.r * error));
+        self.amplitude_x0_error = Some(error);
+        self.amplitude_u_error = Some(cycle.amplitude_u_error());
         self.slips = Some(cycle.slips());
         let moduli = cycle.nontrivial_multipliers().map(|m| m.norm());
         self.multiplier = moduli.max_by(f64::total_cmp);
     }
 
-    fn ended(&mut self, outcome: Outcome) {
+    fn ended(&mut self, outcome: &Outcome) {
         (self.regime, self.source) = (Some(outcome.regime.into()), Some(SourceName::Run));
-        if let Some(motion) = outcome.oscillation {
+        if let Some(motion) = &outcome.oscillation {
             (self.period, self.wavelength) = (Some(motion.period), Some(motion.wavelength));
+            self.period_error = Some(motion.period_error);
+            self.wavelength_error = Some(motion.wavelength_error);
             self.amplitude_x0 = Some(motion.amplitude_x0);
+            self.amplitude_x0_error = Some(motion.amplitude_x0_error);
             self.slips = Some(motion.slips);
         }
     }

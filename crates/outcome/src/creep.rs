@@ -1,32 +1,203 @@
-//! Trapped motion: the logarithmic creep x0 ~ (1/p) ln t.
+//! A tip that is stuck: whether it slips again, and when.
+//!
+//! Let the tip be at X at the time t, hardly moving. Ahead of it the surface that it has left pushes with
+//! -u_x(X + ξ, t), and the spring pulls with rt - X - ξ: together H(ξ). If it advances with θ(x) the time at which
+//! it reaches x, the groove that it digs meanwhile adds α ∫ f'(ξ - η) θ'(X + η)dη, the spring r(θ - t), and as the
+//! velocity is next to nothing, the sum is 0. Transformed,
+//!
+//! ```text
+//!     (r - α Q(p)) Φ(p) = -p Ĥ(p),   Φ = ∫ e^{-pξ} θ'(X + ξ)dξ,   Ĥ = ∫ e^{-pξ} H(ξ)dξ,
+//! ```
+//!
+//! so that θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p) with c = p Ĥ(p)/(α Q'(p)): what is to come follows
+//! from the surface as it is. The tip is held for ever if this stays positive, and slips where it reaches 0.
 
-use super::thinned::Thinned;
-use stickslip_stability::creep;
-use stickslip_tip::{Model, Step};
+use crate::thinned::Thinned;
+use gauss_quad::legendre::GaussLegendre;
+use num_complex::Complex64;
+use std::num::NonZeroUsize;
+use stickslip_stability::{Creep, creep};
+use stickslip_tip::{InitialSurface, Model, Step, Trajectory};
+
+/// The logarithmic creep x0 ~ (1/p) ln t of a trapped tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Creeping {
+    /// p as measured at the end, the rate at which 1/x0' grows, in 1/σ.
+    pub rate: f64,
+    /// The p that it goes to.
+    pub attracting: f64,
+}
+
+/// What becomes of a tip that is stuck.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Fate {
+    /// It creeps for ever.
+    Held(Creeping),
+    /// It slips after this time.
+    Slips(f64),
+    /// That cannot be told.
+    Open,
+}
+
+/// A velocity v counts as next to nothing where p v²/r is below this: its share in the balance of forces.
+const SLOW: f64 = 0.01;
+/// The exponentials must add up to the velocity at the end within this part.
+const ADDS_UP: f64 = 0.2;
+/// A coefficient is known to so many times what the velocity and the tolerance may make of it.
+const MARGIN: f64 = 10.0;
+
+/// A tip with its surface at the end of a run.
+pub(crate) struct Stuck<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) surface: &'a InitialSurface,
+    pub(crate) tail: &'a Trajectory,
+    pub(crate) tolerance: f64,
+}
+
+impl Stuck<'_> {
+    /// What becomes of it; `None` where it is not stuck.
+    pub(crate) fn fate(&self) -> Option<Fate> {
+        let (model, end) = (self.model, self.tail.end());
+        let velocity = self.tail.velocity(end);
+        if !(velocity > 0.0 && velocity < 0.5 * model.r()) {
+            return None;
+        }
+        let creep = creep(model).ok()?;
+        let fastest = creep.roots.first()?.re;
+        if fastest * velocity * velocity > SLOW * model.r() {
+            return None;
+        }
+        Some(Exponentials::of(self, &creep).map_or(Fate::Open, |e| e.fate(self, velocity, &creep)))
+    }
+}
+
+/// θ'(X + ξ) = Σ c e^{pξ}
+struct Exponentials {
+    terms: Vec<(Complex64, Complex64)>,
+}
+
+impl Exponentials {
+    /// `None` for a footprint that never fades.
+    fn of(stuck: &Stuck, creep: &Creep) -> Option<Self> {
+        let Stuck { model, surface, tail, .. } = stuck;
+        let reach = model.tip().reach()?;
+        let last = tail.steps().last()?;
+        let (end, r) = (tail.end(), tail.r());
+        let extension = last.extension_at_end(r);
+        let at = r * end - extension;
+        let (mut positions, mut weights) = tail.residence(end);
+        positions.iter_mut().for_each(|x| *x = at - *x);
+        // Those within reach of a place ahead.
+        let mut near = positions.iter().map(|x| x.abs() < reach);
+        weights.retain(|_| near.next().unwrap_or(false));
+        positions.retain(|x| x.abs() < reach);
+        let push = |ahead: f64| {
+            let slope = |(x, weight): (&f64, &f64)| weight * model.tip().slope(ahead + x);
+            let felt = positions.iter().zip(&weights).filter(|(x, _)| ahead + **x < reach);
+            let carved: f64 = felt.map(slope).sum();
+            model.alpha() * carved - surface.slope_and_curvature(at + ahead).0
+        };
+        let largest = creep.roots.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let nodes = nodes(reach, LONGEST_PANEL / model.tip().band(), 1.0 / largest);
+        let pushes: Vec<(f64, f64)> =
+            nodes.iter().map(|(ahead, weight)| (*ahead, weight * push(*ahead))).collect();
+        let coefficient = |(p, slope): (&Complex64, &Complex64)| {
+            let groove: Complex64 = pushes.iter().map(|(x, push)| (-p * *x).exp() * *push).sum();
+            let spring = (extension - p.inv()) / p;
+            (*p, p * (groove + spring) / (slope * model.alpha()))
+        };
+        Some(Self { terms: creep.roots.iter().zip(&creep.slopes).map(coefficient).collect() })
+    }
+
+    /// θ' and θ'' at a distance ahead.
+    fn at(&self, ahead: f64) -> (f64, f64) {
+        self.terms.iter().fold((0.0, 0.0), |sum, (p, c)| {
+            let term = c * (p * ahead).exp();
+            (sum.0 + term.re, sum.1 + (p * term).re)
+        })
+    }
+
+    fn fate(&self, stuck: &Stuck, velocity: f64, creep: &Creep) -> Fate {
+        let (now, slope) = self.at(0.0);
+        if (now * velocity - 1.0).abs() > ADDS_UP {
+            return Fate::Open;
+        }
+        let (p, c) = self.terms[0];
+        // What the velocity neglected, and an error of the position, make of the coefficient.
+        let pushed = velocity + stuck.model.r() * now * stuck.tolerance;
+        let unknown = MARGIN * pushed / (stuck.model.alpha() * creep.slopes[0].norm());
+        if c.norm() <= unknown {
+            return Fate::Open;
+        }
+        let next = self.terms.iter().map(|(p, _)| p.im.abs()).fold(p.re, f64::max);
+        let step = 0.02 / next;
+        let (mut ahead, mut time, mut before) = (0.0, 0.0, now);
+        for _ in 0..LONGEST_LOOK {
+            ahead += step;
+            let (here, _) = self.at(ahead);
+            if here <= 0.0 {
+                return Fate::Slips(time);
+            }
+            time += 0.5 * step * (before + here);
+            before = here;
+            let others: f64 =
+                self.terms[1..].iter().map(|(p, c)| (c * (p * ahead).exp()).norm()).sum();
+            if let Some(attracting) = creep.attracting()
+                && c.re > 0.0
+                && (c * (p * ahead).exp()).norm() > 4.0 * others
+            {
+                return Fate::Held(Creeping { rate: slope / now, attracting });
+            }
+            if !time.is_finite() {
+                break;
+            }
+        }
+        Fate::Open
+    }
+}
+
+/// Steps of the look ahead.
+const LONGEST_LOOK: usize = 100_000;
+
+/// Widest panel of the quadrature, over 1/band: a wave of f' and a third.
+const LONGEST_PANEL: f64 = 8.0;
+const POINTS: usize = 10;
+
+/// Nodes and weights of Gauss-Legendre panels over the reach, the first as narrow as the exponentials ask for.
+fn nodes(reach: f64, longest: f64, first: f64) -> Vec<(f64, f64)> {
+    let rule = GaussLegendre::new(const { NonZeroUsize::new(POINTS).unwrap() });
+    let (mut nodes, mut from, mut width) = (vec![], 0.0, first.min(longest));
+    while from < reach {
+        let half = 0.5 * width;
+        let panel = rule.as_node_weight_pairs().iter();
+        nodes.extend(panel.map(|(x, weight)| (from + half * (1.0 + x), half * weight)));
+        from += width;
+        width = (2.0 * width).min(longest);
+    }
+    nodes
+}
 
 /// The part of the time since the last turning point that the creep rate is measured over.
 const MEASURED_SHARE: f64 = 0.5;
-/// How close the measured rate must be to the one that the equation demands.
+/// How close the measured rate must be to the one that attracts.
 const WITHIN: f64 = 0.1;
 
-/// Whether the tip creeps as a trapped tip must: l has only risen for the last half of the run, and
-/// 1/x0' = p (t - const) grows at the rate p that attracts.
-///
-/// The run began at `start`, l had its last extremum at `since`, `risen` has steps since then.
-pub(super) fn is_trapped(
+/// For a footprint that never fades, of whose past the tail is only a part: l has only risen for the last half of
+/// the run, and 1/x0' = p (t - const) grows at the rate p that attracts.
+pub(crate) fn measured(
     model: &Model,
     (start, since): (f64, f64),
     risen: &Thinned,
     last: &Step,
-) -> bool {
+) -> Option<Creeping> {
     let (end, velocity) = (last.end(), last.velocity(last.end()));
     if since > 0.5 * (start + end) || velocity >= model.r() {
-        return false;
+        return None;
     }
-    let Some(p) = creep(model).ok().and_then(|creep| creep.attracting()) else { return false };
+    let attracting = creep(model).ok()?.attracting()?;
     let earlier = end - MEASURED_SHARE * (end - since);
-    let Some(then) = risen.at(earlier) else { return false };
+    let then = risen.at(earlier)?;
     let earlier = earlier.min(then.end());
     let rate = (1.0 / velocity - 1.0 / then.velocity(earlier)) / (end - earlier);
-    (rate / p - 1.0).abs() < WITHIN
+    ((rate / attracting - 1.0).abs() < WITHIN).then_some(Creeping { rate, attracting })
 }

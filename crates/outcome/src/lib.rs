@@ -1,19 +1,33 @@
-//! What became of a run: its regime, and its oscillation where it has settled into one.
+//! What the motion of a tip is, and how sure that is.
+//!
+//! A run shows maxima and minima of l and the steps at its end ([`Observer`]). What they mean is told by theory where
+//! it has an answer: whether steady motion is stable, by the roots of its characteristic equation; how far an
+//! oscillation is from a cycle, and whether and how fast it comes to it, by the cycle itself and its Floquet
+//! multipliers; whether a tip that is stuck will slip again, by the exponentials that its past has set going. Where
+//! there is none (J0 has no cycles), the changes from period to period are extrapolated. `docs/regimes.md` derives
+//! the criteria.
 
-mod classifier;
 mod creep;
+mod judge;
+mod linear;
 mod motion;
+mod observer;
+mod oscillation;
+mod reference;
+mod remark;
+mod sequence;
 mod thinned;
 mod watched;
 
-pub use classifier::Classifier;
+pub use creep::Creeping;
+pub use judge::judge;
 pub use motion::{Motion, motion};
-pub use watched::{Watched, run_and_judge};
+pub use observer::Observer;
+pub use oscillation::Oscillation;
+pub use remark::Remark;
+pub use watched::{Watched, judge_trajectory, run_and_judge};
 
-use stickslip_tip::motion::Oscillation;
-use stickslip_tip::{Model, Trajectory};
-
-/// The kinds of motion: what the end of the run shows.
+/// The kinds of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
     /// l stays at l0.
@@ -26,21 +40,28 @@ pub enum Regime {
     Transient,
 }
 
-/// Regime and oscillation at the end of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What became of a run.
+#[derive(Debug, Clone)]
 pub struct Outcome {
     /// The kind of motion.
     pub regime: Regime,
     /// Present where the regime is [`Regime::StickSlip`].
     pub oscillation: Option<Oscillation>,
+    /// Present where the regime is [`Regime::Trapped`].
+    pub creep: Option<Creeping>,
+    /// Present where the regime is [`Regime::Transient`].
+    pub prospect: Option<Prospect>,
+    /// Where round-off, the start or the tolerance decides.
+    pub remarks: Vec<Remark>,
 }
 
-/// Looks at the end of a trajectory.
-#[must_use]
-pub fn classify(trajectory: &Trajectory, model: &Model, tolerance: f64) -> Outcome {
-    let mut classifier = Classifier::new(model, tolerance);
-    trajectory.steps().iter().for_each(|step| classifier.observe(step));
-    classifier.outcome(model)
+/// What a transient seems to go to.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Prospect {
+    /// The regime, where one can be told.
+    pub towards: Option<Regime>,
+    /// How much longer that would take, in Γ/k, where it can be told.
+    pub time: Option<f64>,
 }
 
 /// The README's example is compiled and run.

@@ -1,6 +1,6 @@
 //! What a tip comes to at given parameters.
 
-use crate::{Outcome, classify};
+use crate::{Outcome, judge_trajectory};
 use stickslip_cycles::{Cycle, CycleError, Settled, settle};
 use stickslip_tip::Model;
 
@@ -12,7 +12,7 @@ pub enum Motion {
     /// A stable cycle.
     Cycle(Box<Cycle>),
     /// What a run ended as, that came near no stable cycle: trapped, or without end in sight.
-    Run(Outcome),
+    Run(Box<Outcome>),
 }
 
 /// What the motion at the parameters of the model comes to: by linear stability, by [`stickslip_cycles::cycle`], by
@@ -25,7 +25,9 @@ pub fn motion(model: &Model, tolerance: f64) -> Result<Motion, CycleError> {
         Settled::Steady => Motion::Steady,
         Settled::Cycle(cycle) => Motion::Cycle(cycle),
         Settled::Run(tried) => {
-            Motion::Run(classify(&tried.run.trajectory, model, tried.scenario.tolerance))
+            let (scenario, run) = (&tried.scenario, &tried.run);
+            let outcome = judge_trajectory(scenario, &run.initial_surface, &run.trajectory);
+            Motion::Run(Box::new(outcome))
         }
     })
 }

@@ -5,7 +5,7 @@ use stickslip_tip::state::{Damaged, Reader, State};
 
 /// Every n-th step since some time; n doubles when there are too many.
 #[derive(Debug, Clone)]
-pub(super) struct Thinned {
+pub(crate) struct Thinned {
     steps: Vec<Step>,
     every: u64,
     seen: u64,
@@ -22,12 +22,12 @@ impl Default for Thinned {
 
 impl Thinned {
     /// Begins anew, with the step that follows.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.steps.clear();
         (self.every, self.seen) = (1, 0);
     }
 
-    pub(super) fn observe(&mut self, step: &Step) {
+    pub(crate) fn observe(&mut self, step: &Step) {
         if self.seen.is_multiple_of(self.every) {
             if self.steps.len() == MOST {
                 let mut index = 0;
@@ -43,17 +43,17 @@ impl Thinned {
     }
 
     /// The last one kept that begins by time t.
-    pub(super) fn at(&self, t: f64) -> Option<&Step> {
+    pub(crate) fn at(&self, t: f64) -> Option<&Step> {
         self.steps[..self.steps.partition_point(|step| step.t <= t)].last()
     }
 
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.count(self.every);
         state.count(self.seen);
         state.steps(self.steps.iter());
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.every, self.seen) = (state.count()?, state.count()?);
         self.steps = state.steps()?;
         if self.every == 0 || self.steps.len() > MOST {

@@ -1,6 +1,6 @@
 //! A run that is judged as it goes.
 
-use crate::{Classifier, Outcome};
+use crate::{Observer, Outcome, judge};
 use stickslip_tip::state::State;
 use stickslip_tip::{
     InitialSurface, Run, RunError, Running, Scenario, Step, Trajectory, Work, run,
@@ -10,7 +10,8 @@ use stickslip_tip::{
 pub struct Watched<'a> {
     scenario: &'a Scenario,
     running: Running<'a>,
-    classifier: Classifier,
+    observer: Observer,
+    surface: &'a InitialSurface,
 }
 
 impl<'a> Watched<'a> {
@@ -20,8 +21,8 @@ impl<'a> Watched<'a> {
     /// A parameter out of range.
     pub fn new(scenario: &'a Scenario, surface: &'a InitialSurface) -> Result<Self, RunError> {
         let running = Running::new(scenario, surface)?;
-        let classifier = Classifier::new(&scenario.model, scenario.tolerance);
-        Ok(Self { scenario, running, classifier })
+        let observer = Observer::new(&scenario.model, scenario.tolerance);
+        Ok(Self { scenario, running, observer, surface })
     }
 
     /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as
@@ -36,10 +37,10 @@ impl<'a> Watched<'a> {
     ) -> Result<Self, RunError> {
         let mut state = state.reader();
         let running = Running::resumed(scenario, surface, &mut state)?;
-        let mut classifier = Classifier::new(&scenario.model, scenario.tolerance);
-        classifier.restore(&mut state)?;
+        let mut observer = Observer::new(&scenario.model, scenario.tolerance);
+        observer.restore(&mut state)?;
         state.finish()?;
-        Ok(Self { scenario, running, classifier })
+        Ok(Self { scenario, running, observer, surface })
     }
 
     /// All that the rest of the run, and its outcome, depend on, beside the scenario.
@@ -47,7 +48,7 @@ impl<'a> Watched<'a> {
     pub fn save(&self) -> State {
         let mut state = State::default();
         self.running.save(&mut state);
-        self.classifier.save(&mut state);
+        self.observer.save(&mut state);
         state
     }
 
@@ -57,14 +58,14 @@ impl<'a> Watched<'a> {
     /// The tolerance cannot be met.
     pub fn step(&mut self) -> Result<Option<Step>, RunError> {
         let step = self.running.step()?;
-        step.iter().for_each(|step| self.classifier.observe(step));
+        step.iter().for_each(|step| self.observer.observe(step));
         Ok(step)
     }
 
     /// The last step made.
     #[must_use]
     pub fn last(&self) -> Option<Step> {
-        self.classifier.last()
+        self.observer.last()
     }
 
     /// Time reached.
@@ -73,17 +74,20 @@ impl<'a> Watched<'a> {
         self.running.t()
     }
 
-    /// Regime and oscillation, were the run to end here.
+    /// What the motion is, were the run to end here. This takes milliseconds: a cycle may be solved for.
+    ///
+    /// # Panics
+    /// Before the first step.
     #[must_use]
     pub fn outcome(&self) -> Outcome {
-        self.classifier.outcome(&self.scenario.model)
+        judge(self.scenario, self.surface, &self.observer)
     }
 
     /// The steps at the end that the outcome, and the ripple that belongs to it, are read from; `None`
     /// before the first step.
     #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {
-        self.classifier.tail()
+        self.observer.tail()
     }
 
     /// Counts so far.
@@ -111,6 +115,18 @@ impl<'a> Watched<'a> {
 /// As [`run`].
 pub fn run_and_judge(scenario: &Scenario) -> Result<(Run, Outcome), RunError> {
     let run = run(scenario)?;
-    let outcome = crate::classify(&run.trajectory, &scenario.model, scenario.tolerance);
+    let outcome = judge_trajectory(scenario, &run.initial_surface, &run.trajectory);
     Ok((run, outcome))
+}
+
+/// What the motion at the end of a trajectory is, which a run of the scenario over the surface has made.
+#[must_use]
+pub fn judge_trajectory(
+    scenario: &Scenario,
+    surface: &InitialSurface,
+    trajectory: &Trajectory,
+) -> Outcome {
+    let mut observer = Observer::new(&scenario.model, scenario.tolerance);
+    trajectory.steps().iter().for_each(|step| observer.observe(step));
+    judge(scenario, surface, &observer)
 }

@@ -6,7 +6,7 @@ use crate::Failed;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
-use stickslip_outcome::{Regime, classify};
+use stickslip_outcome::{Regime, judge_trajectory};
 use stickslip_tip::{Scenario, Trajectory};
 
 /// Up to which transients die out, and how long is looked at then.
@@ -114,7 +114,7 @@ impl Runs {
             let scenario =
                 Scenario { kick: 0.2, tolerance: 1e-7, ..Scenario::new(model, SETTLED + SHOWN) };
             let run = finished(&scenario)?;
-            let outcome = classify(&run.trajectory, &scenario.model, scenario.tolerance);
+            let outcome = judge_trajectory(&scenario, &run.initial_surface, &run.trajectory);
             if let Some(oscillation) = outcome.oscillation {
                 runs.alpha.push(alpha);
                 runs.amplitude.push(oscillation.amplitude_x0);

@@ -20,6 +20,8 @@ use stickslip_tip::{Model, TipFunction};
 pub struct Creep {
     /// All p with a positive real part, in 1/σ, by falling real part, both of each conjugate pair.
     pub roots: Vec<Complex64>,
+    /// dQ/dp at each of them.
+    pub slopes: Vec<Complex64>,
     /// That none is missing.
     pub certificate: Certificate,
 }
@@ -52,8 +54,10 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
             if unmoved { none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }
         }
     };
-    let positive = |p: &Complex64| p.re > 0.0;
-    Ok(Creep { roots: roots.into_iter().filter(positive).collect(), certificate })
+    let roots: Vec<Complex64> = roots.into_iter().filter(|p| p.re > 0.0).collect();
+    let transform = CurvatureTransform::new(model.tip());
+    let slopes = roots.iter().map(|p| -transform.at(*p).derivative).collect();
+    Ok(Creep { roots, slopes, certificate })
 }
 
 fn none() -> Spectrum {

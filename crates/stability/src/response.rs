@@ -3,7 +3,7 @@
 use super::characteristic::Characteristic;
 use super::scaled_erfc::scaled_erfc;
 use super::transform::{CurvatureTransform, Scaled};
-use super::{Spectrum, StabilityError, leading_roots};
+use super::{Inversion, Spectrum, StabilityError, leading_roots};
 use num_complex::Complex64;
 use std::f64::consts::{PI, SQRT_2};
 use stickslip_tip::{Model, Pulse, TipFunction};
@@ -56,11 +56,19 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
 }
 
 impl Response {
+    /// l(t) - l0 at all times up to `until`, those in which pulses last too, to 1e-9 of its largest value; `None` where
+    /// the pulses are too short for so long a time. `model` is that of the response.
+    #[must_use]
+    pub fn while_pulses_last(&self, model: &Model, until: f64) -> Option<Inversion> {
+        let rightmost = self.modes.first().map_or(0.0, |mode| mode.lambda.re);
+        Inversion::new(characteristic(model), &self.pulses, rightmost, until)
+    }
+
     /// l(t) - l0: each mode convolved with the force up to t.
     ///
-    /// Before a pulse it vanishes as it should; while one lasts the modes left out count: ten give a
-    /// pulse of width 0.5 to 6 % of the largest response, a hundred to 1 %. 3 time units after it, ten
-    /// give it to 1e-8.
+    /// Before a pulse it vanishes as it should; while one lasts the modes left out count, up to a quarter of the
+    /// response, and [`while_pulses_last`](Self::while_pulses_last) has it. 3 time units after a pulse of width 0.5, ten
+    /// modes give it to 1e-8.
     #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         let mode = |(mode, weight): (&ResponseMode, &Complex64)| {
@@ -71,8 +79,23 @@ impl Response {
     }
 }
 
+/// λ ↦ λ + 1 - K̃(λ) = h(Λ), right of the imaginary axis.
+fn characteristic(model: &Model) -> Box<dyn Fn(Complex64) -> Complex64 + '_> {
+    let r = model.r();
+    if matches!(model.tip(), TipFunction::Bessel) {
+        let transform = CurvatureTransform::new(model.tip());
+        let ratio = model.alpha() / r;
+        return Box::new(move |z| transform.at(z / r).value * ratio + z + 1.0);
+    }
+    let h = Characteristic::new(model);
+    Box::new(move |z| {
+        let Scaled { value, log_scale, .. } = h.at(z / r);
+        value * log_scale.exp()
+    })
+}
+
 /// F̃ext(λ) = ∫ Fext e^{-λt}dt = A W √(2π) exp(λ²W²/2 - λT).
-fn transform(pulse: &Pulse, lambda: Complex64) -> Complex64 {
+pub(super) fn transform(pulse: &Pulse, lambda: Complex64) -> Complex64 {
     let exponent = lambda * (lambda * (0.5 * pulse.width * pulse.width) - pulse.time);
     exponent.exp() * (pulse.amplitude * pulse.width * (2.0 * PI).sqrt())
 }

@@ -3,7 +3,6 @@
 use crate::Surface;
 use ndarray::Array1;
 use stickslip_tip::Trajectory;
-use stickslip_tip::motion::Oscillation;
 
 /// One wavelength of the surface left behind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,19 +28,19 @@ const REFINEMENTS: usize = 4;
 pub fn ripple_behind(
     surface: &Surface,
     trajectory: &Trajectory,
-    oscillation: &Oscillation,
+    wavelength: f64,
 ) -> Option<Ripple> {
     let reach = surface.model.tip().reach()?;
     let end = trajectory.end();
     let high = trajectory.x0(end) - reach;
-    let low = high - oscillation.wavelength;
+    let low = high - wavelength;
     if low < trajectory.x0(trajectory.start()) + reach {
         return None;
     }
     let residence = trajectory.residence(end);
     let carved = |x: &[f64]| surface.carved_along(&residence, x);
     // Several points per width of the footprint, so that no pit falls between them.
-    let per_width = oscillation.wavelength * surface.model.tip().band();
+    let per_width = wavelength * surface.model.tip().band();
     let points = POINTS.max(per_width.min(1e6) as usize);
     let crest = extremum(carved, (low, high), points, 1.0)?;
     let trough = -extremum(carved, (low, high), points, -1.0)?;

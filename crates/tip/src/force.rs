@@ -94,6 +94,15 @@ impl Force {
             + self.function.as_ref().map_or(0.0, |f| f(t))
     }
 
+    /// The time from which on it is nothing; none for a function of time, of which that is not known.
+    #[must_use]
+    pub fn ends(&self) -> f64 {
+        let pulses = self.pulses.iter().map(|p| p.time + WIDTHS_OF_PULSE * p.width);
+        let table = self.table.iter().map(CubicSpline::last);
+        let function = self.function.iter().map(|_| f64::INFINITY);
+        pulses.chain(table).chain(function).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The next time after t at which a step must end: where a pulse begins or ends, and the knots of
     /// the table, so that the force is smooth within every step.
     pub(crate) fn next_break(&self, t: f64) -> f64 {

@@ -113,6 +113,12 @@ impl InitialSurface {
         self.splines().into_iter().flatten().filter(inside).map(|s| s.value(x)).sum()
     }
 
+    /// Where the given profile and the noise end, if there are any.
+    #[must_use]
+    pub fn texture_ends(&self) -> Option<f64> {
+        self.splines().into_iter().flatten().map(CubicSpline::last).reduce(f64::max)
+    }
+
     /// Position of the tip whose steady past, (24), is part of u0.
     #[must_use]
     pub fn steady_position(&self) -> Option<f64> {

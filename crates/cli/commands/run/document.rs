@@ -20,8 +20,11 @@ pub(super) fn end(
         regime: outcome.regime.into(),
         oscillation: outcome.oscillation.map(|o| {
             let surface = Surface::new(&scenario.model, initial, &tail);
-            OscillationDocument::of(&o, ripple_behind(&surface, &tail, &o))
+            OscillationDocument::of(&o, ripple_behind(&surface, &tail, o.wavelength))
         }),
+        creep: outcome.creep.map(Into::into),
+        transient: outcome.prospect.map(Into::into),
+        remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
         interrupted: signal.is_some(),
         work: WorkDocument {
             memory: running.memory().into(),

@@ -10,9 +10,8 @@ use crate::files::npz::Npz;
 use crate::files::output::Output;
 use crate::message::say;
 use std::path::Path;
-use stickslip_documents::{Order, RegimeName, RunDocument, RunEnd, RunFormat, RunHead};
-use stickslip_stability::unstable_count;
-use stickslip_tip::{InitialSurface, Model, Scenario, Trajectory};
+use stickslip_documents::{Order, RunDocument, RunEnd, RunFormat, RunHead, to_its_digits};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
 pub(super) enum Target {
@@ -43,7 +42,8 @@ pub(super) fn all(
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &travelled)?;
     // Nobody reads it beside a document on standard output.
-    let said = (order.output != Path::new("-")).then(|| summary(&end, &scenario.model));
+    let said = (order.output != Path::new("-")).then(|| summary(&end));
+    end.remarks.iter().for_each(|remark| say(format_args!("remark: {remark}")));
     let reached = end.end;
     let steps = travelled.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
@@ -128,18 +128,22 @@ fn write(
 }
 
 /// One line for a person who sent the run to a file.
-fn summary(end: &RunEnd, model: &Model) -> String {
+fn summary(end: &RunEnd) -> String {
     let work = &end.work;
-    // A start in the steady state stays there for long where nothing disturbs it.
-    let unstable = end.regime == RegimeName::Steady && unstable_count(model).is_ok_and(|n| n > 0);
-    let hint = if unstable { ", but unstable: --kick D shows what becomes of it" } else { "" };
-    let motion = end.oscillation.as_ref().map_or(String::new(), |o| {
-        let (period, amplitude) = (o.period, o.amplitude_x0);
-        format!(", period {period:.9}, amplitude of x0 {amplitude:.9}")
+    let digits = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
+    let motion = end.oscillation.as_ref().map(|o| {
+        let period = digits(o.period, o.period_error);
+        let amplitude = digits(o.amplitude_x0, o.amplitude_x0_error);
+        format!(", period {period}, amplitude of x0 {amplitude}")
+    });
+    let prospect = end.transient.as_ref().and_then(|transient| {
+        let time = transient.time.map_or(String::new(), |time| format!(" in about {time:.1e}"));
+        transient.towards.map(|towards| format!(", towards {towards}{time}"))
     });
     format!(
-        "{}{motion}{hint}: t = {} reached in {} steps with {}, {:.1} ms",
+        "{}{}: t = {} reached in {} steps with {}, {:.1} ms",
         end.regime,
+        motion.or(prospect).unwrap_or_default(),
         end.end,
         work.steps,
         work.memory,

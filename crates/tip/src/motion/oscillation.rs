@@ -30,41 +30,48 @@ const CYCLES: usize = 3;
 
 impl Oscillation {
     /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
+    #[must_use]
     pub fn of(trajectory: &Trajectory, latest_first: &[Extremum]) -> Option<Self> {
-        let maxima: Vec<_> = latest_first.iter().filter(|e| e.is_maximum).copied().collect();
-        (1..=MOST_SLIPS)
-            .find_map(|slips| Self::with_slips(trajectory, latest_first, &maxima, slips))
+        (1..=MOST_SLIPS).find_map(|slips| {
+            let compared = maxima(latest_first).get(..CYCLES * slips + 1)?.to_vec();
+            let found = Self::with_slips(trajectory, latest_first, slips)?;
+            let rough = compared[0].t - compared[slips].t;
+            let pairs = compared.iter().zip(&compared[slips..]);
+            let uneven = pairs.map(|(a, b)| (a.t - b.t - rough).abs()).fold(0.0, f64::max);
+            let repeats = found.drift <= REPEATS_WITHIN && uneven <= REPEATS_WITHIN * rough;
+            repeats.then_some(found)
+        })
     }
 
-    fn with_slips(
+    /// The last stretch between maxima of which so many make a period, whether or not it repeats itself.
+    #[must_use]
+    pub fn with_slips(
         trajectory: &Trajectory,
         latest_first: &[Extremum],
-        maxima: &[Extremum],
         slips: usize,
     ) -> Option<Self> {
-        let compared = maxima.get(..CYCLES * slips + 1)?;
-        let (last, before) = (compared[0], compared[slips]);
+        let maxima = maxima(latest_first);
+        let compared = &maxima[..maxima.len().min(CYCLES * slips + 1)];
+        let (last, before) = (compared.first()?, compared.get(slips)?);
         let cycle = latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
         let (low, high) = cycle.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| {
             (low.min(e.l), high.max(e.l))
         });
         let amplitude_x0 = 0.5 * (high - low);
-        let rough = last.t - before.t;
         let pairs = compared.iter().zip(&compared[slips..]);
-        let drift =
-            pairs.clone().map(|(a, b)| (a.l - b.l).abs()).fold(0.0, f64::max) / amplitude_x0;
-        let uneven = pairs.map(|(a, b)| (a.t - b.t - rough).abs()).fold(0.0, f64::max);
-        if drift > REPEATS_WITHIN || uneven > REPEATS_WITHIN * rough {
-            return None;
-        }
+        let drift = pairs.map(|(a, b)| (a.l - b.l).abs()).fold(0.0, f64::max) / amplitude_x0;
         // A crossing of the mean level is better defined than the time of a flat maximum.
         let middle = 0.5 * (high + low);
         let crossing = |e: &Extremum| last_rise_through(trajectory, latest_first, middle, e.t);
-        let (end, start) = (crossing(&last)?, crossing(&before)?);
+        let (end, start) = (crossing(last)?, crossing(before)?);
         let period = end - start;
         let wavelength = trajectory.r() * period;
         Some(Self { period, wavelength, amplitude_x0, slips, drift, last_period_from: start })
     }
+}
+
+fn maxima(latest_first: &[Extremum]) -> Vec<Extremum> {
+    latest_first.iter().filter(|e| e.is_maximum).copied().collect()
 }
 
 /// The last time before t at which l rises through a level.

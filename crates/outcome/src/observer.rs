@@ -1,24 +1,22 @@
 //! What the outcome is read from, gathered as a run goes on: of bounded size, however long the run.
 
-use super::thinned::Thinned;
-use crate::creep;
-use crate::{Outcome, Regime};
+use crate::thinned::Thinned;
 use std::collections::VecDeque;
-use stickslip_tip::motion::Extrema;
-use stickslip_tip::motion::Oscillation;
+use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{Model, Step, Trajectory};
 
-/// The last fifth of a run must be steady for the run to count as steady.
-const STEADY_SHARE: f64 = 0.2;
-/// l within this distance of l0, or a hundred tolerances, is steady.
+/// l within this distance of l0 is steady;
 const STEADY_WITHIN: f64 = 1e-6;
+/// or within a hundred tolerances, but not beyond this part of the tip's width.
+const STEADY_TOLERANCES: f64 = 100.0;
+const STEADY_AT_MOST: f64 = 0.03;
 /// Steps kept at the end at most; a slip takes some fifty of them, on noise of a fine grid a thousand.
 const LONGEST_TAIL: usize = 1 << 15;
 
 /// Watches the steps of a run go by.
 #[derive(Debug, Clone)]
-pub struct Classifier {
+pub struct Observer {
     r: f64,
     steady_l: f64,
     /// l at this distance of l0 is not steady.
@@ -35,14 +33,15 @@ pub struct Classifier {
     tail: VecDeque<Step>,
 }
 
-impl Classifier {
+impl Observer {
     /// Before the first step.
     #[must_use]
     pub fn new(model: &Model, tolerance: f64) -> Self {
+        let most = STEADY_AT_MOST * 8.7 / model.tip().band();
         Self {
             r: model.r(),
             steady_l: model.steady_l(),
-            far: STEADY_WITHIN.max(100.0 * tolerance),
+            far: STEADY_WITHIN.max((STEADY_TOLERANCES * tolerance).min(most)),
             reaches: 2.0 * model.tip().reach().unwrap_or(0.0),
             span: None,
             unsteady: f64::NEG_INFINITY,
@@ -90,28 +89,29 @@ impl Classifier {
         }
     }
 
-    /// Regime and oscillation, were the run to end with the last step.
-    ///
-    /// # Panics
-    /// Before the first step.
-    #[must_use]
-    pub fn outcome(&self, model: &Model) -> Outcome {
-        let (start, last) = self.span.expect("a run has at least one step");
-        let regime = |regime| Outcome { regime, oscillation: None };
-        let end = last.end();
-        if !self.is_far(last.l(self.r, end)) && self.unsteady < end - STEADY_SHARE * (end - start) {
-            return regime(Regime::Steady);
-        }
-        let extrema = self.extrema.latest_first(self.r);
-        let since = extrema.first().map_or(start, |e| e.t.max(start));
-        if creep::is_trapped(model, (start, since), &self.risen, &last) {
-            return regime(Regime::Trapped);
-        }
-        let found = self.tail().and_then(|tail| Oscillation::of(&tail, &extrema));
-        match found {
-            None => regime(Regime::Transient),
-            oscillation => Outcome { regime: Regime::StickSlip, oscillation },
-        }
+    /// Time of the start of the run.
+    pub(crate) fn start(&self) -> Option<f64> {
+        self.span.map(|(start, _)| start)
+    }
+
+    /// Distance of l from l0 within which the motion counts as steady.
+    pub(crate) fn near_steady(&self) -> f64 {
+        self.far
+    }
+
+    /// Since when l has been that near.
+    pub(crate) fn steady_since(&self) -> f64 {
+        self.unsteady
+    }
+
+    /// The latest extrema of l, latest first.
+    pub(crate) fn extrema(&self) -> Vec<Extremum> {
+        self.extrema.latest_first(self.r)
+    }
+
+    /// Steps since the last extremum.
+    pub(crate) fn risen(&self) -> &Thinned {
+        &self.risen
     }
 
     /// The latest step.

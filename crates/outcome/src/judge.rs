@@ -1,0 +1,423 @@
+//! The decision: which regime a run has reached, or what it seems to go to.
+
+use crate::creep::{Fate, Stuck, measured};
+use crate::linear::{Linear, Slowest};
+use crate::reference::Reference;
+use crate::sequence::Sequence;
+use crate::{Observer, Oscillation, Outcome, Prospect, Regime, Remark};
+use stickslip_cycles::{DEFAULT_TOLERANCE, small_cycle};
+use stickslip_stability::{Criticality, creep, onset};
+use stickslip_tip::motion::{self, Extremum};
+use stickslip_tip::{InitialSurface, Scenario, Start, Step, Trajectory};
+
+/// The last fifth of a run must be near steady motion for the run to count as steady.
+const STEADY_SHARE: f64 = 0.2;
+/// Swings that have grown by less than this over some periods have not grown.
+const NOT_GROWN: f64 = 1.05;
+/// A motion is periodic where it is as near to its limit as this part of amplitude and period.
+const SETTLED: f64 = 1e-3;
+/// Farther from a cycle than this part of its amplitude its multipliers do not say where a motion goes.
+const BESIDE: f64 = 0.3;
+/// A motion stands still beside its cycle where it comes nearer by less than this part of what the multiplier asks.
+const STANDS_STILL: f64 = 0.2;
+/// What the tolerance may displace a cycle by, over the tolerance and the gap of the multiplier.
+const DISPLACED: f64 = 300.0;
+/// Swings below this many widths may be those of linear theory,
+const SMALL: f64 = 0.3;
+/// and are, where they grow or decay at its rate within this part.
+const AS_FORETOLD: f64 = 0.2;
+/// Changes below so many tolerances from period to period are those of the steps.
+const NOISE: f64 = 30.0;
+/// Errors of steps push l away from steady motion by this part of the tolerance in a period.
+const PUSHED: f64 = 0.6;
+/// Below this part of the tolerance l is steady motion itself, of which steps make no error.
+const UNDISTURBED: f64 = 1e-3;
+/// Multipliers closer to the unit circle than this cannot be told from it.
+const ON_THE_CIRCLE: f64 = 1e-7;
+
+/// What the motion at the end of a run is.
+///
+/// # Panics
+/// Before the first step.
+#[must_use]
+pub fn judge(scenario: &Scenario, surface: &InitialSurface, observer: &Observer) -> Outcome {
+    let last = observer.last().expect("a run has at least one step");
+    let tail = observer.tail().expect("a run has at least one step");
+    let extrema = observer.extrema();
+    let linear = Linear::of(&scenario.model);
+    let end = End { scenario, surface, observer, last, tail, extrema, linear };
+    let mut outcome = end.outcome();
+    outcome.remarks.extend(end.remarks(outcome.regime));
+    outcome
+}
+
+struct End<'a> {
+    scenario: &'a Scenario,
+    surface: &'a InitialSurface,
+    observer: &'a Observer,
+    last: Step,
+    tail: Trajectory,
+    /// Latest first.
+    extrema: Vec<Extremum>,
+    linear: Linear,
+}
+
+impl Outcome {
+    fn settled(regime: Regime) -> Self {
+        Self { regime, oscillation: None, creep: None, prospect: None, remarks: vec![] }
+    }
+
+    fn transient(towards: Option<Regime>, time: Option<f64>) -> Self {
+        let prospect = Prospect { towards, time: time.filter(|time| time.is_finite()) };
+        Self { prospect: Some(prospect), ..Self::settled(Regime::Transient) }
+    }
+
+    fn remarked(mut self, remark: Remark) -> Self {
+        self.remarks.push(remark);
+        self
+    }
+}
+
+impl End<'_> {
+    fn outcome(&self) -> Outcome {
+        if self.force_acts() {
+            return Outcome::transient(None, None).remarked(Remark::ForceActs);
+        }
+        if self.is_steady() {
+            return Outcome::settled(Regime::Steady);
+        }
+        if let Some(outcome) = self.stuck() {
+            return outcome;
+        }
+        self.oscillates().unwrap_or_else(|| self.beside_steady())
+    }
+
+    /// Whether a force above a hundredth of the tolerance acts in the last fifth of the run.
+    fn force_acts(&self) -> bool {
+        let (force, end) = (&self.scenario.force, self.last.end());
+        let from = end - STEADY_SHARE * (end - self.start());
+        if force.ends() < from {
+            return false;
+        }
+        let at = |i: u32| from + (end - from) * f64::from(i) / 1000.0;
+        (0..=1000).any(|i| force.value(at(i)).abs() > 0.01 * self.scenario.tolerance)
+    }
+
+    fn start(&self) -> f64 {
+        self.observer.start().unwrap_or(self.last.t)
+    }
+
+    /// Distance of l from l0: at the end, or the latest swing if that is larger.
+    fn deviation(&self) -> f64 {
+        let steady = self.scenario.model.steady_l();
+        let end = self.last.end();
+        let now = (self.last.l(self.tail.r(), end) - steady).abs();
+        // An extremum long ago says nothing of now.
+        let [latest, before, ..] = self.extrema[..] else { return now };
+        let recent = end - latest.t < 2.0 * (latest.t - before.t);
+        let swings = [latest, before].into_iter().filter(|_| recent);
+        swings.map(|e| (e.l - steady).abs()).fold(now, f64::max)
+    }
+
+    fn is_steady(&self) -> bool {
+        let (start, end) = (self.start(), self.last.end());
+        let share = self.observer.steady_since() < end - STEADY_SHARE * (end - start);
+        let deviation = self.deviation();
+        let near = deviation <= self.observer.near_steady();
+        let itself = deviation <= UNDISTURBED * self.scenario.tolerance;
+        let stable = matches!(self.linear, Linear::Stable(_));
+        let kept = self.is_kept_steady() || (stable && itself);
+        share && near && kept && !self.grows()
+    }
+
+    /// Whether steady motion is stable, and attracts by more than the errors of steps push away.
+    fn is_kept_steady(&self) -> bool {
+        let Linear::Stable(Slowest { rate, period }) = self.linear else { return false };
+        PUSHED * self.scenario.tolerance / (rate * period).min(1.0) < self.observer.near_steady()
+    }
+
+    /// Whether swings above the tolerance grow.
+    fn grows(&self) -> bool {
+        let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
+        let span = self.extrema.iter().take(12).map(|e| e.t);
+        let lasted = span.clone().fold(0.0, f64::max) - span.fold(f64::INFINITY, f64::min);
+        swing > self.scenario.tolerance && (rate * lasted).exp() > NOT_GROWN
+    }
+
+    /// A tip that hardly moves: trapped, or how long until it slips.
+    fn stuck(&self) -> Option<Outcome> {
+        let Scenario { model, tolerance, .. } = self.scenario;
+        if model.tip().reach().is_none() {
+            let since = self.extrema.first().map_or(self.start(), |e| e.t.max(self.start()));
+            let risen = self.observer.risen();
+            let creep = measured(model, (self.start(), since), risen, &self.last)?;
+            return Some(Outcome { creep: Some(creep), ..Outcome::settled(Regime::Trapped) });
+        }
+        let (surface, tail) = (self.surface, &self.tail);
+        let stuck = Stuck { model, surface, tail, tolerance: *tolerance };
+        match stuck.fate()? {
+            Fate::Held(creep) => {
+                Some(Outcome { creep: Some(creep), ..Outcome::settled(Regime::Trapped) })
+            }
+            // Within an oscillation that repeats itself every slip is foretold.
+            Fate::Slips(time) => {
+                let oscillates = self.oscillates();
+                let slips = || Outcome::transient(None, None).remarked(Remark::SlipsAfter { time });
+                Some(oscillates.filter(|o| o.regime == Regime::StickSlip).unwrap_or_else(slips))
+            }
+            Fate::Open => {
+                let oscillates = self.oscillates();
+                let open = || Outcome::transient(None, None).remarked(Remark::AtTheBorder);
+                Some(oscillates.filter(|o| o.regime == Regime::StickSlip).unwrap_or_else(open))
+            }
+        }
+    }
+
+    /// An oscillation on or beside a cycle, or one that repeats itself.
+    fn oscillates(&self) -> Option<Outcome> {
+        let sequence = Sequence(&self.extrema);
+        let (swing, _) = sequence.swing()?;
+        if swing <= self.scenario.tolerance && !matches!(self.linear, Linear::Unstable(_)) {
+            return None;
+        }
+        if self.is_linear() {
+            return None;
+        }
+        let Scenario { model, tolerance, .. } = self.scenario;
+        let mut unstable: Option<Reference> = None;
+        for slips in sequence.likely_slips(SETTLED * swing) {
+            let found = Reference::of(model, *tolerance, &self.tail, &self.extrema, slips);
+            let Some(found) = found else {
+                let repeats = self.extrapolated(&sequence, slips);
+                if repeats.is_some() {
+                    return repeats;
+                }
+                continue;
+            };
+            if found.gap() > ON_THE_CIRCLE && found.distance() < BESIDE {
+                return Some(self.beside_stable(found));
+            }
+            if found.gap() <= ON_THE_CIRCLE && found.distance() < BESIDE {
+                unstable.get_or_insert(found);
+            }
+        }
+        if let Some(unstable) = unstable {
+            return Some(self.beside_unstable(&unstable));
+        }
+        None
+    }
+
+    /// Whether small swings about l0 grow or decay as linear theory has it: then no cycle is near.
+    fn is_linear(&self) -> bool {
+        let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
+        let agrees = |expected: f64| (rate / expected - 1.0).abs() < AS_FORETOLD;
+        swing < self.small()
+            && match self.linear {
+                Linear::Stable(slowest) => agrees(-slowest.rate),
+                Linear::Unstable(slowest) => agrees(slowest.rate),
+                Linear::Unknown => false,
+            }
+    }
+
+    /// Swings below this may be those of linear theory.
+    fn small(&self) -> f64 {
+        SMALL * 8.7 / self.scenario.model.tip().band()
+    }
+
+    /// Near a stable cycle: on it, as near as the tolerance lets the run come, or on the way.
+    fn beside_stable(&self, near: Reference) -> Outcome {
+        if near.distance() <= SETTLED {
+            return Outcome {
+                oscillation: Some(Oscillation::on(near)),
+                ..Outcome::settled(Regime::StickSlip)
+            };
+        }
+        let tolerance = self.scenario.tolerance;
+        let slips = near.cycle.slips();
+        let sequence = Sequence(&self.extrema);
+        let change = (0..3).filter_map(|back| sequence.change(slips, back)).fold(0.0, f64::max);
+        let foretold = near.gap() * near.off;
+        let displaced = near.off < DISPLACED * tolerance / near.gap();
+        let settled = SETTLED * near.cycle.amplitude_x0();
+        if change < STANDS_STILL * foretold && displaced && change < settled {
+            let off = near.off;
+            let oscillation = Some(Oscillation::on(near));
+            let outcome = Outcome { oscillation, ..Outcome::settled(Regime::StickSlip) };
+            return outcome.remarked(Remark::Coarse { off });
+        }
+        let time = near.periods_until(SETTLED) * near.cycle.period();
+        Outcome::transient(Some(Regime::StickSlip), Some(time))
+    }
+
+    /// Near a cycle that repels: inside of it the way leads to steady motion, or else one cannot tell.
+    fn beside_unstable(&self, near: &Reference) -> Outcome {
+        let inside = near.measured.amplitude_x0 < near.cycle.amplitude_x0();
+        let flips = near.cycle.nontrivial_multipliers().any(|m| m.re < -1.0);
+        match self.linear {
+            Linear::Stable(_) if inside && !self.grows() => {
+                Outcome::transient(Some(Regime::Steady), None)
+            }
+            // Beyond a period doubling, to a cycle of twice the slips, as a rule.
+            _ if flips => Outcome::transient(Some(Regime::StickSlip), None),
+            _ => Outcome::transient(None, None),
+        }
+    }
+
+    /// Where no cycle is to be had, an oscillation whose changes from period to period die out.
+    fn extrapolated(&self, sequence: &Sequence, slips: usize) -> Option<Outcome> {
+        let (_, growth) = sequence.swing()?;
+        let tolerance = self.scenario.tolerance;
+        let found = motion::Oscillation::with_slips(&self.tail, &self.extrema, slips)?;
+        let change = (0..3)
+            .map(|back| sequence.change(slips, back))
+            .try_fold(0.0_f64, |a, b| Some(a.max(b?)))?;
+        // Near onset a cycle attracts at twice the rate at which steady motion repels or attracts.
+        let slowest = match self.linear {
+            Linear::Stable(Slowest { rate, .. }) | Linear::Unstable(Slowest { rate, .. }) => {
+                -(-2.0 * rate * found.period).exp_m1()
+            }
+            Linear::Unknown => return None,
+        };
+        let factor = sequence.factor(slips)?;
+        let noise = NOISE * tolerance;
+        let rest = if change <= noise {
+            noise / slowest
+        } else if factor < 1.0 {
+            2.0 * change * factor / (1.0 - factor) + noise / slowest
+        } else {
+            return None;
+        };
+        let amplitude = found.amplitude_x0;
+        // Swings about stable steady motion decay, however slowly.
+        let decays = matches!(self.linear, Linear::Stable(_)) && growth < 0.0 && change > noise;
+        if rest > SETTLED * amplitude || decays || !self.may_be_a_cycle(amplitude) {
+            return None;
+        }
+        let oscillation = Some(Oscillation::within(&found, rest));
+        Some(Outcome { oscillation, ..Outcome::settled(Regime::StickSlip) })
+    }
+
+    /// A small cycle has the amplitude that the leading order at onset gives it.
+    fn may_be_a_cycle(&self, amplitude: f64) -> bool {
+        let model = &self.scenario.model;
+        if amplitude > self.small() {
+            return true;
+        }
+        let onset = onset(model.tip(), model.r());
+        let square = onset.map(|o| o.amplitude_squared_slope * (model.alpha() - o.critical.alpha));
+        square.is_ok_and(|square| (amplitude / square.max(0.0).sqrt() - 1.0).abs() < BESIDE)
+    }
+
+    /// Neither on a cycle nor stuck: on the way to steady motion or away from it.
+    fn beside_steady(&self) -> Outcome {
+        let (deviation, near) = (self.deviation(), self.observer.near_steady());
+        match self.linear {
+            Linear::Stable(_) if deviation <= near.min(self.small()) && !self.is_kept_steady() => {
+                Outcome::transient(Some(Regime::Steady), None).remarked(Remark::TooCoarse)
+            }
+            Linear::Stable(Slowest { rate, .. }) if self.decays() => {
+                let share = STEADY_SHARE / (1.0 - STEADY_SHARE) * (self.last.end() - self.start());
+                let time = ((deviation / near).ln() / rate).max(0.0) + share;
+                let time = self.is_kept_steady().then_some(time);
+                Outcome::transient(Some(Regime::Steady), time)
+            }
+            Linear::Unstable(Slowest { rate, .. }) => self.leaves(deviation, rate),
+            _ => Outcome::transient(None, None),
+        }
+    }
+
+    fn decays(&self) -> bool {
+        let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return true };
+        swing <= self.scenario.tolerance || rate < 0.0
+    }
+
+    /// Steady motion repels. The small cycle born at αc attracts, where there is one.
+    fn leaves(&self, deviation: f64, rate: f64) -> Outcome {
+        let model = &self.scenario.model;
+        let small = small_cycle(model, DEFAULT_TOLERANCE).ok().flatten();
+        let Some(small) = small.filter(stickslip_cycles::Cycle::is_stable) else {
+            return Outcome::transient(None, None);
+        };
+        let amplitude = small.amplitude_x0();
+        if deviation > (1.0 + BESIDE) * amplitude {
+            return Outcome::transient(None, None);
+        }
+        let away = ((amplitude / deviation).powi(2) - 1.0).abs().max(2.0 * SETTLED);
+        let time = (deviation > 0.0).then(|| (0.5 * away / SETTLED).ln() / (2.0 * rate));
+        Outcome::transient(Some(Regime::StickSlip), time)
+    }
+
+    fn remarks(&self, regime: Regime) -> Vec<Remark> {
+        let Scenario { model, force, .. } = self.scenario;
+        let mut remarks = vec![];
+        if let (Linear::Unstable(Slowest { rate, .. }), true) = (self.linear, self.is_undisturbed())
+        {
+            remarks.push(Remark::RoundOffGrows { rate });
+        }
+        match regime {
+            Regime::StickSlip if matches!(self.linear, Linear::Stable(_)) => {
+                remarks.push(Remark::SteadyToo);
+            }
+            Regime::StickSlip if creep(model).is_ok_and(|creep| creep.attracting().is_some()) => {
+                remarks.push(Remark::TrappedToo);
+            }
+            Regime::Steady => {
+                let onset = onset(model.tip(), model.r());
+                let below = |onset: &stickslip_stability::Onset| {
+                    onset.criticality == Criticality::Subcritical
+                };
+                remarks.extend(onset.is_ok_and(|o| below(&o)).then_some(Remark::OscillationToo));
+            }
+            _ => {}
+        }
+        if force.ends().is_finite() && force.ends() > self.last.end() {
+            remarks.push(Remark::ForceToCome { until: force.ends() });
+        }
+        let at = self.tail.x0(self.last.end());
+        let until = self.surface.texture_ends().filter(|until| *until > at);
+        remarks.extend(until.map(|until| Remark::UnevenAhead { until }));
+        remarks
+    }
+
+    /// Whether the run began in steady motion, and nothing was to disturb it.
+    fn is_undisturbed(&self) -> bool {
+        let Scenario { start, kick, noise, profile, force, .. } = self.scenario;
+        let still = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();
+        *start == Start::Steady && kick.abs() <= 0.0 && still && force.ends() < self.start()
+    }
+}
+
+impl Oscillation {
+    /// On a cycle, as far off it as the motion is.
+    fn on(near: Reference) -> Self {
+        let (error, measured) = (near.cycle.error(), near.measured);
+        let round_off = 4.0 * f64::EPSILON * (measured.last_period_from.abs() + measured.period);
+        let period_error = (measured.period - near.cycle.period()).abs() + 2.0 * error + round_off;
+        let amplitude = near.cycle.amplitude_x0();
+        let amplitude_error = (measured.amplitude_x0 - amplitude).abs() + 2.0 * error;
+        let cycle = Some(Box::new(near.cycle));
+        Self { cycle, ..Self::with_errors(&measured, period_error, amplitude_error) }
+    }
+
+    /// At most `rest`, in l, off where it goes.
+    fn within(measured: &motion::Oscillation, rest: f64) -> Self {
+        let period_error = 2.0 * rest / measured.amplitude_x0 * measured.period;
+        Self::with_errors(measured, period_error, 2.0 * rest)
+    }
+
+    fn with_errors(measured: &motion::Oscillation, period_error: f64, amplitude: f64) -> Self {
+        let r = measured.wavelength / measured.period;
+        Self {
+            period: measured.period,
+            period_error,
+            wavelength: measured.wavelength,
+            wavelength_error: r * period_error,
+            amplitude_x0: measured.amplitude_x0,
+            amplitude_x0_error: amplitude,
+            slips: measured.slips,
+            drift: measured.drift,
+            last_period_from: measured.last_period_from,
+            cycle: None,
+        }
+    }
+}

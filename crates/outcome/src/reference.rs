@@ -1,0 +1,106 @@
+//! The cycle that a motion is on or near, by which it is judged.
+
+use stickslip_cycles::{Cycle, cycle_near, cycle_within};
+use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
+use stickslip_tip::{Model, Trajectory};
+
+/// Residuals of the cycles that runs are judged by, and the tolerance below which a run needs the finer.
+const RESIDUAL: f64 = 1e-9;
+const FINE_RESIDUAL: f64 = 1e-11;
+const FINE_RUN: f64 = 1e-10;
+
+/// Periods that are tried.
+const TRIES: usize = 2;
+
+/// A cycle beside a motion.
+pub(crate) struct Reference {
+    pub(crate) cycle: Cycle,
+    /// The motion, measured over as many slips.
+    pub(crate) measured: Oscillation,
+    /// Largest difference of an extremum of l in the last period of the motion.
+    pub(crate) off: f64,
+    /// Largest modulus of the multipliers but that of a shift in time.
+    pub(crate) multiplier: f64,
+}
+
+impl Reference {
+    /// The cycle that Newton's method reaches from the last so many slips of a motion.
+    pub(crate) fn of(
+        model: &Model,
+        tolerance: f64,
+        tail: &Trajectory,
+        extrema: &[Extremum],
+        slips: usize,
+    ) -> Option<Self> {
+        // Where a step of the run ends decides whether Newton's method likes its mesh: one period or another.
+        let spans =
+            (0..TRIES).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
+        let near =
+            spans.into_iter().find_map(|span| cycle_within(model, tail, span, RESIDUAL).ok());
+        let near = Self::beside(near?, tail, extrema)?;
+        if tolerance > FINE_RUN || near.off > FINE_RESIDUAL.sqrt() {
+            return Some(near);
+        }
+        let (period, fine) = (near.cycle.motion(), FINE_RESIDUAL);
+        let finer = cycle_near(model, period, fine).ok();
+        finer.and_then(|finer| Self::beside(finer, tail, extrema)).or(Some(near))
+    }
+
+    /// A cycle beside a motion.
+    pub(crate) fn beside(cycle: Cycle, tail: &Trajectory, extrema: &[Extremum]) -> Option<Self> {
+        let measured = Oscillation::with_slips(tail, extrema, cycle.slips())?;
+        let off = difference(&cycle, extrema)?;
+        let multiplier = cycle.leading_multiplier();
+        Some(Self { cycle, measured, off, multiplier })
+    }
+
+    /// What is left of a deviation is this part of it less after a period.
+    pub(crate) fn gap(&self) -> f64 {
+        1.0 - self.multiplier
+    }
+
+    /// How far the motion is from the cycle, relative to its amplitude and period.
+    pub(crate) fn distance(&self) -> f64 {
+        let off_period = (self.measured.period / self.cycle.period() - 1.0).abs();
+        (self.off / self.cycle.amplitude_x0()).max(off_period)
+    }
+
+    /// Periods until the distance is at most `near`. Near onset the square of the amplitude approaches its limit
+    /// as a logistic curve does, however small it was.
+    pub(crate) fn periods_until(&self, near: f64) -> f64 {
+        let ratio = self.cycle.amplitude_x0() / self.measured.amplitude_x0;
+        let away = (ratio * ratio - 1.0).abs().max(2.0 * self.distance());
+        ((0.5 * away / near).ln() / -self.multiplier.ln()).max(0.0)
+    }
+}
+
+/// Between two maxima a period apart, the highest of the last period and the one before it.
+fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
+    let maxima: Vec<_> = extrema.iter().filter(|e| e.is_maximum).collect();
+    let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
+    let start = maxima.get(i + slips)?;
+    Some((start.t, end.t))
+}
+
+/// A maximum within this part of a period from the seam is that of the seam.
+const AT_THE_SEAM: f64 = 1e-6;
+
+/// Largest difference between the extrema of the last period of a motion and those of the cycle, in the order in
+/// which they fit best.
+fn difference(cycle: &Cycle, extrema: &[Extremum]) -> Option<f64> {
+    let motion = cycle.motion();
+    let (start, end) = (motion.start(), motion.end());
+    let seam = AT_THE_SEAM * (end - start);
+    let mut of_cycle = latest_extrema(motion);
+    of_cycle.retain(|e| !e.is_maximum || (e.t - start > seam && end - e.t > seam));
+    // The maximum at the seam, as the latest.
+    of_cycle.insert(0, Extremum { t: end, l: motion.l(start), is_maximum: true });
+    let latest_maximum = extrema.iter().position(|e| e.is_maximum)?;
+    let of_motion = extrema.get(latest_maximum..latest_maximum + of_cycle.len())?;
+    let count = of_cycle.len();
+    let off = |shift: usize| {
+        let shifted = (0..count).map(|i| of_cycle[(i + shift) % count].l);
+        of_motion.iter().zip(shifted).map(|(a, b)| (a.l - b).abs()).fold(0.0, f64::max)
+    };
+    (0..count).step_by(2).map(off).min_by(f64::total_cmp)
+}

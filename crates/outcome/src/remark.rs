@@ -1,0 +1,96 @@
+//! What a reader of the outcome must know besides.
+
+use std::fmt;
+
+/// Where round-off, the start, the tolerance or a disturbance decides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Remark {
+    /// The start is steady motion, which is unstable, and nothing disturbs it.
+    RoundOffGrows {
+        /// Rate of growth, in k/Γ.
+        rate: f64,
+    },
+    /// Steady motion is stable beside the motion that was found.
+    SteadyToo,
+    /// Oscillations are born below αc: beside stable steady motion there may be one.
+    OscillationToo,
+    /// A trapped tip creeps for ever beside the motion that was found.
+    TrappedToo,
+    /// The tip is stuck, and how long is foretold by the exponentials of its past.
+    SlipsAfter {
+        /// In Γ/k.
+        time: f64,
+    },
+    /// Whether the tip slips again hangs on less than the run is known to.
+    AtTheBorder,
+    /// The run repeats itself, but not as the equation does.
+    Coarse {
+        /// Largest difference of an extremum of l, in σ.
+        off: f64,
+    },
+    /// Steady motion attracts by less than the errors of steps at this tolerance push away.
+    TooCoarse,
+    /// An external force acts at the end of the run.
+    ForceActs,
+    /// An external force acts after the end of the run.
+    ForceToCome {
+        /// When it ends.
+        until: f64,
+    },
+    /// The surface ahead of the tip is not even.
+    UnevenAhead {
+        /// Where it ends, in σ.
+        until: f64,
+    },
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RoundOffGrows { rate } => write!(
+                out,
+                "the start is steady motion, which is unstable, and nothing disturbs it: what grows, at the rate \
+                 {rate:.3}, is round-off, and it decides when and how the tip leaves; --kick D decides instead"
+            ),
+            Self::SteadyToo => {
+                write!(out, "steady motion is stable here too: the start decides which is reached")
+            }
+            Self::OscillationToo => write!(
+                out,
+                "onset is subcritical: a larger disturbance than this may lead to an oscillation"
+            ),
+            Self::TrappedToo => write!(
+                out,
+                "a tip may also be trapped here for ever: the start decides which is reached"
+            ),
+            Self::SlipsAfter { time } => {
+                write!(out, "the tip is stuck, and slips again after about {time:.2e}")
+            }
+            Self::AtTheBorder => write!(
+                out,
+                "whether the tip is trapped or slips again hangs on less than the run is known to: ask for a \
+                 smaller tolerance or a longer run"
+            ),
+            Self::Coarse { off } => write!(
+                out,
+                "the tolerance is coarse for this motion: the run repeats itself {off:.1e} off the periodic motion of \
+                 the equation"
+            ),
+            Self::TooCoarse => write!(
+                out,
+                "so near onset steady motion, though stable, holds the tip by less than the errors of steps at this \
+                 tolerance push it away: what is left of a disturbance is theirs; ask for a smaller tolerance"
+            ),
+            Self::ForceActs => write!(out, "the external force still acts at the end of the run"),
+            Self::ForceToCome { until } => write!(
+                out,
+                "an external force acts after the end of the run, until t = {until:?}: it is not counted with"
+            ),
+            Self::UnevenAhead { until } => write!(
+                out,
+                "the surface ahead of the tip is uneven as far as x = {until:?}: as long as it meets that, no motion \
+                 repeats itself exactly"
+            ),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! How the extrema of l change from one period to the next, and where that leads.
+
+use stickslip_tip::motion::Extremum;
+
+/// The latest extrema of l, latest first: maxima and minima in turn.
+pub(crate) struct Sequence<'a>(pub(crate) &'a [Extremum]);
+
+/// Periods that the changes are compared over.
+const PERIODS: usize = 6;
+/// Maxima of l in a period, at most.
+pub(crate) const MOST_SLIPS: usize = 8;
+
+impl Sequence<'_> {
+    /// Largest change of an extremum from the period of so many maxima that ended `back` periods ago to the one
+    /// before it; `None` where the extrema do not reach so far back.
+    pub(crate) fn change(&self, slips: usize, back: usize) -> Option<f64> {
+        let changes = self.changes(slips, back)?;
+        Some(changes.map(f64::abs).fold(0.0, f64::max))
+    }
+
+    fn changes(&self, slips: usize, back: usize) -> Option<impl Iterator<Item = f64>> {
+        let period = 2 * slips;
+        let here = self.0.get(back * period..(back + 1) * period)?;
+        let before = self.0.get((back + 1) * period..(back + 2) * period)?;
+        Some(here.iter().zip(before).map(|(a, b)| a.l - b.l))
+    }
+
+    /// The factor by which these changes grow from period to period, and over how many periods it was
+    /// measured.
+    pub(crate) fn factor(&self, slips: usize) -> Option<f64> {
+        let sizes: Vec<f64> = (0..PERIODS).map_while(|back| self.change(slips, back)).collect();
+        let (last, first) = (sizes.first()?, sizes.last()?);
+        let intervals = sizes.len() - 1;
+        let grown = last / first;
+        (intervals > 0 && grown.is_finite())
+            .then(|| grown.powf(1.0 / f64::from(u32::try_from(intervals).unwrap_or(u32::MAX))))
+    }
+
+    /// The numbers of maxima that may make a period, the likeliest first: the fewest of which the period repeats
+    /// itself within `near`, else those that repeat themselves best, one, and two where every other slip is alike.
+    pub(crate) fn likely_slips(&self, near: f64) -> Vec<usize> {
+        let changes: Vec<(usize, f64)> = (1..=MOST_SLIPS)
+            .map_while(|slips| self.change(slips, 0).map(|change| (slips, change)))
+            .collect();
+        let least = changes.iter().map(|(_, change)| *change).fold(f64::INFINITY, f64::min);
+        let repeats = |most: f64| changes.iter().find(|(_, change)| *change <= most);
+        let best = repeats(near).or_else(|| repeats(2.0 * least));
+        let mut likely: Vec<usize> = best.map(|(slips, _)| *slips).into_iter().collect();
+        let alternates = changes.len() > 1 && changes[1].1 < changes[0].1;
+        let others = [Some(1), alternates.then_some(2)].into_iter().flatten();
+        for slips in others {
+            if !likely.contains(&slips) && self.0.len() > 2 * slips {
+                likely.push(slips);
+            }
+        }
+        likely
+    }
+
+    /// Half the latest swing of l, and the rate at which the swings have grown over the last periods.
+    pub(crate) fn swing(&self) -> Option<(f64, f64)> {
+        let swings: Vec<(f64, f64)> =
+            self.0.windows(2).map(|e| (e[0].t, 0.5 * (e[0].l - e[1].l).abs())).collect();
+        let (last, first) = (swings.first()?, swings.get(..2 * PERIODS).unwrap_or(&swings).last()?);
+        let rate = (last.1 / first.1).ln() / (last.0 - first.0);
+        Some((last.1, if rate.is_finite() { rate } else { 0.0 }))
+    }
+}

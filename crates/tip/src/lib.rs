@@ -18,6 +18,7 @@ pub mod memory;
 pub mod motion;
 pub mod roots;
 pub mod state;
+pub mod stop;
 pub mod tip_function;
 
 mod eigenvalues;

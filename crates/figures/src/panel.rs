@@ -19,7 +19,7 @@ const MARGIN_TOP: f64 = 16.0;
 const MARGIN_BOTTOM: f64 = 54.0;
 const HEADING_LINE: f64 = 1.5 * LABEL_SIZE;
 /// About as far apart are the ticks.
-const TICK_DISTANCE: (f64, f64) = (95.0, 62.0);
+const TICK_DISTANCE: (f64, f64) = (95.0, 52.0);
 
 /// Axes fitted to what they show.
 pub(crate) struct Panel<'a> {
@@ -186,14 +186,17 @@ impl<'a> Panel<'a> {
         let size = LABEL_SIZE;
         for note in &self.document.notes {
             let Some((x, y)) = frame.place((note.x, note.y)) else { continue };
-            // Within the axes, whole.
+            // Within the axes, whole; beside an arrow, on a ground that keeps it apart from what is there.
             let half = 0.5 * width(&note.text, size) + 6.0;
             let (from, to) = (frame.at.left + half, frame.at.right - half);
-            let shown = if from < to { x.clamp(from, to) } else { x };
+            let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };
+            let shown = if from < to { wanted.clamp(from, to) } else { x };
+            if note.arrow.is_some() {
+                let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
+                let (left, right) = (shown - half, shown + half);
+                svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
+            }
             let (label, anchor, upright) = (note.text.as_str(), Anchor::Middle, false);
-            let (left, right) = (shown - half, shown + half);
-            let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
-            svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
             svg.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
             let (edge, of) = match note.arrow {
                 Some(ArrowName::Down) => (frame.at.bottom - 9.0, Shape::Down),

@@ -60,7 +60,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
     for case in &measured.cases {
         let Case { name, beta, alpha, r, until } = case;
         let alpha = (alpha * 1e4).round() / 1e4;
-        let heading = format!("{name}: β = {beta}, α = {alpha}, r = {r}, t ≤ {until}");
+        let heading = format!("{name}: β = {beta}, α = {alpha}, r = {r}, t ≤ {until}");
         let mut panel = panel(&heading, ("largest error of l (σ)", "time (ms)"));
         (panel.x_scale, panel.y_scale) = (ScaleName::Logarithmic, ScaleName::Logarithmic);
         for (method, style, name) in METHODS {

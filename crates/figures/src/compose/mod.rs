@@ -52,12 +52,13 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
     let Some(first) = figure.panels.first() else {
         return Err(FigureError::Nothing("there is nothing to draw".into()));
     };
-    let (x_label, y_label) = (first.x_label.clone(), first.y_label.clone());
+    let (x, y) = ((first.x_label.clone(), first.x_range), (first.y_label.clone(), first.y_range));
     for panel in &mut figure.panels {
-        if panel.x_label == x_label && view.x_range.is_some() {
+        // One that shows a part of its own goes on to do so.
+        if (&panel.x_label, panel.x_range) == (&x.0, x.1) && view.x_range.is_some() {
             panel.x_range = view.x_range;
         }
-        if panel.y_label == y_label && view.y_range.is_some() {
+        if (&panel.y_label, panel.y_range) == (&y.0, y.1) && view.y_range.is_some() {
             panel.y_range = view.y_range;
         }
     }

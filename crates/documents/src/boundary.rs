@@ -1,5 +1,6 @@
 //! `stickslip/boundary`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{CriticalityName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -95,14 +96,17 @@ impl OnsetColumns {
     /// What is born at each of these points of the boundary.
     pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
         let mut columns = Self::default();
-        for at in boundary {
-            let onset = onset_at(tip, *at).ok();
-            columns.criticality.push(onset.map(|o| o.criticality.into()));
-            columns.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
-            columns.period_slope.push(onset.map(|o| o.period_slope));
-            columns.lyapunov.push(onset.map(|o| o.lyapunov));
-        }
+        boundary.iter().for_each(|at| columns.push(tip, at));
         columns
+    }
+
+    /// Adds what is born at a point of the boundary.
+    pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
+        let onset = onset_at(tip, *at).ok();
+        self.criticality.push(onset.map(|o| o.criticality.into()));
+        self.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
+        self.period_slope.push(onset.map(|o| o.period_slope));
+        self.lyapunov.push(onset.map(|o| o.lyapunov));
     }
 }
 
@@ -110,5 +114,20 @@ impl From<BoundaryBranch> for BranchDocument {
     fn from(branch: BoundaryBranch) -> Self {
         let BoundaryBranch { wave_number, r, alpha } = branch;
         Self { wave_number, r, alpha }
+    }
+}
+
+impl Tabular for BoundaryDocument {
+    /// The boundary, a row for each r.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let OnsetColumns { amplitude_squared_slope, period_slope, lyapunov, .. } = &self.onset;
+        vec![
+            ("Omega", Column::of(&self.wave_number)),
+            ("r", Column::of(&self.r)),
+            ("alpha", Column::of(&self.alpha)),
+            ("amplitude_squared_slope", Column::optional(amplitude_squared_slope)),
+            ("period_slope", Column::optional(period_slope)),
+            ("lyapunov", Column::optional(lyapunov)),
+        ]
     }
 }

@@ -8,6 +8,7 @@
 #![deny(clippy::print_stderr, clippy::print_stdout)]
 
 mod arguments;
+mod arithmetic;
 mod commands;
 mod failure;
 mod files;

@@ -12,6 +12,7 @@ mod runs;
 mod checkpoints;
 mod command_line;
 mod compare_command;
+mod confined_files;
 mod cycle_commands;
 mod documents;
 #[cfg(unix)]

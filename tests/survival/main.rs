@@ -9,7 +9,11 @@ mod runs;
 
 mod accepted_tips;
 #[cfg(unix)]
+mod flipped_bits;
+#[cfg(unix)]
 mod killed_runs;
 #[cfg(unix)]
 mod long_runs;
 mod tips;
+#[cfg(unix)]
+mod two_writers;

@@ -8,6 +8,7 @@ mod write;
 
 use super::progress::Progress;
 use crate::arguments::{SweepArguments, SweepThen};
+use crate::arithmetic::arithmetic;
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
@@ -45,19 +46,24 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }
-    writer.write(&sealed(grid.parameters, finished.in_order())?)?;
+    writer.write(&sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
     finished.remove();
     Ok(())
 }
 
 /// The document of a finished sweep, with its checksum.
-fn sealed(parameters: SweepParameters, points: Vec<SweepPoint>) -> Result<SweepDocument, Failure> {
+fn sealed(
+    parameters: SweepParameters,
+    points: Vec<SweepPoint>,
+    arithmetic: Option<String>,
+) -> Result<SweepDocument, Failure> {
     let mut document = SweepDocument {
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
         parameters,
         points,
+        arithmetic,
         crc32: None,
     };
     document.crc32 = Some(checksum(&document)?);

@@ -18,6 +18,10 @@ pub struct CheckpointHead {
     pub format_version: u32,
     /// The program that wrote it.
     pub software: Software,
+    /// How the machine that made it rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": only a machine that rounds alike goes
+    /// on to the same bits.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
     /// What was asked for.
     pub order: Order,
     /// Time reached, in Γ/k.

@@ -20,6 +20,10 @@ pub struct SweepDocument {
     pub parameters: SweepParameters,
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
+    /// How the machine that computed the points rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": one that rounds otherwise
+    /// gives other last digits. Null where parts came from machines that do not agree.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
     /// CRC-32 (IEEE) of the JSON `[parameters,points]`, without spaces and with the shortest digits: tells `merge`
     /// whether anything was changed.
     #[serde(default)]

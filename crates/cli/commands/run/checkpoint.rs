@@ -1,6 +1,7 @@
 //! Checkpoints: written so that a kill at any moment leaves the last good one.
 
 use super::record::Record;
+use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::{Failure, Typed};
 use crate::files::place::{Target, folder_of};
 use crate::files::within::seen_from;
@@ -23,6 +24,7 @@ const LARGEST: u64 = 1 << 30;
 /// When and where checkpoints are made.
 pub(super) struct Checkpoints {
     file: Target,
+    arithmetic: String,
     order: Order,
     start: f64,
     every: f64,
@@ -37,7 +39,8 @@ impl Checkpoints {
         let seen = |path: &PathBuf| seen_from(folder_of(file.path()), path);
         let (output, plot) = (seen(&order.output), order.plot.as_ref().map(seen));
         let order = Order { output, plot, ..order.clone() };
-        let mut checkpoints = Self { file, order, start, every, due: t, last: None };
+        let mut checkpoints =
+            Self { file, arithmetic: arithmetic(), order, start, every, due: t, last: None };
         checkpoints.plan(t);
         checkpoints
     }
@@ -65,6 +68,7 @@ impl Checkpoints {
                 format: CheckpointHead::FORMAT.into(),
                 format_version: FORMAT_VERSION,
                 software: Software::this(),
+                arithmetic: Some(self.arithmetic.clone()),
                 order: self.order.clone(),
                 t: running.t(),
                 samples: record.taken,
@@ -121,7 +125,11 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
         serde_json::from_slice(&bytes).map_err(|error| refused(format!("is damaged: {error}")))?;
     let rest = head.words.saturating_mul(8).saturating_add(4).min(LARGEST);
     file.take(rest + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    parse(&bytes).map_err(refused)
+    let (head, state) = parse(&bytes).map_err(refused)?;
+    match head.arithmetic.as_deref() {
+        Some(made) if made == arithmetic() => Ok((head, state)),
+        made => Err(refused(foreign(made))),
+    }
 }
 
 /// What [`write`](Checkpoints::write) wrote.

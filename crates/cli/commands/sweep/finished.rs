@@ -2,6 +2,7 @@
 //! line a point, each with its checksum. A kill at any moment costs the points under way and at most the line
 //! being written; damage costs the lines that it touches.
 
+use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
 use crate::files::beside;
 use crate::files::place::IN_USE;
@@ -35,6 +36,8 @@ const MAGIC: &[u8] = b"{\"software\":{\"name\":\"stickslip\"";
 #[derive(Debug, Serialize)]
 struct Head<'a> {
     software: Software,
+    /// Nor those of a machine that rounds otherwise.
+    arithmetic: String,
     parameters: &'a SweepParameters,
 }
 
@@ -52,7 +55,11 @@ impl Finished {
     /// What an interrupted sweep over the same grid left beside `output`, or nothing.
     pub(super) fn beside(output: &Path, parameters: &SweepParameters) -> Result<Self, Failure> {
         let path = partial_of(output);
-        let opened = open(&path, output, &Head { software: Software::this(), parameters });
+        let opened = open(
+            &path,
+            output,
+            &Head { software: Software::this(), arithmetic: arithmetic(), parameters },
+        );
         let (file, points) = opened.map_err(|error| {
             let message = match error.kind() {
                 ErrorKind::WouldBlock => IN_USE.into(),
@@ -156,7 +163,7 @@ fn open(path: &Path, output: &Path, head: &Head) -> io::Result<(File, Vec<SweepP
         }
         // A kill may have left a part of the first line.
         if !text.starts_with(&first) && !first.starts_with(&text) {
-            return Err(io::Error::other("holds the points of another sweep"));
+            return Err(io::Error::other(other(&text)));
         }
     }
     let mut file = beside::create_like(path, MAGIC, output)?;
@@ -167,6 +174,17 @@ fn open(path: &Path, output: &Path, head: &Head) -> io::Result<(File, Vec<SweepP
     };
     file.write_all(if is_taken_over { &text[..length] } else { &first })?;
     Ok((file, points))
+}
+
+/// Why points are not ours to go on from.
+fn other(text: &[u8]) -> String {
+    let first = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let made = serde_json::from_slice::<serde_json::Value>(first).ok();
+    let made = made.as_ref().and_then(|head| head["arithmetic"].as_str());
+    match made {
+        Some(made) if made != arithmetic() => foreign(Some(made)),
+        _ => "holds the points of another sweep".into(),
+    }
 }
 
 /// The whole lines after the first: their length with that, and the points of this grid that they hold.

@@ -6,6 +6,7 @@ use crate::arguments::MergeArguments;
 use crate::failure::Failure;
 use crate::files::apart::{Named, apart};
 use crate::files::input::read_document;
+use crate::message::say;
 use std::path::Path;
 use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
@@ -29,11 +30,18 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
                 "is of another sweep, or another version, than the first one",
             ));
         }
+        if part.arithmetic != whole.arithmetic && whole.arithmetic.take().is_some() {
+            let path = path.display();
+            say(format_args!(
+                "stickslip: {path} was computed by a machine that rounds otherwise: one machine alone would give other \
+                 last digits"
+            ));
+        }
         whole.points.append(&mut part.points);
     }
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
-    let whole = sealed(whole.parameters, whole.points)?;
+    let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
     Writer::asked(output, plot, &whole.parameters)?.write(&whole)
 }
 

@@ -1,0 +1,89 @@
+//! How this machine rounds: whether what another has begun would come out of this one to the last bit.
+//!
+//! Sums, products and roots are the same on all. exp, sin and their like are those of the system's library, which has
+//! variants for processors with and without a fused multiply-add; Fourier transforms and products of matrices choose
+//! theirs by the processor, too. A variant shows in the last digit of a few values in a thousand, and a motion that
+//! amplifies errors shows it to everybody.
+
+use crc32fast::Hasher;
+use std::env::consts::ARCH;
+
+/// The same wherever results are the same to the last bit, such as `x86_64+avx+fma-1c291ca3`.
+pub(crate) fn arithmetic() -> String {
+    format!("{ARCH}{}-{:08x}", variants(), functions())
+}
+
+/// Why what was made under another arithmetic is not gone on with.
+pub(crate) fn foreign(made: Option<&str>) -> String {
+    let made = made.unwrap_or("unknown");
+    format!(
+        "was made where arithmetic is {made}, and here it is {}: the last digits of what follows would be others; go on \
+         with it on a machine of that kind, or begin anew",
+        arithmetic()
+    )
+}
+
+/// What transforms and products of matrices choose by.
+#[cfg(target_arch = "x86_64")]
+fn variants() -> String {
+    let detected = [
+        ("+sse4.1", is_x86_feature_detected!("sse4.1")),
+        ("+avx", is_x86_feature_detected!("avx")),
+        ("+avx2", is_x86_feature_detected!("avx2")),
+        ("+fma", is_x86_feature_detected!("fma")),
+        ("+avx512f", is_x86_feature_detected!("avx512f")),
+    ];
+    detected.iter().filter(|(_, is_there)| *is_there).map(|(name, _)| *name).collect()
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn variants() -> String {
+    String::new()
+}
+
+type Function = fn(f64) -> f64;
+
+/// All that the libraries call.
+const FUNCTIONS: [Function; 14] = [
+    f64::exp,
+    |x| x.abs().ln(),
+    f64::sin,
+    f64::cos,
+    f64::tan,
+    |x| x.abs().powf(0.3 + 0.1 * x),
+    |x| x.atan2(1.7),
+    |x| x.hypot(2.3),
+    f64::exp_m1,
+    |x| x.abs().ln_1p(),
+    f64::sinh,
+    f64::cosh,
+    f64::tanh,
+    |x| x.abs().log10(),
+];
+/// Enough to meet values at which variants differ.
+const ARGUMENTS: u32 = 8000;
+
+/// CRC-32 of their values at arguments from -12 to 12.
+fn functions() -> u32 {
+    /// Its multiples fill an interval evenly.
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let arguments = (1..=ARGUMENTS).map(|i| 24.0 * ((f64::from(i) * GOLDEN).fract() - 0.5));
+    let mut hasher = Hasher::new();
+    for x in arguments {
+        for function in FUNCTIONS {
+            hasher.update(&function(x).to_le_bytes());
+        }
+    }
+    hasher.finalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_machine_agrees_with_itself() {
+        assert_eq!(arithmetic(), arithmetic());
+        assert!(arithmetic().starts_with(ARCH));
+    }
+}

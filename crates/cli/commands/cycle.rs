@@ -12,7 +12,9 @@ use crate::message::say;
 use start::Start;
 use std::path::Path;
 use std::time::Instant;
-use stickslip_documents::{CycleDocument, CycleParameters, CycleProfile, ModelParameters};
+use stickslip_documents::{
+    CycleDocument, CycleParameters, CycleProfile, ModelParameters, to_its_digits,
+};
 
 /// More do not fit in a picture, nor are they needed in a table.
 const MOST_POINTS: usize = 1_000_000;
@@ -60,8 +62,10 @@ fn summary(document: &CycleDocument) -> String {
         1 => "one slip".into(),
         n => format!("{n} slips"),
     };
-    let (period, amplitude) = (document.period, document.amplitude_x0);
-    format!("{stable} cycle of {slips}, period {period:.9}, amplitude of x0 {amplitude:.9}")
+    let digits = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
+    let period = digits(document.period, document.period_error);
+    let amplitude = digits(document.amplitude_x0, document.amplitude_x0_error);
+    format!("{stable} cycle of {slips}, period {period}, amplitude of x0 {amplitude}")
 }
 
 fn write(document: &CycleDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {

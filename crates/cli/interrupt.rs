@@ -1,35 +1,107 @@
-//! SIGINT and SIGTERM ask a run to stop at its next step; a second one ends the program at once.
+//! SIGINT and SIGTERM.
+//!
+//! A command that has nothing to keep ends [at once](end_at_once), by a thread that waits for signals and for
+//! nothing else. One that keeps what it has [listens](Interrupt::listen): the first signal is remembered, for it
+//! to end at its next step, and the second one ends the program at once. Where all that it keeps is in a file
+//! already, it need not come to its next step: it says [what is told then](Interrupt::or_else). All this holds too
+//! where the program was started with SIGINT ignored, as a job in the background is.
 
+use crate::failure::Failure;
+use crate::message::say;
 use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
+use signal_hook::iterator::Signals;
 use std::io;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread;
+use std::time::Duration;
 
-/// Remembers the signal received, if any.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Interrupt {
-    signal: Arc<AtomicUsize>,
+/// What the waiting thread and the commands share.
+#[derive(Default)]
+struct State {
+    signal: AtomicU8,
     received: Arc<AtomicBool>,
+    /// Somebody keeps what there is.
+    kept: AtomicBool,
+    farewell: Mutex<Option<Farewell>>,
 }
+
+/// What is told of a signal by a command that need not end by itself.
+type Farewell = Box<dyn Fn(u8) -> Failure + Send>;
+
+/// Time for a command to end by itself.
+const PATIENCE: Duration = Duration::from_millis(120);
+
+fn state() -> &'static State {
+    static STATE: OnceLock<State> = OnceLock::new();
+    STATE.get_or_init(State::default)
+}
+
+/// From here on the first signal ends the program.
+pub(crate) fn end_at_once() -> io::Result<()> {
+    static WAITS: AtomicBool = AtomicBool::new(false);
+    if WAITS.swap(true, Ordering::SeqCst) {
+        return Ok(());
+    }
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let wait = move || {
+        for signal in signals.forever() {
+            let number = u8::try_from(signal).unwrap_or_default();
+            let is_first = !state().received.swap(true, Ordering::SeqCst);
+            state().signal.store(number, Ordering::SeqCst);
+            let failure = match is_first && state().kept.load(Ordering::SeqCst) {
+                true => after_a_while(number),
+                false => Some(Failure::Stopped(number)),
+            };
+            if let Some(failure) = failure {
+                say(format_args!("stickslip: {failure}"));
+                std::process::exit(128 + signal);
+            }
+        }
+    };
+    thread::Builder::new().name("signals".into()).spawn(wait).map(drop)
+}
+
+/// What is told of a command that has not ended by itself, and need not.
+fn after_a_while(signal: u8) -> Option<Failure> {
+    let farewell = || state().farewell.lock().unwrap_or_else(PoisonError::into_inner);
+    if farewell().is_some() {
+        thread::sleep(PATIENCE);
+    }
+    farewell().as_ref().map(|tell| tell(signal))
+}
+
+/// The signals, for as long as there is something to keep.
+#[derive(Debug)]
+pub(crate) struct Interrupt(());
 
 impl Interrupt {
     /// Starts listening.
     pub(crate) fn listen() -> io::Result<Self> {
-        let interrupt = Self::default();
-        for signal in [SIGINT, SIGTERM] {
-            let number = usize::try_from(signal).unwrap_or_default();
-            // In this order: the first signal finds `received` unset, and sets it.
-            let received = Arc::clone(&interrupt.received);
-            flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&received))?;
-            flag::register(signal, received)?;
-            flag::register_usize(signal, Arc::clone(&interrupt.signal), number)?;
-        }
-        Ok(interrupt)
+        state().kept.store(true, Ordering::SeqCst);
+        end_at_once()?;
+        Ok(Self(()))
+    }
+
+    /// All that is kept is in a file at any time: the program ends soon after a signal, and tells this.
+    pub(crate) fn or_else(&self, tell: impl Fn(u8) -> Failure + Send + 'static) {
+        *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
     }
 
     /// The signal received.
     pub(crate) fn signal(&self) -> Option<u8> {
-        u8::try_from(self.signal.load(Ordering::Relaxed)).ok().filter(|signal| *signal > 0)
+        Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0)
+    }
+
+    /// Raised by the first signal: for work to look at.
+    pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
+        &state().received
+    }
+}
+
+impl Drop for Interrupt {
+    fn drop(&mut self) {
+        *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        state().kept.store(false, Ordering::SeqCst);
     }
 }

@@ -29,6 +29,12 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return answered(&error),
     };
+    if !cli.command.keeps_what_it_has()
+        && let Err(error) = interrupt::end_at_once()
+    {
+        say(format_args!("stickslip: cannot listen for signals: {error}"));
+        return ExitCode::FAILURE;
+    }
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
         Command::Verify(arguments) => commands::verify::verify(arguments),
@@ -53,6 +59,14 @@ fn main() -> ExitCode {
             }
             failure.exit_code()
         }
+    }
+}
+
+impl Command {
+    /// Whether it has something to keep when a signal comes, and listens for signals itself.
+    fn keeps_what_it_has(&self) -> bool {
+        use Command::{Continue, Run, Sweep, Verify};
+        matches!(self, Run(_) | Verify(_) | Continue(_) | Sweep(_))
     }
 }
 

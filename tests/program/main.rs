@@ -20,6 +20,7 @@ mod experiment;
 mod extreme_numbers;
 mod figures;
 mod image_files;
+mod interrupts;
 mod outcomes;
 mod pictures;
 mod refusals;

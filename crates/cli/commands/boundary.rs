@@ -2,6 +2,7 @@
 
 use super::figure::{Figure, undrawn};
 use super::model::tip;
+use super::progress::Progress;
 use crate::arguments::BoundaryArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
@@ -85,7 +86,14 @@ fn document(
         if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
     let boundary = Boundary::new(tip);
     let asked = abscissas(range, arguments.points, spacing);
-    let found: Vec<_> = asked.iter().map(|r| boundary.at(*r)).collect();
+    let mut progress = Progress::new(0.0, 2.0 * asked.len() as f64).at_every_call();
+    let mut done = 0.0;
+    let mut found = Vec::with_capacity(asked.len());
+    for r in &asked {
+        found.push(boundary.at(*r));
+        done += 1.0;
+        progress.reached(done);
+    }
     let first_error = found.iter().find_map(|at| at.err());
     let along: Vec<Critical> = found.into_iter().filter_map(Result::ok).collect();
     if let (true, Some(error)) = (along.is_empty(), first_error) {
@@ -93,6 +101,12 @@ fn document(
     }
     let left_out = arguments.points - along.len();
     let branches = boundary.branches(range[0], range[1], arguments.points).map_err(refused)?;
+    let mut onset = OnsetColumns::default();
+    for at in &along {
+        onset.push(tip, at);
+        done += 1.0;
+        progress.reached(done);
+    }
     Ok(BoundaryDocument {
         format: BoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
@@ -106,7 +120,7 @@ fn document(
         wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
         r: along.iter().map(|at| at.r).collect(),
         alpha: along.iter().map(|at| at.alpha).collect(),
-        onset: OnsetColumns::along(tip, &along),
+        onset,
         branches: branches.into_iter().map(Into::into).collect(),
         remarks: first_error
             .map(|error| format!("{left_out} values of r are left out: {error}"))

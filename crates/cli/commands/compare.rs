@@ -11,7 +11,6 @@ use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
 use crate::files::npz::Npz;
 use crate::files::output::{Output, OutputFormat};
-use crate::interrupt::Interrupt;
 use crate::message::say;
 use closed::Closed;
 use grid::{Discretisation, Motion};
@@ -32,12 +31,9 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let asked = Asked::of(arguments)?;
     let output = Output::open("--output", &arguments.output)?;
     let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-
-    let closed = closed::run(&asked, &interrupt)?;
+    let closed = closed::run(&asked)?;
     let x = asked.positions(&closed)?;
-    let motion = grid::run(&asked, &x, &interrupt)?;
+    let motion = grid::run(&asked, &x)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
     if arguments.output != std::path::Path::new("-") {
         say(summary(&document));

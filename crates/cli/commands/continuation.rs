@@ -19,7 +19,7 @@ use std::path::Path;
 use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
 use stickslip_documents::{ContinueDocument, CycleBranch, OverName};
 use stickslip_stability::trapping_alpha;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, stop};
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
 const MOST_BRANCHES: usize = 12;
@@ -40,8 +40,14 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
 
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-    let (branches, remarks) = branches(arguments, &settings, &origin, &interrupt)?;
+    let found = stop::where_asked_by(interrupt.flag(), || {
+        branches(arguments, &settings, &origin, &interrupt)
+    });
     let signal = interrupt.signal();
+    let (branches, remarks) = match (found, signal) {
+        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
+        (found, _) => found?,
+    };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
     if let Some(figure) = figure {

@@ -18,8 +18,12 @@ use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashSet;
 use std::io;
-use std::sync::{Mutex, PoisonError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint};
+use stickslip_tip::stop;
 use write::Writer;
 
 const MOST_THREADS: usize = 4096;
@@ -120,11 +124,27 @@ fn compute(
     }
     let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
     let state = Mutex::new(State { finished, progress, kept: Ok(()) });
+    let finished_so_far = Arc::new(AtomicUsize::new(done.len()));
+    {
+        let done = Arc::clone(&finished_so_far);
+        let path = state
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .finished
+            .path()
+            .map(Path::to_owned);
+        interrupt.or_else(move |signal| {
+            unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
+        });
+    }
     let work = |index: &usize| {
         if interrupt.signal().is_some() {
             return None;
         }
-        let point = point::point(*index, grid.place(*index), grid.parameters.tolerance);
+        let found = stop::where_asked_by(interrupt.flag(), || judged(*index, grid));
+        // What a signal cut short is no point.
+        let point = Some(found).filter(|_| interrupt.signal().is_none())?;
+        finished_so_far.fetch_add(1, Ordering::Relaxed);
         state.lock().unwrap_or_else(PoisonError::into_inner).keep(point)
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -138,21 +158,31 @@ fn compute(
     Ok(finished)
 }
 
+/// A point; where a library panics, one that failed.
+fn judged(index: usize, grid: &Grid) -> SweepPoint {
+    let place = grid.place(index);
+    let point = AssertUnwindSafe(|| point::point(index, place, grid.parameters.tolerance));
+    catch_unwind(point).unwrap_or_else(|_| SweepPoint {
+        error: Some(
+            "the computation failed for a reason that it cannot tell: please report it".into(),
+        ),
+        ..SweepPoint::at(index, place.beta, place.r, None)
+    })
+}
+
 fn left_unfinished(grid: &Grid, finished: &Finished, signal: u8) -> Failure {
-    let (done, count) = (finished.points().len(), grid.indices().count());
-    match finished.path() {
-        Some(path) => Failure::Unfinished {
-            signal,
-            message: format!(
-                "{done} of {count} points are in {}: the same command goes on from there",
-                path.display()
-            ),
-        },
-        None => Failure::Unfinished {
-            signal,
-            message: format!(
-                "{done} of {count} points were done, none are kept: with -o FILE.json they would be"
-            ),
-        },
-    }
+    unfinished(finished.points().len(), grid.indices().count(), finished.path(), signal)
+}
+
+fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
+    let message = match path {
+        Some(path) => format!(
+            "{done} of {count} points are in {}: the same command goes on from there",
+            path.display()
+        ),
+        None => format!(
+            "{done} of {count} points were done, none are kept: with -o FILE.json they would be"
+        ),
+    };
+    Failure::Unfinished { signal, message }
 }

@@ -42,7 +42,7 @@ const SHARE_OF_FINE: f64 = 0.1;
 const ACCURACY_OF_SHORT: f64 = 1e-8;
 /// Waves of a lattice of exponents, where no few exponentials follow f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
-const MOST_WAVES_OF_SHORT: usize = 100;
+const MOST_WAVES_OF_SHORT: usize = 120;
 const MOST_WAVES_OF_MULTIPLIERS: usize = 400;
 /// What a step may miss of f, as a displacement, and the waves that this leaves over those of round-off.
 const ACCURACY_OF_STEPS: f64 = 1e-5;

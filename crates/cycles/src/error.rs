@@ -20,7 +20,8 @@ pub enum CycleError {
     NeverFades,
     /// A footprint with more detail than a sum of exponentials can follow.
     #[error(
-        "the footprint is too rough for cycles to a tolerance of {allowed:e}: {reached:.0e} or more will do, or a smoother table"
+        "the past of the tip cannot be told well enough for cycles to a tolerance of {allowed:e}: {}",
+        instead(*reached)
     )]
     Rough {
         /// The tolerance asked for.
@@ -43,6 +44,9 @@ pub enum CycleError {
         /// αc(r).
         critical: f64,
     },
+    /// Nobody waits for it any more: [`stickslip_tip::stop`].
+    #[error("stopped before a cycle was found")]
+    Stopped,
     /// Runs did not come near a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
@@ -97,4 +101,12 @@ impl From<FitError> for CycleError {
             error => Self::Fit(error),
         }
     }
+}
+
+/// What would do where a sum of exponentials allows for no smaller tolerance than this.
+fn instead(reached: f64) -> String {
+    if reached <= super::TOLERANCES.1 {
+        return format!("{reached:.0e} or more will do, or a footprint of less detail");
+    }
+    "a smaller alpha/r will do, or a footprint of less detail".into()
 }

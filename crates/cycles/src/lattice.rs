@@ -20,8 +20,8 @@ const PERIOD: f64 = 1.6;
 /// What the images of f' and the waves left out may amount to, over the accuracy wanted.
 const SHARE: f64 = 0.2;
 
-/// What is wanted is loosened by this factor until there are few enough waves, up to [`LOOSEST`].
-const LOOSER: f64 = 10.0;
+/// What is aimed at is loosened by this factor until it is met, up to [`LOOSEST`].
+const LOOSER: f64 = 30.0;
 const LOOSEST: f64 = 1e-2;
 /// Where a lattice misses what is wanted by more, its waves cancel so much that a looser one is nearer.
 const MISSED: f64 = 3.0;
@@ -31,23 +31,20 @@ const MISSED: f64 = 3.0;
 /// # Errors
 /// A footprint that never fades.
 pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit>, FitError> {
-    let mut wanted = wanted;
-    let mut best: Option<Arc<Fit>> = None;
-    while best.is_none() || wanted <= LOOSEST {
-        let terms = terms(tip, wanted, most)?;
-        if terms.len() <= most || wanted > LOOSEST {
-            let fit = known(tip, wanted, terms)?;
-            let error = |fit: &Fit| fit.certificate().slope;
-            if best.as_ref().is_some_and(|best| error(best) <= error(&fit)) {
-                break;
-            }
-            let met = error(&fit) <= MISSED * wanted;
+    let error = |fit: &Arc<Fit>| fit.certificate().slope;
+    let (mut aim, mut best): (f64, Option<Arc<Fit>>) = (wanted, None);
+    // A looser lattice is less damped, and waves that are left out weigh less.
+    while best.is_none() || aim <= LOOSEST {
+        let fit = known(tip, aim, terms(tip, aim, most)?)?;
+        let is_best = best.as_ref().is_none_or(|best| error(&fit) < error(best));
+        let met = error(&fit) <= MISSED * aim;
+        if is_best {
             best = Some(fit);
-            if met {
-                break;
-            }
         }
-        wanted *= LOOSER;
+        if met {
+            break;
+        }
+        aim *= LOOSER;
     }
     best.ok_or(FitError::Terms)
 }
@@ -75,7 +72,7 @@ fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, F
     Ok(fit)
 }
 
-/// With so many waves as that takes; with at most so many where no accuracy is left to lose.
+/// With as many waves as that takes, or the first `most`.
 fn terms(tip: &TipFunction, wanted: f64, most: usize) -> Result<Vec<Term>, FitError> {
     let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
         return Err(FitError::NeverFades);
@@ -98,7 +95,7 @@ fn terms(tip: &TipFunction, wanted: f64, most: usize) -> Result<Vec<Term>, FitEr
     let mut left_out = 0.0;
     while terms.len() > 1 {
         left_out += terms.last().map_or(0.0, |term| term.weight.norm());
-        if left_out > SHARE * wanted && (terms.len() <= most || wanted <= LOOSEST) {
+        if left_out > SHARE * wanted && terms.len() <= most {
             break;
         }
         terms.pop();

@@ -164,8 +164,8 @@ impl Cycle {
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let Embedding { precise, r, .. } = &self.closed.equation;
-        let least =
-            LEAST_MULTIPLIER.max(ABOVE_THE_LATTICE * lattice::left(precise, r * self.period()));
+        let left = lattice::left(precise, r * self.period());
+        let least = (ABOVE_THE_LATTICE * left).min(left.sqrt()).max(LEAST_MULTIPLIER);
         let count = self.multipliers.partition_point(|m| m.norm() >= least);
         &self.multipliers[..count]
     }

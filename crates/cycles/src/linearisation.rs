@@ -13,6 +13,7 @@ use super::step::LinearStep;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::memory::Fit;
+use stickslip_tip::stop;
 
 /// An orbit's equations, linearised.
 pub(super) struct Linearisation {
@@ -32,7 +33,7 @@ struct Phase {
     by_parameter: f64,
 }
 
-/// A step's equations are singular: the orbit is far from a solution.
+/// A step's equations are singular, the orbit is far from a solution; or nobody waits for it any more.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singular;
 
@@ -52,6 +53,9 @@ impl Linearisation {
         let mut extension = orbit.extension;
         let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
         for (n, ((ends, h), d)) in steps.enumerate() {
+            if stop::is_asked() {
+                return Err(Singular);
+            }
             let slopes = (past.of_step(n), &solved.of_step(n).slope());
             let step = LinearStep::new(equation, slopes, (extension, h, d));
             stages.push(step.carry(free, ends[1] - ends[0], &mut end).ok_or(Singular)?);

@@ -7,9 +7,7 @@ use stickslip_tip::eigenvalues;
 /// By falling modulus, of a pair the one above the real axis first. `None` where there are none to be had.
 pub(super) fn multipliers(monodromy: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let mut found = eigenvalues(monodromy)?;
-    found.sort_by(|a, b| {
-        let near = (a.norm() - b.norm()).abs() <= 1e-12 * a.norm();
-        if near { b.im.total_cmp(&a.im) } else { b.norm().total_cmp(&a.norm()) }
-    });
+    // Both of a pair have the same modulus to the last bit, and stay in their order.
+    found.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
     Some(found)
 }

@@ -4,9 +4,10 @@ use super::embedding::Embedding;
 use super::orbit::Orbit;
 use super::solve::{Condition, close};
 use super::start::{from_onset, from_runs, part, small_cycle_exists};
-use super::{Cycle, CycleError, TOLERANCES, Tried};
+use super::{Continuation, Cycle, CycleError, End, Parameter, TOLERANCES, Tried};
+use std::ops::ControlFlow;
 use stickslip_stability::{Critical, StabilityError, critical, onset_at};
-use stickslip_tip::{Model, Trajectory};
+use stickslip_tip::{Model, Trajectory, stop};
 
 /// Halves of a cycle that differ by less, in σ, are the same.
 const REPEATS_WITHIN: f64 = 1e-7;
@@ -56,12 +57,20 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let critical = critical(model.tip(), r)?;
     if alpha > critical.alpha {
         let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
+        if let Some(found) = stable {
+            return Ok(found);
+        }
+        let followed = followed_from_onset(model, tolerance);
         let ended = ended.map(|run| run.ended());
-        return stable.or(unstable).ok_or(CycleError::NoCycleReached { alpha, r, ended });
+        let found = match (followed, unstable) {
+            (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
+            (_, other) => other,
+        };
+        return unless_stopped(found)?.ok_or(CycleError::NoCycleReached { alpha, r, ended });
     }
     let small =
         born(&equation, model, critical).and_then(|guess| solve(&equation, guess, tolerance));
-    small.ok_or(CycleError::NoSmallCycle { alpha, r, critical: critical.alpha })
+    unless_stopped(small)?.ok_or(CycleError::NoSmallCycle { alpha, r, critical: critical.alpha })
 }
 
 /// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
@@ -76,7 +85,7 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     let mesh = [0.0].into_iter().chain(ends).collect();
     let guess = Orbit::of_profile(equation.r, length, mesh, |t| period.l(start + t));
     let (alpha, r) = (model.alpha(), model.r());
-    solve(&equation, guess, tolerance).ok_or(CycleError::NotConverged { alpha, r })
+    unless_stopped(solve(&equation, guess, tolerance))?.ok_or(CycleError::NotConverged { alpha, r })
 }
 
 /// As [`cycle_near`], for the stretch of a motion between two times, a period apart, at which l is at its
@@ -92,7 +101,8 @@ pub fn cycle_within(
 ) -> Result<Cycle, CycleError> {
     let equation = embedding(model, tolerance)?;
     let (alpha, r) = (model.alpha(), model.r());
-    solve(&equation, part(motion, from, to), tolerance).ok_or(CycleError::NotConverged { alpha, r })
+    let found = solve(&equation, part(motion, from, to), tolerance);
+    unless_stopped(found)?.ok_or(CycleError::NotConverged { alpha, r })
 }
 
 /// The small cycle that is born at αc, on the side of it where it exists; `None` where its leading order leads
@@ -104,6 +114,11 @@ pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, Cycle
     let equation = embedding(model, tolerance)?;
     let guess = born(&equation, model, critical(model.tip(), model.r())?);
     Ok(guess.and_then(|guess| solve(&equation, guess, tolerance)))
+}
+
+/// What a search came to, if it came to its end.
+fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
+    if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
 }
 
 pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
@@ -143,10 +158,33 @@ impl Search {
         };
         let small = equation.as_ref().and_then(|e| born(e, model, critical));
         if !small.is_some_and(&mut take) {
-            found.ended = from_runs(model, take)?;
+            let width = equation.as_ref().map_or(8.7 / model.tip().band(), Embedding::width);
+            found.ended = from_runs(model, (width, critical.period), take)?;
         }
-        Ok(found)
+        unless_stopped(found)
     }
+}
+
+/// What leads from onset to any cycle in reach has fewer points, and shorter periods.
+const FARTHEST: Continuation = Continuation {
+    over: Parameter::Alpha,
+    to: f64::INFINITY,
+    tolerance: super::DEFAULT_TOLERANCE,
+    longest_period: 300.0,
+    longest_step: 0.1,
+    most_points: 80,
+};
+
+/// The cycle that the branch from onset leads to.
+fn followed_from_onset(model: &Model, tolerance: f64) -> Option<Cycle> {
+    let longest_period = FARTHEST.longest_period / model.r().min(1.0);
+    let way = Continuation { to: model.alpha(), tolerance, longest_period, ..FARTHEST };
+    let passed = |cycle: &Cycle| {
+        let shrinks = cycle.model().alpha() < 0.5 * model.alpha();
+        if shrinks { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let branch = way.from_onset(model.tip(), model.r(), passed).ok()?;
+    (branch.end == End::Reached).then_some(branch.last)
 }
 
 /// A guess at the small cycle on this side of onset.

@@ -8,6 +8,7 @@ use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
 use stickslip_tip::memory::Fit;
+use stickslip_tip::stop;
 
 /// A cycle: an orbit that solves the collocation equations on a mesh fine enough.
 #[derive(Clone)]
@@ -40,6 +41,8 @@ pub(super) struct NotClosed;
 const MOST_ITERATIONS: usize = 15;
 const MOST_STEPS: usize = 4000;
 const MOST_MESHES: usize = 8;
+/// Steps times the square of the length of the state, summed over linearisations: some 20 s of work.
+const MOST_WORK: f64 = 1.5e9;
 /// Residuals within a step may exceed the estimate by as much.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
 /// A correction of this size leaves an error of its square.
@@ -61,7 +64,8 @@ pub(super) fn close(
     allowed: f64,
 ) -> Result<Closed, NotClosed> {
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
-    let mut iterations = 0;
+    let (mut iterations, mut work) = (0, 0.0);
+    let state = 2.0 * equation.short.terms().len() as f64 + 1.0;
     for _ in 0..MOST_MESHES {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
         let first = if equation.short_is_precise() { &short } else { &fine };
@@ -69,6 +73,10 @@ pub(super) fn close(
             let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
             let (linearisation, count) = newton.solve(solved, enough)?;
             iterations += count;
+            work += (count * orbit.stages.len()) as f64 * state * state;
+            if work > MOST_WORK || stop::is_asked() {
+                return Err(NotClosed);
+            }
             let residuals = residuals(&orbit, &linearisation.stiffness);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             if residual > ESTIMATE_FALLS_SHORT * allowed {

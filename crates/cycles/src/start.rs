@@ -1,13 +1,15 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
 use super::embedding::Embedding;
-use super::mesh::{equidistributed, longest_displacement};
+use super::mesh::equidistributed;
 use super::orbit::{Orbit, even_mesh};
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 use stickslip_stability::{Criticality, Onset};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
-use stickslip_tip::{Model, Scenario, Trajectory, run};
+use stickslip_tip::step::longest_displacement;
+use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
 
 const FEWEST_STEPS: f64 = 18.0;
 /// Amplitude to which the leading order is a guess, in widths.
@@ -56,24 +58,39 @@ pub(super) fn small_cycle_exists(equation: &Embedding, onset: &Onset) -> bool {
     above == (onset.criticality == Criticality::Supercritical)
 }
 
-/// Lengths of the runs tried, in turn.
+/// Lengths of the runs tried, in turn; where the oscillation that is born has a longer period than
+/// [`USUAL_PERIOD`], as many times as long.
 const RUNS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
+const USUAL_PERIOD: f64 = 10.0;
+/// A run of more steps is cut off, and none follows.
+const MOST_STEPS_OF_A_RUN: usize = 200_000;
 const TOLERANCE_OF_A_RUN: f64 = 1e-6;
 /// What sets the tip going, in widths.
 const KICK: f64 = 0.3;
 
-/// Offers the last period of ever longer runs until `take` is content; the last of them.
+/// Offers the last period of ever longer runs until `take` is content; the last of them. The kick is in these
+/// widths, and `born` the period of the oscillation that is born at onset.
 pub(super) fn from_runs(
     model: &Model,
+    (width, born): (f64, f64),
     mut take: impl FnMut(Orbit) -> bool,
 ) -> Result<Option<Tried>, CycleError> {
     let mut scenario = Scenario::new(model.clone(), 0.0);
-    scenario.kick = KICK * 8.7 / model.tip().band();
+    scenario.kick = KICK * width;
     scenario.tolerance = TOLERANCE_OF_A_RUN;
     let mut ended = None;
     for length in RUNS {
-        scenario.until = scenario.start_time() + length;
-        let run = run(&scenario)?;
+        scenario.until = scenario.start_time() + length * (born / USUAL_PERIOD).max(1.0);
+        let mut steps = 0;
+        let run = run_observed(&scenario, |_| {
+            steps += 1;
+            if steps < MOST_STEPS_OF_A_RUN {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        })?;
+        let cut_off = run.interrupted;
         let trajectory = &run.trajectory;
         // Where none is seen yet, a period may have one slip or two.
         let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
@@ -81,7 +98,7 @@ pub(super) fn from_runs(
         let periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
         let taken = periods.into_iter().any(|(from, to)| take(part(trajectory, from, to)));
         ended = Some(Tried { scenario: scenario.clone(), run });
-        if taken {
+        if taken || cut_off {
             break;
         }
     }

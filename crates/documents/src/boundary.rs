@@ -95,14 +95,17 @@ impl OnsetColumns {
     /// What is born at each of these points of the boundary.
     pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
         let mut columns = Self::default();
-        for at in boundary {
-            let onset = onset_at(tip, *at).ok();
-            columns.criticality.push(onset.map(|o| o.criticality.into()));
-            columns.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
-            columns.period_slope.push(onset.map(|o| o.period_slope));
-            columns.lyapunov.push(onset.map(|o| o.lyapunov));
-        }
+        boundary.iter().for_each(|at| columns.push(tip, at));
         columns
+    }
+
+    /// Adds what is born at a point of the boundary.
+    pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
+        let onset = onset_at(tip, *at).ok();
+        self.criticality.push(onset.map(|o| o.criticality.into()));
+        self.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
+        self.period_slope.push(onset.map(|o| o.period_slope));
+        self.lyapunov.push(onset.map(|o| o.lyapunov));
     }
 }
 

@@ -9,7 +9,6 @@ use crate::commands::run::disturbance::Disturbance;
 use crate::commands::run::limits::within_range;
 use crate::commands::run::{explain, option_at_fault};
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use stickslip_documents::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
@@ -52,7 +51,7 @@ fn at_run_time(error: &RunError) -> Failure {
     }
 }
 
-pub(super) fn run(asked: &Asked, interrupt: &Interrupt) -> Result<Closed, Failure> {
+pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
     let Asked { scenario, time_limit, .. } = asked;
     let span = (scenario.start_time(), scenario.until);
     let once = || {
@@ -62,11 +61,9 @@ pub(super) fn run(asked: &Asked, interrupt: &Interrupt) -> Result<Closed, Failur
         let run = run_observed(scenario, |step| {
             progress.reached(step.end());
             steps = steps.wrapping_add(1);
-            failure = match interrupt.signal() {
-                Some(signal) => Some(Failure::Stopped(signal)),
-                None if steps.is_multiple_of(STEPS_PER_LOOK) => pace.too_slow(step.end()),
-                None => None,
-            };
+            if steps.is_multiple_of(STEPS_PER_LOOK) {
+                failure = pace.too_slow(step.end());
+            }
             if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let seconds = pace.seconds();

@@ -5,7 +5,6 @@ use super::pace::{PATIENCE, Pace};
 use crate::arguments::CompareArguments;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
-use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use stickslip_documents::{GridDocument, GridName, GridWork};
 use stickslip_grid::{
@@ -101,6 +100,9 @@ impl Discretisation {
     }
 }
 
+/// Local errors below are round-off.
+const LEAST_TOLERANCE: f64 = 1e-15;
+
 fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
     let above_0 = |option: &str, value: f64| {
         let named = format!("{option} {}", Typed(value));
@@ -109,6 +111,11 @@ fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
     };
     match (arguments.step, arguments.grid_tolerance) {
         (Some(step), _) => Ok(Stepping::fixed(above_0("--step", step)?)),
+        (None, Some(tolerance)) if tolerance > 0.0 && tolerance < LEAST_TOLERANCE => {
+            let named = format!("--grid-tolerance {}", Typed(tolerance));
+            let advice = "is below round-off, in which the grid would step for ever";
+            Err(Failure::input(named, format!("{advice}: {LEAST_TOLERANCE:e} or more will do")))
+        }
         (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
         (None, None) => Ok(Stepping::absolute(arguments.tolerance)),
     }
@@ -121,7 +128,7 @@ pub(super) struct Motion {
 }
 
 /// Runs the grid from the scenario's start, over the domain that `x` spans.
-pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Motion, Failure> {
+pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
     let Asked { scenario, discretisation, grid_until, .. } = asked;
     let model = &scenario.model;
     let f = |x: f64| model.tip().value(x);
@@ -137,7 +144,7 @@ pub(super) fn run(asked: &Asked, x: &[f64], interrupt: &Interrupt) -> Result<Mot
         .with_force(&force);
 
     let once = || -> Result<(Run, Samples, f64), Failure> {
-        let mut watch = Watch::new(asked, interrupt);
+        let mut watch = Watch::new(asked);
         let run =
             solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
                 watch.step(t, x0)
@@ -195,29 +202,25 @@ fn start<'a>(
 }
 
 /// Looks at every step: keeps samples, shows progress, and stops what would take too long.
-struct Watch<'a> {
-    interrupt: &'a Interrupt,
+struct Watch {
     progress: Progress,
     pace: Pace,
     samples: Samples,
     failure: Option<Failure>,
 }
 
-impl<'a> Watch<'a> {
-    fn new(asked: &Asked, interrupt: &'a Interrupt) -> Self {
+impl Watch {
+    fn new(asked: &Asked) -> Self {
         let span = (asked.scenario.start_time(), asked.grid_until);
         let pace = Pace::new("--grid-until", span, asked.time_limit);
         let progress = Progress::new(span.0, span.1).at_every_call();
-        Self { interrupt, progress, pace, samples: Samples::default(), failure: None }
+        Self { progress, pace, samples: Samples::default(), failure: None }
     }
 
     fn step(&mut self, t: f64, x0: f64) -> ControlFlow<()> {
         self.samples.take(t, x0);
         self.progress.reached(t);
-        self.failure = match self.interrupt.signal() {
-            Some(signal) => Some(Failure::Stopped(signal)),
-            None => self.pace.too_slow(t),
-        };
+        self.failure = self.pace.too_slow(t);
         if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

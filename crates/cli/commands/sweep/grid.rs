@@ -9,6 +9,8 @@ use stickslip_tip::TipFunction;
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;
+/// Each of them is a footprint of its own.
+const MOST_TIPS: usize = 10_000;
 
 #[derive(Debug)]
 pub(super) struct Grid {
@@ -34,6 +36,7 @@ pub(super) enum Alpha {
 
 impl Grid {
     pub(super) fn asked(arguments: &SweepArguments) -> Result<Self, Failure> {
+        judge_counts(arguments)?;
         let missing = |option: &str, what: &str| {
             Failure::input(option, format!("{what} missing: give {option} V, or {option} LO:HI:N"))
         };
@@ -74,13 +77,7 @@ impl Grid {
             },
             tips,
         };
-        match grid.parameters.points() {
-            count if count > MOST_POINTS => Err(Failure::input(
-                "--alpha, --r and --beta",
-                format!("make {count} points; at most {MOST_POINTS} will do"),
-            )),
-            _ => Ok(grid),
-        }
+        Ok(grid)
     }
 
     /// The indices of this part of the points.
@@ -102,6 +99,25 @@ impl Grid {
             r: r[at],
             alpha: given.or(above).unwrap_or(Alpha::Given(0.0)),
         }
+    }
+}
+
+/// Refuses more points than can be kept, before there is any of them.
+fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
+    let SweepArguments { r, alpha, alpha_above, beta, .. } = arguments;
+    let counts = [*r, alpha.or(*alpha_above), *beta].map(|range| range.map_or(1, |r| r.points));
+    if counts[2] > MOST_TIPS {
+        let message = format!("{} values; at most {MOST_TIPS} will do", counts[2]);
+        return Err(Failure::input("--beta", message));
+    }
+    match counts.into_iter().fold(1, usize::saturating_mul) {
+        count if count > MOST_POINTS => Err(Failure::input(
+            "--alpha, --r and --beta",
+            format!(
+                "make {count} points; at most {MOST_POINTS} will do: fewer, or one part of the range"
+            ),
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -18,7 +18,7 @@ use locate::Located;
 use num_complex::Complex;
 use place::Place;
 use std::ops::ControlFlow;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, stop};
 
 /// How far, and how finely, a branch is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,7 +169,9 @@ impl Continuation {
             if points.len() >= self.most_points {
                 break End::ManyPoints;
             }
-            let Some((next, turn)) = self.step(&place, &mut length) else { break End::Lost };
+            let Some((next, turn)) = self.step(&place, &mut length) else {
+                break if stop::is_asked() { End::Interrupted } else { End::Lost };
+            };
             if let Some(at_end) = self.at_the_end(&place, &next) {
                 points.push(Point::of(&at_end));
                 self.special_between(&place, &at_end, &mut special);
@@ -192,7 +194,7 @@ impl Continuation {
 
     /// The next cycle, and the cosine by which the branch turns; shortens the step until there is one.
     fn step(&self, place: &Place, length: &mut f64) -> Option<(Place, f64)> {
-        while *length >= SHORTEST_STEP {
+        while *length >= SHORTEST_STEP && !stop::is_asked() {
             if let Some(next) = place.step(self, *length) {
                 let turn = place.turn(&next);
                 if turn > SHARPEST_TURN {

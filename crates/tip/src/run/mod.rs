@@ -7,6 +7,7 @@ pub use running::Running;
 pub use scenario::{MOST_STEPS, RunError, Scenario, Start, TOLERANCES};
 
 use crate::integrator::Work;
+use crate::stop;
 use crate::{InitialSurface, Step, Trajectory};
 use std::ops::ControlFlow;
 
@@ -36,7 +37,7 @@ pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
     run_observed(scenario, |_| ControlFlow::Continue(()))
 }
 
-/// As [`run`], showing each accepted step to an observer, who may stop the run there.
+/// As [`run`], showing each accepted step to an observer, who may stop the run there; so may [`stop`].
 ///
 /// # Errors
 /// As [`run`].
@@ -54,7 +55,7 @@ pub fn run_observed(
             return Err(RunError::HistoryTooLong { t: step.t });
         }
         steps.push(step);
-        interrupted = observe(&step).is_break();
+        interrupted = observe(&step).is_break() || stop::is_asked();
     }
     let (work, memory) = (running.work(), running.memory());
     let memory_reason = running.memory_reason();

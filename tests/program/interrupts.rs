@@ -1,0 +1,89 @@
+//! Signals end every command at once, whatever it is at, and whatever it was started with; and what would go on
+//! for ever is refused, or given up with a reason.
+
+use crate::folder::{Folder, said};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// 0.2 s, and what a busy machine adds to it.
+const AT_ONCE: Duration = Duration::from_millis(1000);
+
+/// A table of a smooth shape with a step at its end, that everything takes long with.
+fn table() -> String {
+    let row = |i: i32| {
+        let x = 0.004 * f64::from(i);
+        format!("{x},{}\n", (1.0 + x * x).powi(-4))
+    };
+    (0..2000).map(row).collect()
+}
+
+/// Lobes that no few exponentials follow.
+const NARROW: &str = r#"{"gaussians":[{"amplitude":1,"center":0,"width":1},
+    {"amplitude":0.1,"center":2,"width":0.1},{"amplitude":0.1,"center":-2,"width":0.1}]}"#;
+
+/// Long work, each line at something else.
+const LINES: [&str; 6] = [
+    "boundary --tip-file tip.csv --r-range 0.1,2 --points 100000 -o out.json",
+    "cycle --tip-file tip.csv --r 1 --alpha-above 0.3 --tolerance 1e-5 -o out.json",
+    "continue --tip-file tip.json --r 1 --over alpha -o out.json",
+    "sweep --tip-file tip.csv --r 1 --alpha 2.4:3:50 --tolerance 1e-5 -o out.json",
+    "compare --alpha 1.2 --r 1 --until 3000 --spacing 0.02 -o out.json",
+    "run --tip-file tip.csv --r 1 --alpha 2.5 --kick 0.1 --until 1e6 -o out.json",
+];
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_every_command_even_where_it_was_to_be_ignored() {
+    for (i, line) in LINES.iter().enumerate() {
+        let folder = Folder::new(&format!("signal-{i}"));
+        folder.write("tip.csv", table());
+        folder.write("tip.json", NARROW);
+        for (signal, status) in [("INT", 130), ("TERM", 143)] {
+            let inner = folder.command(line);
+            // As a job in the background of a script.
+            let mut shell = Command::new("sh");
+            shell.args(["-c", "trap '' INT; exec \"$0\" \"$@\""]).arg(inner.get_program());
+            shell.args(inner.get_args()).current_dir(folder.path(""));
+            let mut child = shell.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+            sleep(Duration::from_millis(700));
+            assert!(child.try_wait().unwrap().is_none(), "{line}: it must take longer");
+            let sent = Instant::now();
+            let id = child.id().to_string();
+            Command::new("kill").args(["-s", signal, &id]).status().unwrap();
+            let output = child.wait_with_output().unwrap();
+            let took = sent.elapsed();
+            assert_eq!(output.status.code(), Some(status), "{line}: {}", said(&output));
+            assert!(said(&output).contains("interrupted"), "{line}: {}", said(&output));
+            assert!(took < AT_ONCE, "{line}: {signal} took {took:?}");
+        }
+    }
+}
+
+#[test]
+fn what_would_go_on_for_ever_has_an_end_and_a_reason() {
+    let folder = Folder::new("endless");
+    for line in [
+        "cycle --alpha 1e18 --r 1",
+        "cycle --alpha 1.2 --r 1e-9",
+        "cycle --alpha 1.2 --r 1 --beta 1e18",
+    ] {
+        let output = folder.stickslip(line);
+        assert!(matches!(output.status.code(), Some(1 | 2)), "{line}: {}", said(&output));
+        assert!(output.stdout.is_empty() && said(&output).contains("will do"), "{}", said(&output));
+    }
+    let grid = "compare --alpha 1.2 --r 1 --until 20 --time-limit 5 --grid-tolerance 1e-320";
+    folder.refuses(grid, &["--grid-tolerance", "1e-15 or more"]);
+    let sweep = folder.prints_json("sweep --alpha 1.2:1e18:2 --r 1");
+    assert!(sweep["points"].as_array().unwrap().len() == 2, "{sweep}");
+}
+
+#[test]
+fn sizes_are_judged_before_anything_is_made_of_them() {
+    let folder = Folder::new("sizes");
+    for n in ["18446744073709551615", "100000000000", "1000000000", "10000001"] {
+        folder.refuses(&format!("sweep --r 1:2:{n} --alpha 1"), &["10000000 will do"]);
+        folder.refuses(&format!("sweep --r 1 --alpha 1:2:{n}"), &["10000000 will do"]);
+        folder.refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000 will do"]);
+    }
+}

@@ -32,7 +32,7 @@ impl Reference {
     ) -> Option<Self> {
         // Where a step of the run ends decides whether Newton's method likes its mesh: one period or another.
         let spans =
-            (0..TRIES).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
+            (0..tries).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
         let near =
             spans.into_iter().find_map(|span| cycle_within(model, tail, span, RESIDUAL).ok());
         let near = Self::beside(near?, tail, extrema)?;

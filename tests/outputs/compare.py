@@ -90,6 +90,7 @@ def main():
             for name, text in INPUTS.items():
                 (place / name).write_text(text)
         for line in lines:
+            before = [files(place) for place in places]
             outputs = [run(program, line, place) for program, place in zip((old, new), places)]
             told = []
             if outputs[0].returncode != outputs[1].returncode:
@@ -98,15 +99,12 @@ def main():
             printed = difference(*(o.stdout for o in outputs))
             told += [f"printed: {printed}"] if printed else []
             a, b = map(files, places)
-            for name in sorted(a.keys() | b.keys()):
+            written = [name for name in sorted(a.keys() | b.keys())
+                       if (a.get(name), b.get(name)) != (before[0].get(name), before[1].get(name))]
+            for name in written:
                 if not name.endswith((".svg", ".png", ".pdf")):
                     what = difference(a.get(name, b""), b.get(name, b""))
                     told += [f"{name}: {what}"] if what else []
-            # What has been told of once is not told of again.
-            for place in places:
-                for name in set(a) | set(b):
-                    if a.get(name) != b.get(name) and (place / name).exists():
-                        (places[1] / name).write_bytes(a[name]) if name in a else (place / name).unlink()
             if told:
                 different += 1
                 print(f"{line}\n    " + "\n    ".join(told))

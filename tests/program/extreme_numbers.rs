@@ -3,6 +3,8 @@
 //! command line alone.
 
 use crate::folder::{Folder, said};
+use serde_json::Value;
+use std::time::Duration;
 
 const EXTREMES: [&str; 8] = ["1e300", "-1e300", "1e-300", "-1e-300", "1e17", "NaN", "inf", "0"];
 
@@ -73,5 +75,64 @@ fn the_option_at_fault_is_named() {
         ),
     ] {
         folder.refuses(line, &[option]);
+    }
+}
+
+/// Finite, but no tip was ever like that. Whatever comes of it, it comes soon and it is honest.
+#[test]
+fn absurd_numbers_end_in_a_whole_document_or_a_refusal() {
+    let folder = Folder::new("absurd");
+    folder.write("huge.csv", "0,1e300\n10,-1e300\n20,1e300\n40,0\n");
+    folder.write("close.csv", "0,0\n5e-324,1\n1e-323,0\n20,1\n20.000000000000004,-1\n40,0\n");
+    let cases = [
+        "--alpha 1e300 --r 1 --until 60",
+        "--alpha 1e300 --r 1 --until 1e301",
+        "--alpha 1e300 --r 1 --until 60 --start flat",
+        "--alpha 1e308 --r 1e-3 --until 1e5 --start flat",
+        "--alpha 1e10 --r 1 --until 60 --start flat --plot run.svg",
+        "--alpha 1 --r 1e300 --until 2",
+        "--alpha 1 --r 1e300 --until 2 --start flat",
+        "--alpha 1 --r 1e-300 --until 2",
+        "--alpha 1 --r 1e-300 --until 2 --start flat --start-position 0",
+        "--alpha 1 --r 1e-12 --until 2 --start flat --start-position 0 --plot run.svg",
+        "--alpha-above 0.01 --r 1e300 --until 2",
+        "--alpha-above 1e300 --r 1 --until 60",
+        "--alpha 1 --r 1 --until 1e300",
+        "--alpha 4 --r 1 --until 1e300",
+        "--alpha 1 --r 1 --until 60 --kick 1e300",
+        "--alpha 1 --r 1 --until 60 --kick -1e300",
+        "--alpha 1 --r 1 --until 60 --start-position 1e300",
+        "--alpha 1 --r 1 --until 60 --start-position -1e300",
+        "--alpha 1 --r 1 --until 60 --pulse 1e300,20,1",
+        "--alpha 1 --r 1 --until 60 --pulse 1e300,20,1e300",
+        "--alpha 1 --r 1 --until 60 --pulse 1,1e300,1",
+        "--alpha 1 --r 1 --until 60 --pulse 1,20,1e-300",
+        "--alpha 1 --r 1 --until 60 --noise 1e300",
+        "--alpha 1 --r 1 --until 60 --noise 1 --noise-spacing 1e300",
+        "--alpha 1 --r 1 --until 60 --width 1e300",
+        "--alpha 1 --r 1 --until 60 --width 5e-324",
+        "--alpha 1 --r 1 --until 60 --beta -1e300",
+        "--alpha 1 --r 1 --until 60 --sample-every 1e300",
+        "--alpha 1 --r 1 --until 60 --initial-surface huge.csv",
+        "--alpha 1 --r 1 --until 60 --force-file huge.csv",
+        "--alpha 1 --r 1 --until 60 --initial-surface close.csv",
+        "--alpha 1 --r 1 --until 60 --force-file close.csv",
+    ];
+    for options in cases {
+        let (output, took) = folder.stickslip_timed(&format!("run {options}"));
+        let said = said(&output);
+        assert!(took < Duration::from_secs(2), "{options}\ntook {took:?}");
+        if output.status.success() {
+            let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+            let numbers = |name: &str| document["samples"][name].as_array().unwrap().clone();
+            let columns = ["t", "l", "x0", "velocity"].map(numbers);
+            assert!(columns.iter().flatten().all(Value::is_f64), "{options}");
+        } else {
+            assert!(matches!(output.status.code(), Some(1 | 2)), "{options}\n{said}");
+            assert!(
+                output.stdout.is_empty() && said.starts_with("stickslip: "),
+                "{options}\n{said}"
+            );
+        }
     }
 }

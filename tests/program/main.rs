@@ -14,6 +14,7 @@ mod command_line;
 mod compare_command;
 mod confined_files;
 mod cycle_commands;
+mod damaged_documents;
 mod documents;
 #[cfg(unix)]
 mod experiment;
@@ -29,6 +30,8 @@ mod resume;
 mod stability_commands;
 mod supply_chain;
 mod sweep;
+mod units_command;
 mod verification;
 mod verified_lines;
+mod walls;
 mod written_files;

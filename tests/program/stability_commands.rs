@@ -3,6 +3,7 @@
 //! refused with a word of advice. What the figures are worth is judged in crates/tip/tests and in
 //! stability_against_runs.rs.
 
+use super::units_command::GIVEN;
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Output;
@@ -28,7 +29,7 @@ fn printed(line: &str) -> String {
 }
 
 /// The document that a command prints, after its schema has judged it.
-fn document(line: &str) -> Value {
+pub(super) fn document(line: &str) -> Value {
     let name = words(line)[0];
     let schema: Value = serde_json::from_str(&printed(&format!("schema {name}"))).unwrap();
     let document: Value = serde_json::from_str(&printed(line)).unwrap();
@@ -44,7 +45,7 @@ fn numbers(column: &Value) -> Vec<f64> {
     column.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-fn close(found: &Value, wanted: f64, tolerance: f64) {
+pub(super) fn close(found: &Value, wanted: f64, tolerance: f64) {
     let found = found.as_f64().unwrap();
     assert!((found - wanted).abs() <= tolerance * wanted.abs(), "{found} for {wanted}");
 }
@@ -58,7 +59,7 @@ fn place(name: &str) -> PathBuf {
     path
 }
 
-fn triple() -> TipFunction {
+pub(super) fn triple() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
 }
 
@@ -238,34 +239,6 @@ fn a_late_pulse_overflows_nothing() {
     let growing = document("response --alpha 2 --r 1 --pulse 1e-4,20,0.5 --until 9000");
     let l = growing["samples"]["l"].as_array().unwrap();
     assert!(l.last().unwrap().is_null() && l[0].is_number());
-}
-
-const GIVEN: &str = "--damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN";
-
-#[test]
-fn units_go_there_and_back() {
-    let there = document(&format!("units {GIVEN} --indentation-rate 240nm/s --velocity 1um/s"));
-    // (12), (13) and (23) by hand: Γv0/(kσ) = 1e-9/1e-9, ΓNa/(σ²k²) = 1.2e-18/1e-18.
-    close(&there["r"], 1.0, 1e-14);
-    close(&there["alpha"], 1.2, 1e-14);
-    close(&there["lag"]["metres"], 20e-9 * (1.0 + 1.2 * triple().value(0.0)), 1e-14);
-    close(&there["scales"]["time"], 0.02, 1e-14);
-    let at = critical(&triple(), 1.0).unwrap();
-    close(&there["critical"]["indentation_rate"], 200e-9 * at.alpha, 1e-13);
-    close(&there["critical"]["period"], 0.02 * at.period, 1e-13);
-    assert_eq!(there["stable"], false);
-
-    let back = document(&format!("units {GIVEN} --alpha 1.2 --r 1"));
-    close(&back["physical"]["indentation_rate"], 240e-9, 1e-13);
-    close(&back["physical"]["velocity"], 1e-6, 1e-13);
-    assert!(back["parameters"]["velocity"].is_null());
-    // The critical velocity, put in, is critical.
-    let velocity = there["critical"]["velocity"].as_f64().unwrap();
-    let slow = document(&format!("units {GIVEN} --N 240nm/s --v0 {velocity:e}"));
-    close(&slow["alpha"], critical(&triple(), slow["r"].as_f64().unwrap()).unwrap().alpha, 1e-11);
-    // Short names are the same, and one number may stand for one quantity.
-    let short = "units --gamma 1e-3 --k 0.05 --sigma 2e-8 --a 5e-9 --v0 1e-6 --alpha 1.2";
-    close(&document(short)["physical"]["indentation_rate"], 240e-9, 1e-13);
 }
 
 #[test]

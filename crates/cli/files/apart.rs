@@ -1,7 +1,7 @@
 //! Files of one command line that must not be the same.
 
 use super::beside;
-use super::place::resolved;
+use super::paths::resolved;
 use crate::failure::Failure;
 use std::path::Path;
 

@@ -8,6 +8,7 @@ pub(crate) mod journal;
 pub(crate) mod lines;
 mod lock;
 pub(crate) mod output;
+pub(crate) mod paths;
 pub(crate) mod place;
 mod replace;
 pub(crate) mod rows;

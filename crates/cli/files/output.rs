@@ -1,9 +1,9 @@
 //! Results on their way out: their places are judged before the work, and take their names when complete.
 
 use super::place::{Place, place};
-use super::replace::through;
 use super::special::is_special;
 use super::temporary::kept_elsewhere;
+use super::temporary::through;
 use crate::failure::Failure;
 use serde::Serialize;
 use std::io::{self, Write};

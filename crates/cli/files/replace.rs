@@ -1,10 +1,10 @@
 //! The one way in which a file is replaced: at any time its name stands for what was there before or for all of
 //! the new.
 
-use super::place::folder_of;
-use super::temporary::{beside, remove_left_behind};
+use super::paths::folder_of;
+use super::temporary::{beside, remove_left_behind, through};
 use std::fs::{File, Metadata};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// What of a file is not its contents: its mode, as far as the umask lets new files be open to others, and, where that
@@ -63,16 +63,6 @@ pub(super) fn replace(
     sync_folder(path);
     remove_left_behind(path, folder_of(path));
     Ok(())
-}
-
-/// Writes through a buffer.
-pub(super) fn through(
-    sink: impl Write,
-    write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut buffered = BufWriter::new(sink);
-    write(&mut buffered)?;
-    buffered.flush()
 }
 
 /// Puts on the disk that a file has got its name. Not every system can sync a folder: then the name is as

@@ -2,10 +2,9 @@
 //! process killed at its work leaves none; one that is killed as it writes leaves one, which the next to write
 //! the same file removes. A lock, which ends with its process, tells the two apart.
 
-use super::replace::through;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
@@ -42,6 +41,16 @@ pub(super) fn kept_elsewhere(
     through(file.as_file_mut(), write).ok()?;
     file.as_file().sync_all().ok()?;
     file.keep().ok().map(|(_, path)| path)
+}
+
+/// Writes through a buffer.
+pub(super) fn through(
+    sink: impl Write,
+    write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::new(sink);
+    write(&mut buffered)?;
+    buffered.flush()
 }
 
 /// Ours, for this target: of a length that any file system allows, however long its name.

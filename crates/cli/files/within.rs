@@ -1,7 +1,7 @@
 //! Paths as a file holds them that may be moved, with its folder, or be given by somebody else: seen from that
 //! folder, and within it.
 
-use super::place::{folder_of, resolved};
+use super::paths::{folder_of, resolved};
 use std::path::{Path, PathBuf};
 
 /// The path as it is seen from a folder, links resolved; as it is where it leads outside.

@@ -3,7 +3,8 @@
 use super::record::Record;
 use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::{Failure, Typed};
-use crate::files::place::{Target, folder_of};
+use crate::files::paths::folder_of;
+use crate::files::place::Target;
 use crate::files::within::seen_from;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};

@@ -9,7 +9,7 @@ use crate::arguments::{DisturbanceArguments, Format, HistoryName, RunArguments, 
 use crate::commands::job;
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
-use crate::files::place::resolved;
+use crate::files::paths::resolved;
 use std::path::Path;
 use stickslip_documents::{Order, RunFormat, RunParameters};
 use stickslip_tip::{RunError, Scenario};

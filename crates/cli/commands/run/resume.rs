@@ -10,7 +10,7 @@ use crate::arguments::RunArguments;
 use crate::commands::fields::Fields;
 use crate::failure::Failure;
 use crate::files::apart::apart;
-use crate::files::place::{folder_of, resolved};
+use crate::files::paths::{folder_of, resolved};
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
 use crate::files::within::found_from;

@@ -6,7 +6,6 @@ PLOT ?= run.svg
 CASES ?= 1670000
 MOTIONS ?= 25000
 
-comma := ,
 # Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
 trial := --locked --profile trial --no-default-features
 stickslip = $(CARGO) build $(trial) && echo 'stickslip $(1)' && $(CARGO) run $(trial) --quiet -- $(1)
@@ -19,7 +18,7 @@ help: ## list these verbs
 
 run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a picture
 	@$(call stickslip,run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT))
-	@$(call stickslip,surface run.json --at 457 --range 400$(comma)470 --spacing 0.02 -o surface.csv)
+	@$(call stickslip,surface run.json --at 457 --range 400:470 --spacing 0.02 -o surface.csv)
 
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked

@@ -1,5 +1,6 @@
 //! `stickslip figures`.
 
+use super::examples::examples;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -32,13 +33,33 @@ pub(crate) enum FigureName {
     Reproduction,
 }
 
+impl FigureName {
+    /// Its name in the library; the table of numbers is no figure.
+    pub(crate) fn figure(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Fig1 => "fig1",
+            Self::Fig2 => "fig2",
+            Self::Fig3 => "fig3",
+            Self::Fig4 => "fig4",
+            Self::Fig5 => "fig5",
+            Self::Fig6 => "fig6",
+            Self::Fig7 => "fig7",
+            Self::Bifurcation => "bifurcation",
+            Self::Criticality => "criticality",
+            Self::Kymograph => "kymograph",
+            Self::WorkPrecision => "work-precision",
+            Self::Reproduction => return None,
+        })
+    }
+}
+
 /// Redraw the paper's figures, and table its numbers beside ours.
 ///
 /// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json hold the
 /// printed numbers, ours, and what explains each difference. The figures for β = 0 use exp(-x²), the tip
 /// that the printed numbers belong to.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct FiguresArguments {
     /// Folder to write to; it is made if need be, and files of the same names are replaced.
     #[arg(long, value_name = "DIR")]

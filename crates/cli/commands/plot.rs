@@ -4,9 +4,9 @@ use super::figure::{Figure, undrawn};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
 use crate::files::apart::apart;
-use crate::files::input::{LARGEST_DOCUMENT, read_text};
+use crate::files::input::{open, read_document};
 use std::path::Path;
-use stickslip_documents::{BoundaryDocument, FigureDocument, Unusable, read};
+use stickslip_documents::{BoundaryDocument, FigureDocument};
 use stickslip_figures::{self as figures, FigureError, Size, View, Width};
 
 pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
@@ -17,22 +17,24 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     };
     let read = [("DOCUMENT.json", Some(&*arguments.document))];
     apart(&[("--output", Some(&*arguments.output))], &read)?;
-    let figure = figure(arguments, &view)?;
-    Figure::at("--output", &arguments.output)?.write(&figure, &size)
+    let output = Figure::at("--output", &arguments.output)?;
+    output.write(&figure(arguments, &view)?, &size)
 }
 
 fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Failure> {
     let option = "DOCUMENT.json";
     let path: &Path = &arguments.document;
-    let text = read_text(option, path, LARGEST_DOCUMENT)?;
     let named = || format!("{option} {}", path.display());
-    let unusable = |error: Unusable| Failure::input(named(), error);
     let figure = if arguments.onset {
-        let boundary: BoundaryDocument = read(&text, BoundaryDocument::FORMAT)
-            .map_err(|error| Failure::input(format!("--onset with {}", named()), error))?;
-        figures::onset_of(&boundary)
+        let option = format!("--onset with {option}");
+        figures::onset_of(&read_document::<BoundaryDocument>(
+            &option,
+            path,
+            BoundaryDocument::FORMAT,
+        )?)
     } else {
-        figures::of(&*figures::saved(&text).map_err(unusable)?, view)
+        let saved = figures::saved(open(option, path)?);
+        figures::of(&*saved.map_err(|error| Failure::input(named(), error))?, view)
     };
     figure.map_err(|error| match error {
         FigureError::Damaged(_) | FigureError::Nothing(_) => Failure::input(named(), error),

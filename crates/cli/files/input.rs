@@ -14,7 +14,7 @@ pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 /// Measured series are small; this is a million rows and more.
 const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
-pub(crate) const LARGEST_DOCUMENT: u64 = 4 << 30;
+const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
@@ -187,14 +187,19 @@ pub(crate) fn read_document<D: DeserializeOwned>(
     path: &Path,
     wanted: &str,
 ) -> Result<D, Failure> {
-    let named = format!("{option} {}", path.display());
-    let read = if path == Path::new("-") {
-        documents::read_from(io::stdin().lock().take(LARGEST_DOCUMENT), wanted)
-    } else {
-        let file = File::open(path).map_err(|error| Failure::input(&named, unreadable(error)))?;
-        documents::read_from(file.take(LARGEST_DOCUMENT), wanted)
-    };
-    read.map_err(|error| Failure::input(named, error))
+    documents::read_from(open(option, path)?, wanted)
+        .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
+}
+
+/// The stream of a document (`-`: standard input), which ends where it would be larger than any.
+pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
+    if path == Path::new("-") {
+        return Ok(Box::new(io::stdin().take(LARGEST_DOCUMENT)));
+    }
+    let file = File::open(path).map_err(|error| {
+        Failure::input(format!("{option} {}", path.display()), unreadable(error))
+    })?;
+    Ok(Box::new(file.take(LARGEST_DOCUMENT)))
 }
 
 #[cfg(test)]

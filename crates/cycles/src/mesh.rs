@@ -1,13 +1,11 @@
 //! The mesh that a cycle needs: steps long where the motion is smooth, short in its slips.
 
 use super::orbit::Orbit;
-use stickslip_tip::collocation::{RADAU, STAGES, apply};
+use stickslip_tip::collocation::STAGES;
+use stickslip_tip::step::{defect, interpolation_error, longest_displacement, velocity_at_end};
 
 /// The residual of a collocation polynomial falls as this power of the step.
 const ORDER: f64 = STAGES as f64;
-/// A step displaces the tip by at most this much over the band limit of f, 1.5 widths of a Gaussian:
-/// beyond, what it carves itself is no smooth function of its stages.
-const BANDS_PER_STEP: f64 = 13.0;
 /// A mesh aims at this fraction of the residual allowed.
 const AIM: f64 = 0.4;
 /// Neighbours are no more than so many times as dense.
@@ -22,13 +20,9 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
     let steps = h.len();
     let residual = |n: usize| {
         let before = (n + steps - 1) % steps;
-        let d = &orbit.stages[n];
-        let slope: f64 = RADAU.derivative_at_start.iter().zip(d).map(|(w, d)| w * d).sum();
-        let velocity = apply(&RADAU.derivative, &orbit.stages[before])[STAGES - 1] / h[before];
-        let defect = slope / h[n] - velocity;
-        let [.., last, end] = orbit.stages[before];
-        let tau = (RADAU.c[STAGES - 2] - 1.0) * h[before] / h[n];
-        let interpolation = RADAU.interpolation_error(d, tau, last - end);
+        let (d, d_before) = (&orbit.stages[n], &orbit.stages[before]);
+        let defect = defect(d, h[n], velocity_at_end(d_before, h[before]));
+        let interpolation = interpolation_error(d, h[n], (d_before, h[before]));
         defect.abs() + stiffness[n] * interpolation
     };
     (0..steps).map(residual).collect()
@@ -45,11 +39,6 @@ pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64)
     };
     let density = graded((0..shares.len()).map(wanted).collect());
     equidistributed(&orbit.mesh, &density)
-}
-
-/// The farthest that one step may lead.
-pub(super) fn longest_displacement(band: f64) -> f64 {
-    (BANDS_PER_STEP / band).min(4.0)
 }
 
 /// Raises densities that fall too fast from one step to the next, around the period.

@@ -1,13 +1,14 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
 use super::embedding::Embedding;
-use super::mesh::{equidistributed, longest_displacement};
+use super::mesh::equidistributed;
 use super::orbit::{Orbit, even_mesh};
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use stickslip_stability::{Criticality, Onset};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
+use stickslip_tip::step::longest_displacement;
 use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
 
 const FEWEST_STEPS: f64 = 18.0;

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //!     v_i = α (Σ_j Re(ζ_j e^{s_j d_i}) + h Σ_k a_ik f'(d_i - d_k)) + e + r h c_i - d_i
-//!     0   = d_i - h Σ_k a_ik v_k
+//!     0   = d_i - h Σ_k a_ik v_k                           (stickslip_tip::step)
 //!     e'  = e + r h - d_s,        ζ_j' = e^{s_j d_s} (ζ_j + w_j h Σ_k b_k e^{-s_j d_k})
 //! ```
 
@@ -13,8 +13,8 @@ use super::past::PastOfStep;
 use super::sensitivity::Sensitivity;
 use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
-use stickslip_tip::TipFunction;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
+use stickslip_tip::step::{Law, OwnGroove, carving};
 
 type Square = SMatrix<f64, STAGES, STAGES>;
 type Vector = SVector<f64, STAGES>;
@@ -42,12 +42,20 @@ impl<'a> LinearStep<'a> {
         (past, past_slope): (PastOfStep<'a>, &Stages),
         (extension, h, d): (f64, f64, &'a Stages),
     ) -> Self {
-        let (own, own_slope) = own_groove(&equation.tip, d);
+        let law = Law { alpha: equation.alpha, r: equation.r };
+        let between = OwnGroove::new(&equation.tip, d);
+        // What is carved in a unit step: of one of length h it is h times as much.
+        let (mut own, mut own_slope) = ([0.0; STAGES], [[0.0; STAGES]; STAGES]);
+        between.add_slope(&carving(1.0), &mut own);
+        between.add_derivatives(&carving(1.0), &mut own_slope);
+        let (own, pull) = (Vector::from(own), law.pull(extension, h));
         let groove = Vector::from(*past_slope) + own * h;
-        let pull = Vector::from_fn(|i, _| extension + equation.r * h * RADAU.c[i] - d[i]);
-        let velocity = groove * equation.alpha + pull;
-        let curvature = Square::from_diagonal(&Vector::from(past.curvature()));
-        let velocity_slope = (curvature + own_slope * h) * equation.alpha - Square::identity();
+        let velocity = Vector::from_fn(|i, _| law.velocity(pull[i], d[i], 0.0, groove[i]));
+        let curvature = past.curvature();
+        let velocity_slope = Square::from_fn(|i, k| match own_slope[i][k] * h {
+            own if i == k => law.velocity_slope(0.0, curvature[i] + own),
+            own => law.alpha * own,
+        });
         Self { equation, past, d, h, velocity, velocity_slope, groove, own }
     }
 
@@ -137,21 +145,56 @@ impl<'a> LinearStep<'a> {
     }
 }
 
-/// `Σ_k a_ik f'(d_i - d_k)`, what the step itself has carved until each node over h, and its derivatives
-/// with respect to d.
-fn own_groove(tip: &TipFunction, d: &Stages) -> (Vector, Square) {
-    let (mut slope, mut derivative) = (Vector::zeros(), Square::zeros());
-    for i in 0..STAGES {
-        for k in 0..i {
-            let (f1, f2) = tip.slope_and_curvature(d[i] - d[k]);
-            let (to_i, to_k) = (RADAU.a[i][k], RADAU.a[k][i]);
-            slope[i] += to_i * f1;
-            slope[k] -= to_k * f1;
-            derivative[(i, i)] += to_i * f2;
-            derivative[(i, k)] -= to_i * f2;
-            derivative[(k, k)] += to_k * f2;
-            derivative[(k, i)] -= to_k * f2;
+#[cfg(test)]
+mod tests {
+    use super::super::past::Past;
+    use super::*;
+    use stickslip_tip::memory::{Groove, Memory, Policy};
+    use stickslip_tip::step::Equations;
+    use stickslip_tip::{Model, TipFunction};
+
+    /// The integrator's equations, with the past from its memory, on the steps of a cycle: what memory and
+    /// state say of the past agrees, and all that is made of it.
+    #[test]
+    fn a_step_of_a_cycle_and_of_the_integrator_are_the_same() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let model = Model::new(tip.clone(), 1.2, 1.0).unwrap();
+        let found = crate::cycle(&model, 1e-9).unwrap();
+        let (equation, orbit) = (&found.closed.equation, &found.closed.orbit);
+        let law = Law::of(&model);
+        let past = Past::of(&equation.fine, orbit);
+        let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
+        let steps = || orbit.lengths().zip(&orbit.stages);
+        for _ in 0..8 {
+            steps().for_each(|(h, d)| memory.remember(d, &RADAU.b().map(|b| b * h)));
+        }
+        let mut extension = orbit.extension;
+        let zero = [0.0; STAGES];
+        for (n, (h, d)) in steps().enumerate() {
+            let slope = past.of_step(n).slope();
+            let step = LinearStep::new(equation, (past.of_step(n), &slope), (extension, h, d));
+            let (mut told, mut curvature) = (zero, zero);
+            memory.groove(d, &mut Groove::new(&mut told, &mut curvature));
+            let near = |a: f64, b: f64, allowed: f64, what: &str| {
+                assert!((a - b).abs() < allowed, "{what} of step {n}: {a} {b}");
+            };
+            let equations = Equations::new(law, h, law.pull(extension, h));
+            let own = OwnGroove::new(&tip, d);
+            let velocity = equations.velocity(d, &told, &zero, &own);
+            let residual = equations.residual(d, &velocity);
+            let jacobian = equations.jacobian(&curvature, &zero, &own);
+            let ha = Square::from_fn(|i, k| h * RADAU.a[i][k]);
+            let missed = Vector::from(*d) - ha * step.velocity;
+            let ours = Square::identity() - ha * step.velocity_slope;
+            for i in 0..STAGES {
+                near(slope[i], told[i], 1e-9, "past");
+                near(step.velocity[i], velocity[i], 1e-9, "velocity");
+                near(missed[i], residual[i], 1e-9, "residual");
+                near(residual[i], 0.0, 1e-8, "solution");
+                (0..STAGES).for_each(|k| near(ours[(i, k)], jacobian[i][k], 1e-9, "jacobian"));
+            }
+            extension += equation.r * h - d[STAGES - 1];
+            memory.remember(d, &RADAU.b().map(|b| b * h));
         }
     }
-    (slope, derivative)
 }

@@ -1,5 +1,6 @@
 //! `stickslip/continue`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -217,5 +218,29 @@ impl From<SpecialKind> for SpecialName {
             SpecialKind::BranchPoint => Self::BranchPoint,
             SpecialKind::Torus => Self::Torus,
         }
+    }
+}
+
+impl Tabular for ContinueDocument {
+    /// The cycles of all branches, one after the other.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
+            self.branches.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+        };
+        let numbers = self.branches.iter().enumerate();
+        let numbers: Vec<f64> = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect();
+        let stable = self.branches.iter().flat_map(|b| &b.stable);
+        let stable: Vec<f64> = stable.map(|stable| f64::from(u8::from(*stable))).collect();
+        vec![
+            ("branch", numbers.into()),
+            ("alpha", joined(|b| &b.alpha)),
+            ("r", joined(|b| &b.r)),
+            ("period", joined(|b| &b.period)),
+            ("amplitude_x0", joined(|b| &b.amplitude_x0)),
+            ("amplitude_u", joined(|b| &b.amplitude_u)),
+            ("stable", stable.into()),
+            ("multiplier_re", joined(|b| &b.multiplier_re)),
+            ("multiplier_im", joined(|b| &b.multiplier_im)),
+        ]
     }
 }

@@ -1,5 +1,6 @@
 //! `stickslip/cycle`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{ComplexDocument, FORMAT_VERSION, History, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -136,4 +137,12 @@ pub struct CycleWork {
     pub newton_iterations: usize,
     /// Time that it took, in seconds: the one field that differs from run to run.
     pub seconds: f64,
+}
+
+impl Tabular for CycleDocument {
+    /// The profile.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let CycleProfile { t, l, velocity } = &self.profile;
+        vec![("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))]
+    }
 }

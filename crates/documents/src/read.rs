@@ -64,15 +64,24 @@ pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable
 /// # Errors
 /// As [`read`]; the stream fails.
 pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result<D, Unusable> {
-    let mut source = BufReader::with_capacity(BLOCK, source);
-    let mut seen = vec![];
-    kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?.judge(wanted)?;
-    let whole = BufReader::with_capacity(BLOCK, Cursor::new(seen).chain(source));
+    let (kind, whole) = told(source, wanted)?;
+    kind.judge(wanted)?;
     serde_json::from_reader(whole).map_err(|error| match error.classify() {
         Category::Data => Unusable(format!("damaged: {error}")),
         Category::Io => unreadable(&error),
         Category::Syntax | Category::Eof => no_document(&error, wanted),
     })
+}
+
+/// What a stream says it is, and the stream again from its beginning.
+///
+/// # Errors
+/// As [`kind_of`].
+pub fn told<R: Read>(source: R, wanted: &str) -> Result<(Kind, impl Read), Unusable> {
+    let mut source = BufReader::with_capacity(BLOCK, source);
+    let mut seen = vec![];
+    let kind = kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?;
+    Ok((kind, BufReader::with_capacity(BLOCK, Cursor::new(seen).chain(source))))
 }
 
 const BLOCK: usize = 1 << 16;

@@ -28,6 +28,8 @@ mod sheet;
 mod size;
 mod style;
 mod svg;
+#[cfg(test)]
+mod tests;
 mod text;
 mod thin;
 mod ticks;

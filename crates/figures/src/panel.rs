@@ -8,7 +8,7 @@ use crate::legend::Legend;
 use crate::map::Map;
 use crate::style::{GRID, INK, LABEL_SIZE, Pen, SHADE_OPACITY, Shape, TICK_SIZE, colour};
 use crate::svg::{Anchor, Paint, Rect, Svg, Text};
-use crate::text::width;
+use crate::text::{width, wrapped};
 use stickslip_documents::{ArrowName, ColourName, PanelDocument};
 
 /// Room right of the axes, for half of the last tick label.
@@ -17,8 +17,9 @@ const MARGIN_RIGHT: f64 = 28.0;
 const MARGIN_TOP: f64 = 16.0;
 /// Room below the axes, for tick labels and axis label.
 const MARGIN_BOTTOM: f64 = 54.0;
+const HEADING_LINE: f64 = 1.5 * LABEL_SIZE;
 /// About as far apart are the ticks.
-const TICK_DISTANCE: (f64, f64) = (95.0, 62.0);
+const TICK_DISTANCE: (f64, f64) = (95.0, 52.0);
 
 /// Axes fitted to what they show.
 pub(crate) struct Panel<'a> {
@@ -61,8 +62,8 @@ impl<'a> Panel<'a> {
 
     /// Height beside that of the axes and their margins, with axes between `left` and `right`.
     pub(crate) fn head(&self, (left, right): (f64, f64)) -> f64 {
-        let heading = if self.document.heading.is_empty() { 0.0 } else { 1.5 * LABEL_SIZE };
-        heading + Legend::of(self.document, right - left).height()
+        let lines = self.heading(right - left).len() as f64;
+        HEADING_LINE * lines + Legend::of(self.document, right - left).height()
     }
 
     /// Draws the panel within `space`, its axes between `left` and `right`.
@@ -73,8 +74,8 @@ impl<'a> Panel<'a> {
         svg: &mut Svg,
     ) -> Result<(), FigureError> {
         let legend = Legend::of(self.document, right - left);
-        let heading = if self.document.heading.is_empty() { 0.0 } else { 1.5 * LABEL_SIZE };
-        let legend_top = space.top + MARGIN_TOP + heading;
+        let heading = self.heading(right - left);
+        let legend_top = space.top + MARGIN_TOP + HEADING_LINE * heading.len() as f64;
         let top = legend_top + legend.height();
         let at = Rect { left, right, top, bottom: (space.bottom - MARGIN_BOTTOM).max(top + 10.0) };
         let frame = Frame { x: &self.x, y: &self.y, at };
@@ -96,6 +97,11 @@ impl<'a> Panel<'a> {
         svg.rect(at, Paint::stroke(INK, 1.2));
         self.ticks(frame, svg);
         self.labels(space, at, svg);
+        for (i, label) in heading.iter().enumerate() {
+            let (x, size, anchor) = (left, LABEL_SIZE, Anchor::Start);
+            let y = space.top + MARGIN_TOP + HEADING_LINE * i as f64 + 0.65 * size;
+            svg.text(Text { x, y, label, size, anchor, upright: false });
+        }
         legend.draw(left, legend_top, svg);
         if let Some(map) = &self.map {
             map.draw_bar(at, svg);
@@ -160,7 +166,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Heading and axis labels.
+    /// Of the axes.
     fn labels(&self, space: Rect, at: Rect, svg: &mut Svg) {
         let (size, middle) = (LABEL_SIZE, Anchor::Middle);
         let (across, upward) = (0.5 * (at.left + at.right), 0.5 * (at.top + at.bottom));
@@ -169,25 +175,28 @@ impl<'a> Panel<'a> {
         // At the margin, hence at the same place in panels below each other.
         let (x, y, label) = (space.left + 1.2 * size, upward, self.document.y_label.as_str());
         svg.text(Text { x, y, label, size, anchor: middle, upright: true });
-        let (x, y) = (at.left, space.top + MARGIN_TOP + 0.65 * size);
-        let label = self.document.heading.as_str();
-        if !label.is_empty() {
-            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
-        }
+    }
+
+    /// The heading in lines as wide as the axes.
+    fn heading(&self, width: f64) -> Vec<String> {
+        wrapped(&self.document.heading, LABEL_SIZE, width)
     }
 
     fn notes(&self, frame: Frame, svg: &mut Svg) {
         let size = LABEL_SIZE;
         for note in &self.document.notes {
             let Some((x, y)) = frame.place((note.x, note.y)) else { continue };
-            // Within the axes, whole.
+            // Within the axes, whole; beside an arrow, on a ground that keeps it apart from what is there.
             let half = 0.5 * width(&note.text, size) + 6.0;
             let (from, to) = (frame.at.left + half, frame.at.right - half);
-            let shown = if from < to { x.clamp(from, to) } else { x };
+            let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };
+            let shown = if from < to { wanted.clamp(from, to) } else { x };
+            if note.arrow.is_some() {
+                let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
+                let (left, right) = (shown - half, shown + half);
+                svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
+            }
             let (label, anchor, upright) = (note.text.as_str(), Anchor::Middle, false);
-            let (left, right) = (shown - half, shown + half);
-            let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
-            svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
             svg.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
             let (edge, of) = match note.arrow {
                 Some(ArrowName::Down) => (frame.at.bottom - 9.0, Shape::Down),

@@ -8,6 +8,8 @@ use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
 use crate::text::wrapped;
 use stickslip_documents::{FigureDocument, PanelDocument};
 
+/// Columns narrower than this leave no room for axes: panels are then set below each other.
+const NARROWEST: f64 = 240.0;
 const TITLE_LINE: f64 = 1.4 * TITLE_SIZE;
 /// Height of a panel that is alone in its figure, of one that is not, and of one with cells, in parts of the width
 /// of the figure; and the least and the most of all of them.
@@ -32,7 +34,8 @@ pub(crate) fn sheet(
     with_ground: bool,
 ) -> Result<String, FigureError> {
     let width = size.units();
-    let columns = figure.columns.clamp(1, 12);
+    let asked = figure.columns.clamp(1, 12);
+    let columns = if width < NARROWEST * asked as f64 { 1 } else { asked };
     let rows = rows(figure, columns, width);
     let sides = sides(&rows, columns, width);
     let between = |placed: &Placed| (sides[placed.columns.0].0, sides[placed.columns.1 - 1].1);

@@ -74,7 +74,7 @@ impl Pen {
             StyleName::Band => (Blue, Mark::Band),
             StyleName::Dots => (Blue, point(Shape::Disc, 5.0, true)),
             StyleName::SmallDots => (Blue, point(Shape::Disc, 3.0, true)),
-            StyleName::Points => (Black, point(Shape::Disc, 2.0, true)),
+            StyleName::Points => (Black, point(Shape::Disc, 2.4, true)),
             StyleName::Triangles => (Vermillion, point(Shape::Triangle, 6.0, true)),
             StyleName::SmallTriangles => (Vermillion, point(Shape::Triangle, 4.5, true)),
             StyleName::OpenDots => (Black, point(Shape::Disc, 5.0, false)),

@@ -82,7 +82,8 @@ fn advance(letter: char) -> f64 {
 /// Breaks a label between words into lines of at most that width.
 pub(crate) fn wrapped(label: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
-    for word in label.split_whitespace() {
+    // A space that does not break is none here.
+    for word in label.split(' ').filter(|word| !word.is_empty()) {
         match lines.last_mut() {
             Some(line) if width(line, size) + width(word, size) + 0.4 * size <= most => {
                 line.push(' ');

@@ -3,7 +3,7 @@
 /// Numbers from here on are written as a power of ten.
 const LARGE: f64 = 1e6;
 /// Tick distances below are written as a power of ten.
-const SMALL: f64 = 1e-6;
+const SMALL: f64 = 9e-5;
 /// Up to so many decades have small ticks at 2 … 9.
 const MOST_MINOR: i32 = 8;
 /// A logarithmic axis that spans less than these decades has its ticks at 1, 2 and 5; below the second, at equal

@@ -1,14 +1,12 @@
 //! The surface u0(x) that the tip finds at the start.
 //!
-//! Everything before the start is an initial surface: an infinite steady past is the profile (24), a
-//! flat start is 0, noise and a measured profile are splines. (15) prints the force of u0 with a factor
-//! α; from (14) it is -u0'(x0), for u0 is a height.
+//! Everything before the start is an initial surface, a sum of reliefs: an infinite steady past is the
+//! profile (24), a flat start is none, noise and a measured profile are splines. (15) prints the force of u0
+//! with a factor α; from (14) it is -u0'(x0), for u0 is a height.
 
-use crate::series::{SeriesError, checked};
-use crate::spline::CubicSpline;
-use crate::{Model, TipFunction};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use crate::Model;
+use crate::relief::{Piece, Relief};
+use crate::series::SeriesError;
 
 /// White noise on a grid, made smooth by a cubic spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,41 +19,23 @@ pub struct Noise {
     pub seed: u64,
 }
 
-/// u0(x): a sum of a steady past, noise and a given profile.
+/// u0(x): the sum of what the surface held before.
 #[derive(Debug, Clone, Default)]
 pub struct InitialSurface {
-    steady: Option<SteadyPast>,
-    profile: Option<CubicSpline>,
-    noise: Option<CubicSpline>,
+    reliefs: Vec<Relief>,
 }
 
-/// The profile (24) of a tip that has always moved steadily and is now at `position`.
+/// A stretch of x on which u0 is one smooth function: between the breaks of its reliefs.
 #[derive(Debug, Clone)]
-struct SteadyPast {
-    tip: TipFunction,
-    /// α/r
-    depth: f64,
-    position: f64,
-    reach: f64,
-}
-
-/// A stretch of x on which u0 is one smooth function: between knots of its splines, or outside.
-#[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     /// Its ends.
     pub(crate) low: f64,
     pub(crate) high: f64,
     /// How far beyond an end a step may go and still count as ending there.
     pub(crate) slack: f64,
-    /// Pieces of the profile and of the noise, `None` outside of them.
-    pieces: [Option<usize>; 2],
+    /// The piece of each relief.
+    pieces: Vec<Option<usize>>,
 }
-
-/// A knot within this fraction of an interval counts as reached,
-const AT_A_KNOT: f64 = 1e-9;
-/// or within this many roundings of x; but never within more than this fraction of an interval.
-const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
-const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl InitialSurface {
     /// u0 = 0.
@@ -64,135 +44,179 @@ impl InitialSurface {
         Self::default()
     }
 
-    /// u0(x) = -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X.
+    /// The steady past of a tip at `position`.
     #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
-        let tip = model.tip().clone();
-        let reach = tip.reach().unwrap_or(f64::INFINITY);
-        let depth = model.alpha() / model.r();
-        Self { steady: Some(SteadyPast { tip, depth, position, reach }), ..Self::default() }
+        Self::flat().with(Relief::steady(model, position))
     }
 
-    /// Adds the cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
-    /// feels, is continuous. (A corner that is hollow would hold a slow tip for ever, pushed back from
-    /// either side.)
+    /// Adds one more.
+    #[must_use]
+    pub fn with(mut self, relief: Relief) -> Self {
+        self.reliefs.push(relief);
+        self
+    }
+
+    /// Adds a [`Relief::profile`].
     ///
     /// # Errors
     /// Too short, not finite, unsorted.
-    pub fn with_profile(mut self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
-        let (x, u) = checked(x, u)?;
-        self.profile = Some(CubicSpline::level(x, u));
-        Ok(self)
+    pub fn with_profile(self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
+        Ok(self.with(Relief::profile(x, u)?))
     }
 
-    /// Adds noise on grid points `from`, `from` + spacing, … up to `to`.
+    /// Adds [`Relief::noise`].
     #[must_use]
-    pub fn with_noise(mut self, noise: Noise, from: f64, to: f64) -> Self {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let points = ((to - from) / noise.spacing).ceil().max(3.0) as usize + 1;
-        let mut rng = ChaCha8Rng::seed_from_u64(noise.seed);
-        let height = |_| noise.amplitude * rng.random_range(-1.0..=1.0);
-        let u: Vec<f64> = (0..points).map(height).collect();
-        #[expect(clippy::cast_precision_loss, reason = "a count")]
-        let x = (0..points).map(|i| from + noise.spacing * i as f64).collect();
-        self.noise = Some(CubicSpline::through(x, u));
-        self
+    pub fn with_noise(self, noise: Noise, from: f64, to: f64) -> Self {
+        self.with(Relief::noise(noise, from, to))
     }
 
     /// u0(x).
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
-        let steady = self.steady.as_ref().map_or(0.0, |s| -s.depth * s.tip.tail(x - s.position));
-        steady + self.texture(x)
+        let carved = |relief: &&Relief| relief.steady_position().is_some();
+        let carved = self.reliefs.iter().filter(carved).fold(0.0, |sum, r| sum + r.height(x));
+        carved + self.texture(x)
     }
 
-    /// The part of u0(x) that no tip has carved: the given profile and the noise.
+    /// The part of u0(x) that no tip has carved: a given profile and the noise.
     #[must_use]
     pub fn texture(&self, x: f64) -> f64 {
-        let inside = |s: &&CubicSpline| (s.first()..=s.last()).contains(&x);
-        self.splines().into_iter().flatten().filter(inside).map(|s| s.value(x)).sum()
+        let texture = |relief: &&Relief| relief.steady_position().is_none();
+        self.reliefs.iter().filter(texture).fold(0.0, |sum, r| sum + r.height(x))
     }
 
     /// Where the given profile and the noise end, if there are any.
     #[must_use]
     pub fn texture_ends(&self) -> Option<f64> {
-        self.splines().into_iter().flatten().map(CubicSpline::last).reduce(f64::max)
+        self.reliefs.iter().filter_map(Relief::end).reduce(f64::max)
     }
 
     /// Position of the tip whose steady past, (24), is part of u0.
     #[must_use]
     pub fn steady_position(&self) -> Option<f64> {
-        self.steady.as_ref().map(|steady| steady.position)
+        self.reliefs.iter().find_map(Relief::steady_position)
     }
 
     /// u0'(x) and u0''(x).
     #[must_use]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        self.slope_and_curvature_on(&self.stretch(x, true, 0.0), x)
+        sum(self.reliefs.iter().map(|relief| relief.slope_and_curvature(x)))
     }
 
     /// u0' and u0'' of the function that u0 is on the stretch, wherever x is: within a step that begins
     /// there, all is smooth.
     pub(crate) fn slope_and_curvature_on(&self, stretch: &Stretch, x: f64) -> (f64, f64) {
-        let mut sum = (0.0, 0.0);
-        if let Some(s) = self.steady.as_ref().filter(|s| (x - s.position).abs() < s.reach) {
-            let slope = s.tip.slope(x - s.position);
-            sum = (s.depth * s.tip.value(x - s.position), s.depth * slope);
-        }
-        for (spline, piece) in self.splines().into_iter().zip(stretch.pieces) {
-            if let (Some(spline), Some(piece)) = (spline, piece) {
-                let (_, slope, curvature) = spline.jet_on(piece, x);
-                sum = (sum.0 + slope, sum.1 + curvature);
-            }
-        }
-        sum
+        let told = self.reliefs.iter().zip(&stretch.pieces);
+        sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
     /// What the rounding of x may amount to in u0', per unit of curvature: 0 where u0 is flat.
     pub(crate) fn rounding(&self, x: f64) -> f64 {
-        let over_the_past = self.steady.as_ref().is_some_and(|s| (x - s.position).abs() < s.reach);
-        let inside = |s: &CubicSpline| (s.first()..=s.last()).contains(&x);
-        let textured = over_the_past || self.splines().into_iter().flatten().any(inside);
+        let textured = self.reliefs.iter().any(|relief| relief.covers(x));
         if textured { f64::EPSILON * x.abs() } else { 0.0 }
     }
 
-    /// The stretch that a tip at x is on, or about to enter if it is at a knot; x is known to `accuracy`.
-    pub(crate) fn stretch(&self, x: f64, forward: bool, accuracy: f64) -> Stretch {
-        let mut all = Stretch {
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-            slack: f64::INFINITY,
-            pieces: [None; 2],
-        };
-        for (spline, piece) in self.splines().into_iter().zip(&mut all.pieces) {
-            let Some(spline) = spline else { continue };
-            let (low, high) = spline.ends_of(spline.piece_of(x));
-            let interval = high - low;
-            let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
-            let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
-            // What ended within the slack before a knot begins beyond it.
-            let (low, high);
-            (low, high, *piece) = stretch_of(spline, if forward { x + slack } else { x - slack });
-            (all.low, all.high) = (all.low.max(low), all.high.min(high));
-            all.slack = all.slack.min(0.5 * slack);
+    /// Makes the stretch that which a tip at x is on, or about to enter if it is at a break; x is known to
+    /// `accuracy`.
+    pub(crate) fn enter(&self, stretch: &mut Stretch, x: f64, forward: bool, accuracy: f64) {
+        let Piece { low, high, slack, .. } = Piece::EVERYWHERE;
+        (stretch.low, stretch.high, stretch.slack) = (low, high, slack);
+        stretch.pieces.clear();
+        for relief in &self.reliefs {
+            let piece = relief.piece(x, forward, accuracy);
+            (stretch.low, stretch.high) =
+                (stretch.low.max(piece.low), stretch.high.min(piece.high));
+            stretch.slack = stretch.slack.min(piece.slack);
+            stretch.pieces.push(piece.index);
         }
-        all
-    }
-
-    fn splines(&self) -> [Option<&CubicSpline>; 2] {
-        [self.profile.as_ref(), self.noise.as_ref()]
     }
 }
 
-/// Ends and piece of one spline at x.
-fn stretch_of(spline: &CubicSpline, x: f64) -> (f64, f64, Option<usize>) {
-    if x < spline.first() {
-        (f64::NEG_INFINITY, spline.first(), None)
-    } else if x >= spline.last() {
-        (spline.last(), f64::INFINITY, None)
-    } else {
-        let piece = spline.piece_of(x);
-        let (low, high) = spline.ends_of(piece);
-        (low, high, Some(piece))
+impl Stretch {
+    /// None entered yet.
+    pub(crate) fn nowhere() -> Self {
+        Self { low: 0.0, high: 0.0, slack: 0.0, pieces: vec![] }
+    }
+}
+
+fn sum(terms: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+    terms.fold((0.0, 0.0), |(slope, curvature), (s, c)| (slope + s, curvature + c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TipFunction;
+
+    fn model() -> Model {
+        Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.2, 0.8).unwrap()
+    }
+
+    /// Two profiles and two noises: as many reliefs as there are, in any order.
+    fn surface() -> (InitialSurface, Vec<Relief>) {
+        let x: Vec<f64> = (0..30).map(|i| 5.0 + 0.7 * f64::from(i)).collect();
+        let u = |k: f64| x.iter().map(|x| 0.3 * (k * x).sin()).collect::<Vec<_>>();
+        let noise = |seed| Noise { amplitude: 0.01, spacing: 0.31, seed };
+        let reliefs = vec![
+            Relief::noise(noise(1), 0.0, 20.0),
+            Relief::profile(x.clone(), u(1.1)).unwrap(),
+            Relief::steady(&model(), 14.0),
+            Relief::noise(noise(2), 10.0, 40.0),
+            Relief::profile(x.clone(), u(0.3)).unwrap(),
+        ];
+        (reliefs.iter().cloned().fold(InitialSurface::flat(), InitialSurface::with), reliefs)
+    }
+
+    #[test]
+    fn a_surface_is_the_sum_of_its_reliefs() {
+        let (surface, reliefs) = surface();
+        for i in 0..500 {
+            let x = -3.0 + 0.1 * f64::from(i);
+            let height: f64 = reliefs.iter().map(|r| r.height(x)).sum();
+            assert!((surface.height(x) - height).abs() < 1e-15);
+            let slope: f64 = reliefs.iter().map(|r| r.slope_and_curvature(x).0).sum();
+            assert!((surface.slope_and_curvature(x).0 - slope).abs() < 1e-15);
+        }
+        assert_eq!(surface.steady_position(), Some(14.0));
+    }
+
+    #[test]
+    fn slopes_and_curvatures_are_those_of_the_height() {
+        let (surface, _) = surface();
+        let h = 1e-4;
+        for i in 0..300 {
+            let x = 1.0 + 0.113 * f64::from(i);
+            // Where a spline ends with a slope there is a corner.
+            if [5.0, 20.15, 10.0, 20.0, 25.3, 40.0].iter().any(|end| (x - end).abs() < 0.4) {
+                continue;
+            }
+            let (slope, curvature) = surface.slope_and_curvature(x);
+            let difference = (surface.height(x + h) - surface.height(x - h)) / (2.0 * h);
+            assert!((slope - difference).abs() < 1e-6, "{x}: {slope} {difference}");
+            let slopes = [x + h, x - h].map(|x| surface.slope_and_curvature(x).0);
+            let difference = (slopes[0] - slopes[1]) / (2.0 * h);
+            assert!((curvature - difference).abs() < 1e-3, "{x}: {curvature} {difference}");
+        }
+    }
+
+    #[test]
+    fn a_stretch_lies_between_the_breaks_of_all_reliefs() {
+        let (surface, reliefs) = surface();
+        let mut stretch = Stretch::nowhere();
+        for i in 0..400 {
+            let x = -2.0 + 0.117 * f64::from(i);
+            surface.enter(&mut stretch, x, true, 1e-12);
+            assert!(stretch.low <= x && x < stretch.high, "{x} {stretch:?}");
+            assert_eq!(stretch.pieces.len(), reliefs.len());
+            let on = surface.slope_and_curvature_on(&stretch, x);
+            assert_eq!(on, surface.slope_and_curvature(x), "{x}");
+            // Beyond its ends it goes on without a break.
+            let (here, beyond) = (stretch.high - 1e-9, stretch.high + 1e-9);
+            if stretch.high.is_finite() {
+                let at = |x| surface.slope_and_curvature_on(&stretch, x);
+                assert!((at(here).1 - at(beyond).1).abs() < 1e-6, "{x}");
+            }
+        }
     }
 }

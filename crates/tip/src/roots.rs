@@ -35,6 +35,16 @@ pub fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     0.5 * (a + b)
 }
 
+/// The same by halving the bracket: slower, but it ends at the sign change whatever the function is like.
+pub fn halved_between(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let sign = f(low).signum();
+    for _ in 0..MOST_ITERATIONS {
+        let middle = 0.5 * (low + high);
+        *(if f(middle) * sign > 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +70,15 @@ mod tests {
         judge(|x| x - 0.3, (1.0, 0.0), 0.3, 6);
         judge(|x| x.powi(9) - 1e-9, (0.0, 1.0), 0.1, 40);
         judge(f64::signum, (-0.7, 1.0), 0.0, 130);
+    }
+
+    #[test]
+    fn halving_ends_at_the_change_of_sign() {
+        for (low, high) in [(0.0, 1.0), (1.0, 0.0)] {
+            let found = halved_between(|x| x.cos() - x, low, high);
+            assert!((found - 0.739_085_133_215_160_6).abs() < 1e-15, "{found}");
+        }
+        let step = |x: f64| if x < 0.3 { -1.0 } else { 2.0 };
+        assert!((halved_between(step, -1.0, 1.0) - 0.3).abs() < 1e-15);
     }
 }

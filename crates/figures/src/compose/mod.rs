@@ -13,10 +13,12 @@ mod sweep;
 mod tip;
 
 use crate::error::FigureError;
+use serde::de::DeserializeOwned;
+use std::io::Read;
 use stickslip_documents::{
-    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument, Kind,
+    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     PanelDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Unusable, read,
+    SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -50,12 +52,13 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
     let Some(first) = figure.panels.first() else {
         return Err(FigureError::Nothing("there is nothing to draw".into()));
     };
-    let (x_label, y_label) = (first.x_label.clone(), first.y_label.clone());
+    let (x, y) = ((first.x_label.clone(), first.x_range), (first.y_label.clone(), first.y_range));
     for panel in &mut figure.panels {
-        if panel.x_label == x_label && view.x_range.is_some() {
+        // One that shows a part of its own goes on to do so.
+        if (&panel.x_label, panel.x_range) == (&x.0, x.1) && view.x_range.is_some() {
             panel.x_range = view.x_range;
         }
-        if panel.y_label == y_label && view.y_range.is_some() {
+        if (&panel.y_label, panel.y_range) == (&y.0, y.1) && view.y_range.is_some() {
             panel.y_range = view.y_range;
         }
     }
@@ -95,30 +98,25 @@ pub const FORMATS: [&str; 10] = [
     FigureDocument::FORMAT,
 ];
 
-/// The document that a text holds, whatever it is of [`FORMATS`].
+/// The document that a stream holds, whatever it is of [`FORMATS`]; of something else no more is read than it takes to
+/// tell.
 ///
 /// # Errors
-/// The text is no JSON, a document without a figure, or damaged.
-pub fn saved(text: &str) -> Result<Box<dyn Drawn>, Unusable> {
-    let kind: Kind = read_kind(text)?;
+/// It is no JSON, a document without a figure, or damaged.
+pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
+    let (kind, source) = told(source, "stickslip/COMMAND")?;
     let format = kind.format.unwrap_or_default();
-    fn boxed<D: Drawn + serde::de::DeserializeOwned + 'static>(
-        text: &str,
-        format: &str,
-    ) -> Result<Box<dyn Drawn>, Unusable> {
-        Ok(Box::new(read::<D>(text, format)?))
-    }
     match format.as_str() {
-        RunDocument::FORMAT => boxed::<RunDocument>(text, &format),
-        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(text, &format),
-        StabilityDocument::FORMAT => boxed::<StabilityDocument>(text, &format),
-        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(text, &format),
-        CycleDocument::FORMAT => boxed::<CycleDocument>(text, &format),
-        ContinueDocument::FORMAT => boxed::<ContinueDocument>(text, &format),
-        SweepDocument::FORMAT => boxed::<SweepDocument>(text, &format),
-        ResponseDocument::FORMAT => boxed::<ResponseDocument>(text, &format),
-        CompareDocument::FORMAT => boxed::<CompareDocument>(text, &format),
-        FigureDocument::FORMAT => boxed::<FigureDocument>(text, &format),
+        RunDocument::FORMAT => boxed::<RunDocument>(source, &format),
+        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(source, &format),
+        StabilityDocument::FORMAT => boxed::<StabilityDocument>(source, &format),
+        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(source, &format),
+        CycleDocument::FORMAT => boxed::<CycleDocument>(source, &format),
+        ContinueDocument::FORMAT => boxed::<ContinueDocument>(source, &format),
+        SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
+        ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
+        CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
+        FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
         _ => Err(Unusable::new(format_args!(
             "format is {}; a picture is there for {}",
             if format.is_empty() { "missing" } else { &format },
@@ -127,9 +125,11 @@ pub fn saved(text: &str) -> Result<Box<dyn Drawn>, Unusable> {
     }
 }
 
-fn read_kind(text: &str) -> Result<Kind, Unusable> {
-    serde_json::from_str(text)
-        .map_err(|error| Unusable::new(format_args!("not a whole JSON document ({error})")))
+fn boxed<D: Drawn + DeserializeOwned + 'static>(
+    source: impl Read,
+    format: &str,
+) -> Result<Box<dyn Drawn>, Unusable> {
+    Ok(Box::new(read_from::<D>(source, format)?))
 }
 
 impl Drawn for FigureDocument {

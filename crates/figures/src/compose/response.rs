@@ -7,6 +7,9 @@ use stickslip_documents::{
     CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName,
 };
 
+/// A pulse lasts for so many of its widths on either side.
+const WIDTHS: f64 = 5.0;
+
 impl Drawn for ResponseDocument {
     /// The deviation, and a ground where so many modes do not give it.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
@@ -19,15 +22,11 @@ impl Drawn for ResponseDocument {
         curve.y = self.samples.deviation.clone();
         panel.curves = vec![curve];
         if let (Some(first), Some(last)) = (t.first().copied(), t.last().copied()) {
-            let mut shade = |from: f64, to: f64| {
-                if from < to {
-                    panel.shades.push([from, to]);
-                }
-            };
-            let (from, to) = (self.valid_from, self.valid_to);
-            shade(first.max(self.origin), from.min(last));
-            shade(to.max(first), last);
-            if !panel.shades.is_empty() {
+            let begins = self.parameters.pulses.iter().map(|p| p.time - WIDTHS * p.width);
+            let from = begins.fold(self.origin, f64::min).max(first);
+            let to = self.valid_from.min(last);
+            if from < to {
+                panel.shades.push([from, to]);
                 let modes = self.modes.len();
                 panel.heading = format!("on the coloured ground {modes} modes are not enough");
             }

@@ -104,7 +104,7 @@ impl<'a> Shown<'a> {
         let name = format!("{name}, lowest to highest");
         let band = self.part.envelope(&name, of, self.oscillations);
         let end = self.part.tail(trajectory, length);
-        let mut detail = against((labels.0, ""), end.line("at the end", of), constant, "");
+        let mut detail = against(labels, end.line("at the end", of), constant, "");
         detail.x_range = Some([end.span.0, end.span.1]);
         (against(labels, band, constant, &constant_name), Some(detail))
     }
@@ -191,7 +191,6 @@ fn surfaces(
         return Ok((ground.lines(all, true, shown.oscillations)?, None));
     };
     let length = length * trajectory.r();
-    let mut detail = ground.lines((tip - length, tip + MARGIN), false, 0)?;
-    detail.y_label.clear();
+    let detail = ground.lines((tip - length, tip + MARGIN), false, 0)?;
     Ok((ground.envelope(all, length / SHOWN, shown.oscillations)?, Some(detail)))
 }

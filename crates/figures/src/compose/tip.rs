@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(name(&TipFunction::gaussian(narrow).unwrap()), "f = exp(−x²)");
         assert_eq!(name(&TipFunction::Bessel), "f = J₀(x)");
         let lobe = |amplitude, center| Gaussian { amplitude, center, width: 0.7 };
-        let sum = vec![lobe(1.0, 0.0), lobe(0.3, 1.5)];
-        assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 2 Gaussians");
+        let sum = vec![lobe(1.0, 0.0), lobe(0.3, -1.5), lobe(0.3, 1.5)];
+        assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 3 Gaussians");
     }
 }

@@ -7,11 +7,6 @@ use crate::state::{Damaged, Reader, State};
 /// steps add up to and for what the motion amplifies; tests/science/tolerance_ladder.rs holds the balance.
 const SHARE_OF_A_STEP: f64 = 0.05;
 
-/// A step is planned to displace the tip by at most this much over the band limit of f, 1.5 widths of
-/// a Gaussian: beyond, the step's own indentation is no smooth function of its stages.
-pub(super) const BANDS_PER_STEP: f64 = 13.0;
-/// And never by more than this.
-pub(super) const LONGEST_DISPLACEMENT: f64 = 4.0;
 /// A displacement larger than planned by this factor is still accepted.
 pub(super) const OVERSHOOT: f64 = 1.5;
 

@@ -9,11 +9,12 @@ mod linear_system;
 mod saved;
 mod stage_equations;
 
-use crate::collocation::{RADAU, STAGES, Stages, apply};
+use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Step;
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
 use crate::roots::zero_between;
+use crate::step;
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 use control::Control;
@@ -74,6 +75,8 @@ pub struct Integrator<'a, M> {
     curvature: f64,
     /// u0' and Fext as `velocity` has them: where they jump, the next step begins with others.
     limits_from_before: (f64, f64),
+    /// Of u0, where the step under way began.
+    stretch: Stretch,
     last: Option<Step>,
     work: Work,
 }
@@ -107,6 +110,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             velocity: -slope + extension + force.value(t),
             curvature,
             limits_from_before: (slope, force.value(t)),
+            stretch: Stretch::nowhere(),
             last: None,
             work: Work::default(),
         }
@@ -148,8 +152,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
     /// # Errors
     /// The tolerance cannot be met.
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
-        let stretch = self.enter_stretch();
-        let limit = self.length_limit(&stretch);
+        self.enter_stretch();
+        let limit = self.length_limit();
         let end = self.force.next_break(self.t).min(until);
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
@@ -165,7 +169,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
                 let tolerance = self.control.tolerance();
                 return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
             }
-            match self.attempt(h, &stretch) {
+            match self.attempt(h) {
                 Ok(step) => return Ok(step),
                 Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
@@ -180,21 +184,20 @@ impl<'a, M: Memory> Integrator<'a, M> {
     }
 
     /// The stretch of u0 ahead, and the velocity with which the tip enters it.
-    fn enter_stretch(&mut self) -> Stretch {
-        let x = self.position();
-        let stretch = self.surface.stretch(x, self.velocity >= 0.0, self.control.target());
-        let slope = self.surface.slope_and_curvature_on(&stretch, x).0;
+    fn enter_stretch(&mut self) {
+        let (x, accuracy) = (self.position(), self.control.target());
+        self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
+        let slope = self.surface.slope_and_curvature_on(&self.stretch, x).0;
         let force = self.force.value(self.t.next_up());
         self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
-        stretch
     }
 
     /// A step of length h, accepted, or the shorter length to try instead.
-    fn attempt(&mut self, h: f64, stretch: &Stretch) -> Result<Step, Retry> {
-        let longest = self.longest_displacement();
+    fn attempt(&mut self, h: f64) -> Result<Step, Retry> {
+        let longest = step::longest_displacement(self.model.tip().band());
         let guess = self.predict(h, longest);
         let enough = ENOUGH * self.control.target();
-        let (surface, force) = ((self.surface, stretch), self.force);
+        let (surface, force) = ((self.surface, &self.stretch), self.force);
         let model = (self.model, &self.apex);
         let equations = StageEquations::new(model, surface, force, (self.t, h, self.extension));
         let look = longest_look(self.model.tip());
@@ -207,17 +210,18 @@ impl<'a, M: Memory> Integrator<'a, M> {
         if moved > most && !self.control.is_fixed() {
             return Err(Retry::Shorter(h * (0.8 * most / moved).max(0.1)));
         }
-        if let Some(tau) = self.leaves(stretch, &displacement) {
+        if let Some(tau) = self.leaves(&displacement) {
             return Err(Retry::ToKnot(tau * h));
         }
         let stiffness = (1.0 + self.curvature).max(0.0);
-        let signs = (self.defect(&displacement, h), self.interpolation_error(&displacement, h));
+        let signs = self.signs_of_error(&displacement, h);
         self.control.judge(signs, h, stiffness).map_err(Retry::Shorter)?;
-        Ok(self.accept(h, &solution, stretch))
+        Ok(self.accept(h, &solution))
     }
 
     /// The fraction of the step at which the tip leaves the stretch, if it does.
-    fn leaves(&self, stretch: &Stretch, displacement: &Stages) -> Option<f64> {
+    fn leaves(&self, displacement: &Stages) -> Option<f64> {
+        let stretch = &self.stretch;
         let (x, slack) = (self.position(), stretch.slack);
         // A tip that already stands beyond an end, within the slack, has its end where it stands.
         let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
@@ -236,31 +240,22 @@ impl<'a, M: Memory> Integrator<'a, M> {
         Some(zero_between(beyond, 0.0, RADAU.c[after]))
     }
 
-    /// Defect of the stage polynomial at the start of the step, where the true velocity is known from
-    /// the step before.
-    fn defect(&self, displacement: &Stages, h: f64) -> f64 {
-        let slope: f64 =
-            RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
-        slope / h - self.velocity
+    /// Defect, and error as an interpolant, against the step before.
+    fn signs_of_error(&self, displacement: &Stages, h: f64) -> (f64, f64) {
+        let before =
+            |last: Step| step::interpolation_error(displacement, h, (&last.displacement, last.h));
+        (step::defect(displacement, h, self.velocity), self.last.map_or(0.0, before))
     }
 
-    /// Error of the stage polynomial as an interpolant, from its continuation back into the last step.
-    fn interpolation_error(&self, displacement: &Stages, h: f64) -> f64 {
-        let Some(last) = self.last else { return 0.0 };
-        let [.., before, end] = last.displacement;
-        let tau = (RADAU.c[STAGES - 2] - 1.0) * last.h / h;
-        RADAU.interpolation_error(displacement, tau, before - end)
-    }
-
-    fn accept(&mut self, h: f64, solution: &Solution, stretch: &Stretch) -> Step {
+    fn accept(&mut self, h: f64, solution: &Solution) -> Step {
         let displacement = solution.displacement;
         let step = Step { t: self.t, h, extension: self.extension, displacement };
         self.memory.remember(&displacement, &RADAU.b().map(|b| b * h));
         self.t = step.end();
         self.extension = step.extension_at_end(self.model.r());
-        self.velocity = apply(&RADAU.derivative, &displacement)[STAGES - 1] / h;
+        self.velocity = step::velocity_at_end(&displacement, h);
         self.curvature = solution.curvature_at_end;
-        let slope = self.surface.slope_and_curvature_on(stretch, self.position()).0;
+        let slope = self.surface.slope_and_curvature_on(&self.stretch, self.position()).0;
         self.limits_from_before = (slope, self.force.value(self.t.next_down()));
         self.last = Some(step);
         self.work.steps += 1;
@@ -283,21 +278,17 @@ impl<'a, M: Memory> Integrator<'a, M> {
         RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
     }
 
-    /// The longest displacement that a step is planned to make: the step's own indentation must remain
-    /// a smooth function of its stages.
-    fn longest_displacement(&self) -> f64 {
-        (control::BANDS_PER_STEP / self.model.tip().band()).min(control::LONGEST_DISPLACEMENT)
-    }
-
     /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
-    fn length_limit(&self, stretch: &Stretch) -> f64 {
+    fn length_limit(&self) -> f64 {
+        let stretch = &self.stretch;
         let speed = self.velocity.abs().max(1e-300);
         let ahead = if self.velocity >= 0.0 {
             stretch.high - self.position()
         } else {
             self.position() - stretch.low
         };
-        let distance = self.longest_displacement().min(1.2 * ahead.max(stretch.slack));
+        let longest = step::longest_displacement(self.model.tip().band());
+        let distance = longest.min(1.2 * ahead.max(stretch.slack));
         self.force.longest_step(self.t).min(distance / speed)
     }
 }

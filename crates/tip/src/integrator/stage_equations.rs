@@ -1,24 +1,22 @@
 //! The s equations for the tip's displacement at the nodes of one step, and their Newton iteration.
 
 use super::linear_system::Factors;
-use crate::collocation::{RADAU, STAGES, Stages, apply};
+use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Memory};
+use crate::step::{Equations, Law, OwnGroove};
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 
-/// `d_i = h Σ_j a_ij v_j`, with the velocities
-/// `v_i = -u0'(x_i) + α (past groove + h Σ_k a_ik f'(d_i - d_k)) + rt_i - x_i + Fext(t_i)`.
+/// The [`Equations`] of a step, with what memory and surface tell.
 pub(super) struct StageEquations<'a> {
     model: &'a Model,
     apex: &'a Apex,
     surface: &'a InitialSurface,
     stretch: &'a Stretch,
-    h: f64,
     /// Position of the tip at the start of the step.
     x: f64,
-    /// rt - x0(start) + Fext at the nodes: all of the velocity that does not depend on d.
-    pull: Stages,
+    equations: Equations,
 }
 
 /// How an iteration ended.
@@ -40,32 +38,13 @@ const ROUND_OFF: f64 = 1e-15;
 /// As long as corrections shrink at least so fast, the Jacobian of an earlier iteration will do.
 const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 
-/// Pairs of stages i > k, and one idle pair (0, 0) that fills the machine's vectors.
-const PAIRS: [(usize, usize); 16] = pairs();
-type Pairs = [f64; PAIRS.len()];
-
-const fn pairs() -> [(usize, usize); 16] {
-    let mut all = [(0, 0); 16];
-    let (mut n, mut i) = (0, 1);
-    while i < STAGES {
-        let mut k = 0;
-        while k < i {
-            all[n] = (i, k);
-            n += 1;
-            k += 1;
-        }
-        i += 1;
-    }
-    all
-}
-
 /// What one look at the groove tells.
 struct Look {
     /// d - hAv
     residual: Stages,
     past_curvature: Stages,
     u0_curvature: Stages,
-    own_curvature: Pairs,
+    own: OwnGroove,
 }
 
 impl<'a> StageEquations<'a> {
@@ -76,11 +55,15 @@ impl<'a> StageEquations<'a> {
         force: &Force,
         (t, h, extension): (f64, f64, f64),
     ) -> Self {
-        let r = model.r();
+        let law = Law::of(model);
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
-        let pull = RADAU.c.map(|c| extension + r * h * c + force.value((t + h * c).min(last)));
-        Self { model, apex, surface, stretch, h, x: r * t - extension, pull }
+        let mut pull = law.pull(extension, h);
+        for (pull, c) in pull.iter_mut().zip(RADAU.c) {
+            *pull += force.value((t + h * c).min(last));
+        }
+        let x = model.r() * t - extension;
+        Self { model, apex, surface, stretch, x, equations: Equations::new(law, h, pull) }
     }
 
     /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
@@ -100,7 +83,11 @@ impl<'a> StageEquations<'a> {
         for iterations in 1..=MOST_ITERATIONS {
             let look = self.look(memory, &displacement);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
-                factors = Factors::of(self.jacobian(&look));
+                factors = Factors::of(self.equations.jacobian(
+                    &look.past_curvature,
+                    &look.u0_curvature,
+                    &look.own,
+                ));
             }
             let Some(factors) = &factors else { return Solved { iterations, solution: None } };
             let correction = factors.solve(&look.residual);
@@ -127,62 +114,15 @@ impl<'a> StageEquations<'a> {
     fn look(&self, memory: &mut impl Memory, d: &Stages) -> Look {
         let (mut past_slope, mut past_curvature) = ([0.0; STAGES], [0.0; STAGES]);
         memory.groove(d, &mut Groove::new(&mut past_slope, &mut past_curvature));
-        let (own_slope, own_curvature) = self.between_stages(d);
-        let mut force = past_slope;
-        for (pair, (i, k)) in PAIRS.into_iter().enumerate() {
-            force[i] += self.h * RADAU.a[i][k] * own_slope[pair];
-            force[k] -= self.h * RADAU.a[k][i] * own_slope[pair];
-        }
-        let mut u0_curvature = [0.0; STAGES];
-        let mut velocity = [0.0; STAGES];
+        let own = OwnGroove::near(self.apex, self.model.tip(), d);
+        let (mut u0_slope, mut u0_curvature) = ([0.0; STAGES], [0.0; STAGES]);
         for i in 0..STAGES {
-            let u0_slope;
-            (u0_slope, u0_curvature[i]) =
+            (u0_slope[i], u0_curvature[i]) =
                 self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
-            velocity[i] = self.pull[i] - d[i] - u0_slope + self.model.alpha() * force[i];
         }
-        let carried = apply(&RADAU.a, &velocity);
-        let residual = std::array::from_fn(|i| d[i] - self.h * carried[i]);
-        Look { residual, past_curvature, u0_curvature, own_curvature }
-    }
-
-    /// 1 - hA ∂v/∂d
-    fn jacobian(&self, look: &Look) -> [Stages; STAGES] {
-        let (alpha, h) = (self.model.alpha(), self.h);
-        let mut derivative = [[0.0; STAGES]; STAGES];
-        for (i, row) in derivative.iter_mut().enumerate() {
-            row[i] = alpha * look.past_curvature[i] - look.u0_curvature[i] - 1.0;
-        }
-        for (curvature, (i, k)) in look.own_curvature.iter().zip(PAIRS) {
-            let (to_i, to_k) =
-                (alpha * h * RADAU.a[i][k] * curvature, alpha * h * RADAU.a[k][i] * curvature);
-            derivative[i][i] += to_i;
-            derivative[i][k] -= to_i;
-            derivative[k][k] += to_k;
-            derivative[k][i] -= to_k;
-        }
-        let mut jacobian = [[0.0; STAGES]; STAGES];
-        for (i, row) in jacobian.iter_mut().enumerate() {
-            row[i] = 1.0;
-            for (a, derivatives) in RADAU.a[i].iter().zip(&derivative) {
-                let factor = h * a;
-                row.iter_mut().zip(derivatives).for_each(|(entry, d)| *entry -= factor * d);
-            }
-        }
-        jacobian
-    }
-
-    /// f' and f'' at `d_i - d_k` for all pairs of stages: what the step itself carves until node i is
-    /// `h Σ_k a_ik f'(d_i - d_k)`.
-    fn between_stages(&self, d: &Stages) -> (Pairs, Pairs) {
-        let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
-        let (mut slope, mut curvature) = ([0.0; PAIRS.len()], [0.0; PAIRS.len()]);
-        if !self.apex.slopes_and_curvatures(&distance, &mut slope, &mut curvature) {
-            for (pair, distance) in distance.into_iter().enumerate() {
-                (slope[pair], curvature[pair]) = self.model.tip().slope_and_curvature(distance);
-            }
-        }
-        (slope, curvature)
+        let velocity = self.equations.velocity(d, &past_slope, &u0_slope, &own);
+        let residual = self.equations.residual(d, &velocity);
+        Look { residual, past_curvature, u0_curvature, own }
     }
 }
 

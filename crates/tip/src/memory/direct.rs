@@ -3,6 +3,7 @@
 use super::Groove;
 use super::record::Record;
 use crate::TipFunction;
+use crate::collocation::{STAGES, Stages};
 
 /// The groove of all that the record holds within reach, at displacements from the tip.
 ///
@@ -10,30 +11,51 @@ use crate::TipFunction;
 pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mut Groove<'_>) {
     let position = record.position();
     let (low, high) = super::range(at);
+    let near = record.blocks_near(position + low, position + high);
     groove.clear();
-    for nodes in record.blocks_near(position + low, position + high) {
-        add(nodes.iter().copied(), tip, (position, at), groove);
-    }
+    add(near.flatten().copied(), tip, (position, at), groove);
 }
 
 /// Adds the groove of these visits at the points `origin + at`.
 pub(super) fn add(
-    visits: impl Iterator<Item = (f64, f64)>,
+    visits: impl Iterator<Item = (f64, f64)> + Clone,
     tip: &TipFunction,
     (origin, at): (f64, &[f64]),
     groove: &mut Groove<'_>,
 ) {
-    for (position, weight) in visits {
-        let told = groove.slope.iter_mut().zip(groove.curvature.iter_mut());
-        for (at, (slope, curvature)) in at.iter().zip(told) {
-            let (f1, f2) = tip.slope_and_curvature(origin + at - position);
-            *slope += weight * f1;
-            *curvature += weight * f2;
-        }
-        if let Some(heights) = &mut groove.height {
+    let told = groove.slope.chunks_mut(STAGES).zip(groove.curvature.chunks_mut(STAGES));
+    for (at, (slope, curvature)) in at.chunks(STAGES).zip(told) {
+        let mut x = [origin; STAGES];
+        x.iter_mut().zip(at).for_each(|(x, at)| *x += at);
+        let mut sums = ([0.0; STAGES], [0.0; STAGES]);
+        sums.0[..slope.len()].copy_from_slice(slope);
+        sums.1[..slope.len()].copy_from_slice(curvature);
+        add_stages(visits.clone(), tip, (&x, at.len()), &mut sums);
+        slope.copy_from_slice(&sums.0[..slope.len()]);
+        curvature.copy_from_slice(&sums.1[..slope.len()]);
+    }
+    if let Some(heights) = &mut groove.height {
+        visits.for_each(|(position, weight)| {
             for (at, height) in at.iter().zip(heights.iter_mut()) {
                 *height += weight * tip.value(origin + at - position);
             }
-        }
+        });
     }
+}
+
+/// Adds the slope and curvature of these visits at the first `count` of x.
+#[inline]
+fn add_stages(
+    visits: impl Iterator<Item = (f64, f64)>,
+    tip: &TipFunction,
+    (x, count): (&Stages, usize),
+    (slope, curvature): &mut (Stages, Stages),
+) {
+    visits.for_each(|(position, weight)| {
+        for i in 0..count {
+            let (f1, f2) = tip.slope_and_curvature(x[i] - position);
+            slope[i] += weight * f1;
+            curvature[i] += weight * f2;
+        }
+    });
 }

@@ -174,7 +174,7 @@ impl Record {
     }
 
     /// Displacements from the tip, and weights, of all that is kept.
-    pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         let bins = match &self.kept {
             Kept::Gathered(bins) => Some(bins.points()),
             Kept::All(_) | Kept::OnLattice => None,
@@ -184,13 +184,17 @@ impl Record {
     }
 
     /// Of what may be seen from displacements in [low, high].
-    pub(super) fn near(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn near(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
         let seen = low - self.reach..=high + self.reach;
         self.all().filter(move |(x, _)| seen.contains(x))
     }
 
     /// The blocks of which any node may be seen from positions in [low, high], if all is kept.
-    pub(super) fn blocks_near(&self, low: f64, high: f64) -> impl Iterator<Item = &[(f64, f64)]> {
+    pub(super) fn blocks_near(
+        &self,
+        low: f64,
+        high: f64,
+    ) -> impl Iterator<Item = &[(f64, f64)]> + Clone {
         let seen = move |b: &Block| b.high >= low - self.reach && b.low <= high + self.reach;
         let mut start = 0;
         self.blocks().iter().filter_map(move |block| {

@@ -93,7 +93,7 @@ impl Bins {
     }
 
     /// Positions and weights that act as all that was gathered.
-    pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         self.moments.iter().enumerate().flat_map(move |(i, bin)| {
             let start = (self.first + i as i64) as f64 * self.length;
             points(bin).map(move |(y, w)| (start + 0.5 * (y + 1.0) * self.length, w))
@@ -102,7 +102,7 @@ impl Bins {
 }
 
 /// The weights on Chebyshev points that have the moments of the bin.
-fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> {
+fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
     let n = MOMENTS as f64;
     (0..MOMENTS).map(move |k| {
         let angle = PI * (k as f64 + 0.5) / n;

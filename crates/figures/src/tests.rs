@@ -1,0 +1,143 @@
+//! A figure as a whole: limits, bytes, what is drawn of what.
+
+use crate::{FigureFormat, Size, View, draw, of, saved, svg};
+use stickslip_documents::{
+    ColourName, CurveDocument, FigureDocument, ModelParameters, PanelDocument, RunDocument,
+    RunParameters, ScaleName, StyleName,
+};
+use stickslip_tip::{Model, TipFunction};
+
+fn figure(panels: Vec<PanelDocument>) -> FigureDocument {
+    FigureDocument { panels, ..FigureDocument::new("test", "α < α_c & r > 0", vec![]) }
+}
+
+fn panel(x: &[f64], y: &[f64]) -> PanelDocument {
+    let mut panel = PanelDocument::new("", ("x", "y"));
+    panel.curves = vec![CurveDocument::new(StyleName::Line, "", x, y)];
+    panel
+}
+
+#[test]
+fn a_hundred_thousand_points_fit_into_300_kilobytes() {
+    let x: Vec<f64> = (0..100_000).map(|i| 0.0044 * f64::from(i)).collect();
+    let y: Vec<f64> = x.iter().map(|t| t.sin() + 0.3 * (37.0 * t).sin()).collect();
+    let mut two = panel(&x, &y);
+    two.curves.push(CurveDocument::new(StyleName::Dashed, "", &x, &y));
+    let three = vec![two.clone(), two.clone(), two];
+    let picture = svg(&figure(three), &Size::default()).unwrap();
+    assert!(picture.len() < 300_000, "{} bytes", picture.len());
+}
+
+#[test]
+fn the_same_figure_gives_the_same_bytes_in_every_format() {
+    let figure = figure(vec![panel(&[0.0, 1.0, 2.0], &[0.5, 0.7, 0.6])]);
+    let formats = [
+        FigureFormat::Svg,
+        #[cfg(feature = "png")]
+        FigureFormat::Png,
+        #[cfg(feature = "pdf")]
+        FigureFormat::Pdf,
+    ];
+    for format in formats {
+        let bytes = || draw(&figure, format, &Size::default()).unwrap();
+        assert!(bytes() == bytes() && bytes().len() > 500, "{format:?}");
+    }
+}
+
+#[test]
+fn nothing_and_next_to_nothing_are_drawn() {
+    for (x, y) in [(&[][..], &[][..]), (&[3.0], &[1.0]), (&[0.0, 1.0], &[f64::NAN, f64::INFINITY])]
+    {
+        for scale in [ScaleName::Linear, ScaleName::Logarithmic] {
+            let mut panel = panel(x, y);
+            (panel.x_scale, panel.y_scale) = (scale, scale);
+            let picture = svg(&figure(vec![panel]), &Size::default()).unwrap();
+            assert!(picture.starts_with("<svg") && !picture.contains("NaN"), "{picture}");
+        }
+    }
+}
+
+#[test]
+fn panels_fill_rows_by_their_spans() {
+    let one = panel(&[0.0, 1.0], &[0.0, 1.0]);
+    let wide = PanelDocument { span: 2, ..one.clone() };
+    let mut grid = figure(vec![wide, one.clone(), one.clone(), one]);
+    grid.columns = 3;
+    let height = |figure: &FigureDocument| {
+        let picture = svg(figure, &Size::default()).unwrap();
+        let view = picture.split_once("viewBox=\"0 0 900 ").unwrap().1;
+        view.split_once('"').unwrap().0.parse::<f64>().unwrap()
+    };
+    let in_a_grid = height(&grid);
+    grid.columns = 1;
+    assert!(in_a_grid < 0.6 * height(&grid), "two rows instead of four");
+}
+
+#[test]
+fn a_figure_reads_back_as_it_was_and_leaves_out_what_is_plain() {
+    let mut figure = figure(vec![panel(&[0.0, 1.0], &[0.0, 1.0])]);
+    let plain = serde_json::to_string(&figure).unwrap();
+    for field in
+        ["columns", "x_range", "x_scale", "notes", "shades", "span", "colour", "low", "cells"]
+    {
+        assert!(!plain.contains(&format!("\"{field}\"")), "{field}: {plain}");
+    }
+    figure.columns = 2;
+    figure.panels[0].x_scale = ScaleName::Logarithmic;
+    figure.panels[0].curves[0].colour = Some(ColourName::Green);
+    let text = serde_json::to_string(&figure).unwrap();
+    let again = of(&*saved(text.as_bytes()).unwrap(), &View::default()).unwrap();
+    assert_eq!(serde_json::to_string(&again).unwrap(), text);
+}
+
+#[test]
+fn a_map_that_does_not_fit_its_axes_is_refused() {
+    let text = r#"{"format":"stickslip/figure","format_version":1,"software":{"name":"","version":""},"name":"",
+        "title":"","parameters":{"models":[]},"remarks":[],"panels":[{"heading":"","x_label":"","y_label":"",
+        "curves":[],"map":{"x":[0,1],"y":[0],"z":[[1]],"z_label":"","colours":"grey"},"y_range":null}]}"#;
+    let error = of(&*saved(text.as_bytes()).unwrap(), &View::default()).unwrap_err();
+    assert!(error.to_string().contains("as many rows and columns"), "{error}");
+}
+
+/// The finding: 2,000 samples of a long run miss its slips.
+#[test]
+fn a_run_is_drawn_from_its_history_and_not_from_its_samples() {
+    let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+    let model = Model::new(tip, 1.9, 1.0).unwrap();
+    let scenario =
+        stickslip_tip::Scenario { kick: 0.1, ..stickslip_tip::Scenario::new(model, 1500.0) };
+    let run = stickslip_tip::run(&scenario).unwrap();
+    let steps = run.trajectory.steps();
+    let fine = steps
+        .iter()
+        .flat_map(|s| (0..200).map(move |i| s.velocity(s.t + s.h * f64::from(i) / 200.0)));
+    let highest = fine.fold(0.0, f64::max);
+    let document = document(&scenario, &run.trajectory);
+    let figure = of(&document, &View::default()).unwrap();
+    let velocity = figure.panels.iter().find(|p| p.y_label.contains("kσ/Γ")).unwrap();
+    let drawn = velocity.curves[0].y.iter().flatten().fold(0.0_f64, |m, v| m.max(*v));
+    assert!((drawn - highest).abs() < 1e-2 * highest, "{drawn} {highest}");
+    // Three samples tell nothing.
+    assert!(document.samples.t.len() == 3 && highest > 2.0);
+    let detail = of(&document, &View { x_range: Some([1400.0, 1440.0]), y_range: None }).unwrap();
+    assert_eq!(detail.panels[0].x_range, Some([1400.0, 1440.0]));
+    assert!(detail.panels[0].curves[0].x.iter().all(|t| (1400.0..=1440.0).contains(t)));
+}
+
+fn document(
+    scenario: &stickslip_tip::Scenario,
+    trajectory: &stickslip_tip::Trajectory,
+) -> RunDocument {
+    let parameters = RunParameters::of(scenario, None, &[], None);
+    let model: ModelParameters = parameters.model.clone();
+    let text = serde_json::json!({
+        "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},
+        "parameters": parameters, "steady_state": {"l": scenario.model.steady_l(), "lag": 0.0, "surface_behind": null},
+        "samples": {"t": [0.0, 1.0, 2.0], "l": [0.0, 0.0, 0.0], "x0": [0.0, 0.0, 0.0], "velocity": [0.0, 0.0, 0.0]},
+        "history": stickslip_documents::History::from(trajectory), "regime": "transient", "oscillation": null,
+        "interrupted": false,
+        "work": {"memory": "", "memory_reason": "", "steps": 0, "rejected": 0, "newton_iterations": 0, "seconds": 0.0},
+    });
+    assert!((model.alpha - 1.9).abs() < 1e-12);
+    serde_json::from_value(text).unwrap()
+}

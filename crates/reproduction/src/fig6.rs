@@ -1,0 +1,41 @@
+//! Fig. 6: the stability boundary in the plane of r and α.
+
+use super::parts::{curve, figure as empty, panel, spaced};
+use super::tips::{BETA_0, beta_0, beta_1};
+use crate::Failed;
+use stickslip_documents::{FigureDocument, StyleName};
+use stickslip_stability::Boundary;
+
+/// Gnecco et al.: k = 1.406 N/(σ v0) is α = r/1.406.
+const GNECCO: f64 = 1.0 / 1.406;
+const LAST: f64 = 2.0;
+
+pub(super) fn figure() -> Result<FigureDocument, Failed> {
+    let tips = [beta_1()?, beta_0()?];
+    let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];
+    let title = "Fig. 6: α_c(r); steady motion is unstable where shaded";
+    let mut document = empty("fig6", title, &models);
+    document.remarks.push(BETA_0.into());
+    document.remarks.push(
+        "dashed: the approximate criterion of Gnecco et al. for the triple Gaussian, α = 0.7112 r"
+            .into(),
+    );
+    for tip in &tips {
+        let boundary = Boundary::new(&tip.function);
+        let at = |r: f64| boundary.at(r).ok().map(|at| (r, at.alpha));
+        let along = spaced(0.01, LAST, 0.01).into_iter().filter_map(at);
+        // αc falls in proportion to r in the end.
+        let (r, alpha): (Vec<f64>, Vec<f64>) = std::iter::once((0.0, 0.0)).chain(along).unzip();
+        let mut panel = panel(tip.name, ("r", "α"));
+        panel.curves.push(curve(StyleName::Boundary, "α_c(r)", &r, &alpha));
+        if tip.name == tips[0].name {
+            let ends = [0.0, LAST];
+            let line = ends.map(|r| GNECCO * r);
+            panel.curves.push(curve(StyleName::Dashed, "0.7112 r", &ends, &line));
+        }
+        let highest = alpha.iter().fold(0.0, |m: f64, a| m.max(*a));
+        panel.y_range = Some([0.0, 1.15 * highest]);
+        document.panels.push(panel);
+    }
+    Ok(document)
+}

@@ -1,0 +1,64 @@
+//! The paper's figures and numbers, computed again: a user of the libraries, like any other.
+//!
+//! Each figure is a function that computes its document, from which alone it is drawn; [`table`] sets every number
+//! that the paper prints beside ours. `docs/reproduction.md` shows them.
+
+mod bifurcation;
+mod criticality;
+mod fig1;
+mod fig2;
+mod fig3;
+mod fig4;
+mod fig5;
+mod fig6;
+mod fig7;
+mod kymograph;
+mod onset;
+mod parts;
+mod table;
+mod tips;
+mod work_precision;
+
+pub use table::{page, table};
+
+use stickslip_documents::FigureDocument;
+use thiserror::Error;
+
+/// Something that could not be computed.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct Failed(String);
+
+impl Failed {
+    fn new(what: String) -> Self {
+        Self(what)
+    }
+}
+
+/// A figure: its name, and what computes it.
+pub type Figure = (&'static str, fn() -> Result<FigureDocument, Failed>);
+
+/// All figures: those of the paper, and four beyond it.
+pub const FIGURES: [Figure; 11] = [
+    ("fig1", fig1::figure),
+    ("fig2", fig2::figure),
+    ("fig3", fig3::figure),
+    ("fig4", fig4::figure),
+    ("fig5", fig5::figure),
+    ("fig6", fig6::figure),
+    ("fig7", fig7::figure),
+    ("bifurcation", bifurcation::figure),
+    ("criticality", criticality::figure),
+    ("kymograph", kymograph::figure),
+    ("work-precision", work_precision::figure),
+];
+
+/// The figure of that name.
+///
+/// # Errors
+/// There is none, or it could not be computed.
+pub fn figure(name: &str) -> Result<FigureDocument, Failed> {
+    let known = FIGURES.iter().find(|(known, _)| *known == name);
+    let (_, compute) = known.ok_or_else(|| Failed::new(format!("there is no figure {name}")))?;
+    compute()
+}

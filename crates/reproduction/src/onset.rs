@@ -1,0 +1,56 @@
+//! Oscillations just beyond onset: the limit cycles themselves, where the paper waited for its transients.
+
+use super::parts::{failed, line_of_best_fit};
+use super::tips::Tip;
+use crate::Failed;
+use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
+use stickslip_tip::Model;
+
+/// The lines of best fit go through this many points.
+pub(super) const FITTED: usize = 4;
+
+/// Amplitudes and wavelengths along a line of parameters that begins at a critical point.
+#[derive(Debug, Default)]
+pub(super) struct Onset {
+    /// Distance from the critical point.
+    pub(super) distance: Vec<f64>,
+    /// Half peak-to-peak of the surface left behind, squared.
+    pub(super) u_squared: Vec<f64>,
+    /// Half peak-to-peak of x0 less its steady advance, squared.
+    pub(super) x0_squared: Vec<f64>,
+    pub(super) wavelength: Vec<f64>,
+}
+
+impl Onset {
+    /// At these distances, α or r varied by `model`.
+    pub(super) fn along(
+        distances: &[f64],
+        model: impl Fn(f64) -> Result<Model, Failed>,
+    ) -> Result<Self, Failed> {
+        let mut onset = Self::default();
+        for distance in distances {
+            let found = solved(&model(*distance)?)?;
+            onset.distance.push(*distance);
+            onset.u_squared.push(found.amplitude_u().powi(2));
+            onset.x0_squared.push(found.amplitude_x0().powi(2));
+            onset.wavelength.push(found.wavelength());
+        }
+        Ok(onset)
+    }
+
+    /// Above αc at r = 1.
+    pub(super) fn above(tip: &Tip, distances: &[f64]) -> Result<Self, Failed> {
+        let critical = tip.critical(1.0)?;
+        Self::along(distances, |distance| tip.model(critical.alpha + distance, 1.0))
+    }
+
+    /// The fit to the points next to the critical one: intercept and slope.
+    pub(super) fn fit(&self, values: &[f64]) -> (f64, f64) {
+        line_of_best_fit(&self.distance[..FITTED], &values[..FITTED])
+    }
+}
+
+/// The limit cycle.
+pub(super) fn solved(model: &Model) -> Result<Cycle, Failed> {
+    cycle(model, DEFAULT_TOLERANCE).map_err(|error| failed("the limit cycle", &error))
+}

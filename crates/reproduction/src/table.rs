@@ -1,0 +1,28 @@
+//! Every number printed in the paper beside ours.
+
+mod markdown;
+mod numbers;
+mod oscillations;
+mod printed;
+
+pub use markdown::page;
+
+use crate::Failed;
+use stickslip_documents::{FORMAT_VERSION, ReproductionDocument, ReproductionParameters, Software};
+
+/// The numbers.
+///
+/// # Errors
+/// One of them could not be computed.
+pub fn table() -> Result<ReproductionDocument, Failed> {
+    let mut entries = numbers::stability()?;
+    entries.extend(numbers::formulas()?);
+    entries.extend(oscillations::oscillations()?);
+    Ok(ReproductionDocument {
+        format: ReproductionDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: ReproductionParameters {},
+        numbers: entries,
+    })
+}

@@ -1,0 +1,49 @@
+//! The paper's two tips, and where they lose stability.
+
+use super::parts::failed;
+use crate::Failed;
+use std::f64::consts::FRAC_1_SQRT_2;
+use stickslip_stability::{Critical, critical, critical_r};
+use stickslip_tip::{Model, TipFunction};
+
+/// Said of every figure that has a panel for β = 0.
+pub(super) const BETA_0: &str = "β = 0 is drawn with exp(-x²), a Gaussian of width 1/√2: the numbers that the \
+     paper prints for β = 0 are those of this tip, not of exp(-x²/2), (48) with β = 0 (docs/corrections.md, 3)";
+
+/// A tip of the paper.
+#[derive(Debug, Clone)]
+pub(super) struct Tip {
+    pub(super) function: TipFunction,
+    /// For headings.
+    pub(super) name: &'static str,
+}
+
+/// (48) with β = 1, the triple Gaussian.
+pub(super) fn beta_1() -> Result<Tip, Failed> {
+    let function =
+        TipFunction::triple_gaussian(1.0, 1.0).map_err(|error| failed("the tip", &error))?;
+    Ok(Tip { function, name: "β = 1" })
+}
+
+/// The tip of the figures for β = 0.
+pub(super) fn beta_0() -> Result<Tip, Failed> {
+    let function =
+        TipFunction::gaussian(FRAC_1_SQRT_2).map_err(|error| failed("the tip", &error))?;
+    Ok(Tip { function, name: "β = 0, f = exp(−x²)" })
+}
+
+impl Tip {
+    /// αc(r).
+    pub(super) fn critical(&self, r: f64) -> Result<Critical, Failed> {
+        critical(&self.function, r).map_err(|error| failed("the critical point", &error))
+    }
+
+    /// rc(α).
+    pub(super) fn critical_r(&self, alpha: f64) -> Result<Critical, Failed> {
+        critical_r(&self.function, alpha).map_err(|error| failed("the critical point", &error))
+    }
+
+    pub(super) fn model(&self, alpha: f64, r: f64) -> Result<Model, Failed> {
+        Model::new(self.function.clone(), alpha, r).map_err(|error| failed("the model", &error))
+    }
+}

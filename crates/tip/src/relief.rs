@@ -1,0 +1,184 @@
+//! One thing that the surface held before the run: a profile of height, with two derivatives.
+
+use crate::initial_surface::Noise;
+use crate::series::{SeriesError, checked};
+use crate::spline::CubicSpline;
+use crate::{Model, TipFunction};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A height as a function of x, smooth but for breaks at known places.
+#[derive(Debug, Clone)]
+pub struct Relief(Shape);
+
+#[derive(Debug, Clone)]
+enum Shape {
+    SteadyPast(SteadyPast),
+    /// 0 outside of it.
+    Spline(CubicSpline),
+}
+
+/// The profile (24) of a tip that has always moved steadily and is now at `position`.
+#[derive(Debug, Clone)]
+struct SteadyPast {
+    tip: TipFunction,
+    /// α/r
+    depth: f64,
+    position: f64,
+    reach: f64,
+}
+
+/// A stretch of x on which a relief is one smooth function.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Piece {
+    /// Its ends.
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// How far beyond an end a step may go and still count as ending there.
+    pub(crate) slack: f64,
+    /// Which one, for a relief that has several; `None` outside of them.
+    pub(crate) index: Option<usize>,
+}
+
+/// A knot within this fraction of an interval counts as reached,
+const AT_A_KNOT: f64 = 1e-9;
+/// or within this many roundings of x; but never within more than this fraction of an interval.
+const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
+const MOST_AT_A_KNOT: f64 = 0.05;
+
+impl Piece {
+    /// All of x.
+    pub(crate) const EVERYWHERE: Self =
+        Self { low: f64::NEG_INFINITY, high: f64::INFINITY, slack: f64::INFINITY, index: None };
+}
+
+impl Relief {
+    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X.
+    #[must_use]
+    pub fn steady(model: &Model, position: f64) -> Self {
+        let tip = model.tip().clone();
+        let reach = tip.reach().unwrap_or(f64::INFINITY);
+        let depth = model.alpha() / model.r();
+        Self(Shape::SteadyPast(SteadyPast { tip, depth, position, reach }))
+    }
+
+    /// The cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
+    /// feels, is continuous. (A corner that is hollow would hold a slow tip for ever, pushed back from
+    /// either side.)
+    ///
+    /// # Errors
+    /// Too short, not finite, unsorted.
+    pub fn profile(x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
+        let (x, u) = checked(x, u)?;
+        Ok(Self(Shape::Spline(CubicSpline::level(x, u))))
+    }
+
+    /// Noise on grid points `from`, `from` + spacing, … up to `to`.
+    #[must_use]
+    pub fn noise(noise: Noise, from: f64, to: f64) -> Self {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let points = ((to - from) / noise.spacing).ceil().max(3.0) as usize + 1;
+        let mut rng = ChaCha8Rng::seed_from_u64(noise.seed);
+        let height = |_| noise.amplitude * rng.random_range(-1.0..=1.0);
+        let u: Vec<f64> = (0..points).map(height).collect();
+        #[expect(clippy::cast_precision_loss, reason = "a count")]
+        let x = (0..points).map(|i| from + noise.spacing * i as f64).collect();
+        Self(Shape::Spline(CubicSpline::through(x, u)))
+    }
+
+    /// Its height at x.
+    #[must_use]
+    pub fn height(&self, x: f64) -> f64 {
+        match &self.0 {
+            Shape::SteadyPast(past) => -past.depth * past.tip.tail(x - past.position),
+            Shape::Spline(spline) if is_inside(spline, x) => spline.value(x),
+            Shape::Spline(_) => 0.0,
+        }
+    }
+
+    /// Slope and curvature at x.
+    #[must_use]
+    pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        self.slope_and_curvature_on(self.piece(x, true, 0.0).index, x)
+    }
+
+    /// Those of the function that it is on a piece, wherever x is.
+    pub(crate) fn slope_and_curvature_on(&self, piece: Option<usize>, x: f64) -> (f64, f64) {
+        match (&self.0, piece) {
+            (Shape::SteadyPast(past), _) => past.slope_and_curvature(x),
+            (Shape::Spline(spline), Some(piece)) => {
+                let (_, slope, curvature) = spline.jet_on(piece, x);
+                (slope, curvature)
+            }
+            (Shape::Spline(_), None) => (0.0, 0.0),
+        }
+    }
+
+    /// Where the tip stood whose steady past it is; `None` for what no tip has carved.
+    #[must_use]
+    pub fn steady_position(&self) -> Option<f64> {
+        match &self.0 {
+            Shape::SteadyPast(past) => Some(past.position),
+            Shape::Spline(_) => None,
+        }
+    }
+
+    /// Where it ends, if it is one with breaks.
+    pub(crate) fn end(&self) -> Option<f64> {
+        match &self.0 {
+            Shape::SteadyPast(_) => None,
+            Shape::Spline(spline) => Some(spline.last()),
+        }
+    }
+
+    /// Whether it has a slope at x.
+    pub(crate) fn covers(&self, x: f64) -> bool {
+        match &self.0 {
+            Shape::SteadyPast(past) => past.covers(x),
+            Shape::Spline(spline) => is_inside(spline, x),
+        }
+    }
+
+    /// The piece that a tip at x is on, or about to enter if it is at a break; x is known to `accuracy`.
+    pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
+        let Shape::Spline(spline) = &self.0 else { return Piece::EVERYWHERE };
+        let (low, high) = spline.ends_of(spline.piece_of(x));
+        let interval = high - low;
+        let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
+        let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
+        // What ended within the slack before a knot begins beyond it.
+        let (low, high, index) = ends_at(spline, if forward { x + slack } else { x - slack });
+        Piece { low, high, slack: 0.5 * slack, index }
+    }
+}
+
+impl SteadyPast {
+    fn covers(&self, x: f64) -> bool {
+        (x - self.position).abs() < self.reach
+    }
+
+    fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        if !self.covers(x) {
+            return (0.0, 0.0);
+        }
+        let slope = self.tip.slope(x - self.position);
+        (self.depth * self.tip.value(x - self.position), self.depth * slope)
+    }
+}
+
+fn is_inside(spline: &CubicSpline, x: f64) -> bool {
+    (spline.first()..=spline.last()).contains(&x)
+}
+
+/// Ends and number of the piece of a spline at x.
+fn ends_at(spline: &CubicSpline, x: f64) -> (f64, f64, Option<usize>) {
+    if x < spline.first() {
+        (f64::NEG_INFINITY, spline.first(), None)
+    } else if x >= spline.last() {
+        (spline.last(), f64::INFINITY, None)
+    } else {
+        let piece = spline.piece_of(x);
+        let (low, high) = spline.ends_of(piece);
+        (low, high, Some(piece))
+    }
+}

@@ -1,0 +1,175 @@
+//! The velocity of the tip, and the equations that it makes for the stages of a step.
+
+use super::own::{Matrix, OwnGroove, carving};
+use crate::Model;
+use crate::collocation::{RADAU, STAGES, Stages, apply};
+
+/// (15) as a function of where the tip is: v = α g - u0' + p - d, with g = ∫ f' over the past.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Law {
+    /// α
+    pub alpha: f64,
+    /// r
+    pub r: f64,
+}
+
+impl Law {
+    /// That of a model.
+    #[must_use]
+    pub fn of(model: &Model) -> Self {
+        Self { alpha: model.alpha(), r: model.r() }
+    }
+
+    /// The pull of the support where the tip stood when the step began: its spring was extended by
+    /// `extension` then, and is by rh c more at the node c.
+    #[must_use]
+    #[inline]
+    pub fn pull(&self, extension: f64, h: f64) -> Stages {
+        RADAU.c.map(|c| extension + self.r * h * c)
+    }
+
+    /// Velocity at a displacement d under the pull p, on a relief of this slope.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self, pull: f64, d: f64, relief: f64, groove: f64) -> f64 {
+        pull - d - relief + self.alpha * groove
+    }
+
+    /// ∂v/∂d, where relief and groove have these curvatures.
+    #[must_use]
+    #[inline]
+    pub fn velocity_slope(&self, relief: f64, groove: f64) -> f64 {
+        self.alpha * groove - relief - 1.0
+    }
+}
+
+/// The equations of one step, d = hAv.
+#[derive(Debug, Clone)]
+pub struct Equations {
+    law: Law,
+    h: f64,
+    /// rt - x0(start) and forces at the nodes: all of the velocity that does not depend on d.
+    pull: Stages,
+    /// hA
+    carving: Matrix,
+}
+
+impl Equations {
+    /// Of a step of length h under this pull.
+    #[must_use]
+    pub fn new(law: Law, h: f64, pull: Stages) -> Self {
+        Self { law, h, pull, carving: carving(h) }
+    }
+
+    /// v at the stages. `past` and `relief` are the slopes of what was carved before the step and of what the
+    /// surface held before the run.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self, d: &Stages, past: &Stages, relief: &Stages, own: &OwnGroove) -> Stages {
+        let mut groove = *past;
+        own.add_slope(&self.carving, &mut groove);
+        std::array::from_fn(|i| self.law.velocity(self.pull[i], d[i], relief[i], groove[i]))
+    }
+
+    /// d - hAv
+    #[must_use]
+    #[inline]
+    pub fn residual(&self, d: &Stages, velocity: &Stages) -> Stages {
+        let carried = apply(&RADAU.a, velocity);
+        std::array::from_fn(|i| d[i] - self.h * carried[i])
+    }
+
+    /// 1 - hA ∂v/∂d, for these curvatures.
+    #[must_use]
+    #[inline]
+    pub fn jacobian(&self, past: &Stages, relief: &Stages, own: &OwnGroove) -> Matrix {
+        let mut derivatives = [[0.0; STAGES]; STAGES];
+        for (i, row) in derivatives.iter_mut().enumerate() {
+            row[i] = self.law.velocity_slope(relief[i], past[i]);
+        }
+        own.add_derivatives(&carving(self.law.alpha * self.h), &mut derivatives);
+        let mut jacobian = [[0.0; STAGES]; STAGES];
+        for (i, row) in jacobian.iter_mut().enumerate() {
+            row[i] = 1.0;
+            for (a, derivatives) in RADAU.a[i].iter().zip(&derivatives) {
+                let factor = self.h * a;
+                row.iter_mut().zip(derivatives).for_each(|(entry, d)| *entry -= factor * d);
+            }
+        }
+        jacobian
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TipFunction;
+    use crate::tip_function::Apex;
+
+    /// A past and a relief with known derivatives, by displacement.
+    fn past(d: f64) -> (f64, f64) {
+        ((0.7 * d + 0.2).sin(), 0.7 * (0.7 * d + 0.2).cos())
+    }
+
+    fn relief(d: f64) -> (f64, f64) {
+        (0.3 * d * d - 0.1, 0.6 * d)
+    }
+
+    #[test]
+    fn the_jacobian_is_that_of_the_residual() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let law = Law { alpha: 1.3, r: 0.8 };
+        for (h, length) in [(0.4, 0.3), (3.0, 2.5), (0.01, -1.0)] {
+            let equations = Equations::new(law, h, law.pull(0.9, h));
+            let d: Stages = RADAU.c.map(|c| length * c * (1.0 - 0.4 * c));
+            let residual = |d: &Stages| {
+                let (past, relief) = (d.map(|d| past(d).0), d.map(|d| relief(d).0));
+                let velocity = equations.velocity(d, &past, &relief, &OwnGroove::new(&tip, d));
+                equations.residual(d, &velocity)
+            };
+            let (past, relief) = (d.map(|d| past(d).1), d.map(|d| relief(d).1));
+            let jacobian = equations.jacobian(&past, &relief, &OwnGroove::new(&tip, &d));
+            for k in 0..STAGES {
+                let moved = |by: f64| {
+                    let mut d = d;
+                    d[k] += by;
+                    residual(&d)
+                };
+                let step = 1e-3;
+                let (near, far) =
+                    ([moved(step), moved(-step)], [moved(2.0 * step), moved(-2.0 * step)]);
+                for i in 0..STAGES {
+                    let difference = 8.0 * (near[0][i] - near[1][i]) - (far[0][i] - far[1][i]);
+                    let difference = difference / (12.0 * step);
+                    let miss = (jacobian[i][k] - difference).abs();
+                    assert!(miss < 1e-10 * (1.0 + h), "{h} {i} {k}: {miss:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_polynomial_of_the_apex_gives_the_same_equations() {
+        let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
+        let (apex, law) = (Apex::new(&tip, 1e-14), Law { alpha: 1.3, r: 0.8 });
+        let equations = Equations::new(law, 0.5, law.pull(0.9, 0.5));
+        // Near, and beyond where any polynomial holds.
+        for length in [0.1, 1.0, 30.0] {
+            let d = RADAU.c.map(|c| length * c);
+            let (a, b) = (OwnGroove::near(&apex, &tip, &d), OwnGroove::new(&tip, &d));
+            let zero = [0.0; STAGES];
+            let (va, vb) = (
+                equations.velocity(&d, &zero, &zero, &a),
+                equations.velocity(&d, &zero, &zero, &b),
+            );
+            let (ja, jb) =
+                (equations.jacobian(&zero, &zero, &a), equations.jacobian(&zero, &zero, &b));
+            for i in 0..STAGES {
+                assert!((va[i] - vb[i]).abs() < 1e-13, "{length} {i}");
+                for k in 0..STAGES {
+                    assert!((ja[i][k] - jb[i][k]).abs() < 1e-11, "{length} {i} {k}");
+                }
+            }
+        }
+    }
+}

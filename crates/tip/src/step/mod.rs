@@ -1,0 +1,22 @@
+//! The collocation equations of one step, written down once: the integrator solves them, cycles linearise
+//! them.
+//!
+//! With the displacements d of the tip at the nodes of a step of length h, and the Butcher matrix A,
+//!
+//! ```text
+//!     d_i = h Σ_k a_ik v_k
+//!     v_i = α g_i - u0'(x_i) + p_i - d_i         p: the pull of the support and of forces
+//!     g_i = past_i + Σ_k b_ik f'(d_i - d_k)      b = hA: what the step itself carves
+//! ```
+//!
+//! Whatever changes the law changes it here. A weight w of each visit multiplies the columns of b; a surface
+//! that heals makes A in b another matrix, [`carving`]; a further term of the force goes into [`Law`], with
+//! its derivative beside it; an inertia is another way from v to d, [`Equations::residual`].
+
+mod estimate;
+mod law;
+mod own;
+
+pub use estimate::{defect, interpolation_error, longest_displacement, velocity_at_end};
+pub use law::{Equations, Law};
+pub use own::{Matrix, OwnGroove, carving};

@@ -1,0 +1,90 @@
+//! What the step itself carves.
+
+use crate::TipFunction;
+use crate::collocation::{RADAU, STAGES, Stages};
+use crate::tip_function::Apex;
+
+/// A row for each stage.
+pub type Matrix = [Stages; STAGES];
+
+/// f' and f'' at `d_i - d_k` for all pairs of stages: of them are the groove that the step carves under its
+/// own stages, `Σ_k b_ik f'(d_i - d_k)`, and its derivatives made.
+#[derive(Debug, Clone, Copy)]
+pub struct OwnGroove {
+    slope: Pairs,
+    curvature: Pairs,
+}
+
+/// Pairs of stages i > k, and one idle pair (0, 0) that fills the machine's vectors.
+const PAIRS: [(usize, usize); 16] = pairs();
+const IDLE: usize = PAIRS.len() - 1;
+type Pairs = [f64; PAIRS.len()];
+
+const fn pairs() -> [(usize, usize); 16] {
+    let mut all = [(0, 0); 16];
+    let (mut n, mut i) = (0, 1);
+    while i < STAGES {
+        let mut k = 0;
+        while k < i {
+            all[n] = (i, k);
+            n += 1;
+            k += 1;
+        }
+        i += 1;
+    }
+    all
+}
+
+/// How much of what each stage leaves is there at each stage: the Butcher matrix times a factor, h for the
+/// groove of a step of that length.
+#[must_use]
+#[inline]
+pub fn carving(factor: f64) -> Matrix {
+    RADAU.a.map(|row| row.map(|a| factor * a))
+}
+
+impl OwnGroove {
+    /// Under stages at these displacements.
+    #[must_use]
+    pub fn new(tip: &TipFunction, d: &Stages) -> Self {
+        let mut own = Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] };
+        for (pair, (i, k)) in PAIRS[..IDLE].iter().enumerate() {
+            (own.slope[pair], own.curvature[pair]) = tip.slope_and_curvature(d[*i] - d[*k]);
+        }
+        own
+    }
+
+    /// The same by the polynomial of the apex, where that holds.
+    #[inline]
+    pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
+        let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
+        let (mut slope, mut curvature) = ([0.0; PAIRS.len()], [0.0; PAIRS.len()]);
+        if !apex.slopes_and_curvatures(&distance, &mut slope, &mut curvature) {
+            for (pair, distance) in distance.into_iter().enumerate() {
+                (slope[pair], curvature[pair]) = tip.slope_and_curvature(distance);
+            }
+        }
+        Self { slope, curvature }
+    }
+
+    /// Adds `Σ_k b_ik f'(d_i - d_k)`.
+    #[inline]
+    pub fn add_slope(&self, b: &Matrix, groove: &mut Stages) {
+        for (slope, (i, k)) in self.slope.iter().zip(PAIRS) {
+            groove[i] += b[i][k] * slope;
+            groove[k] -= b[k][i] * slope;
+        }
+    }
+
+    /// Adds the derivatives of that with respect to d. (The idle pair adds what it takes away.)
+    #[inline]
+    pub fn add_derivatives(&self, b: &Matrix, derivatives: &mut Matrix) {
+        for (curvature, (i, k)) in self.curvature.iter().zip(PAIRS) {
+            let (to_i, to_k) = (b[i][k] * curvature, b[k][i] * curvature);
+            derivatives[i][i] += to_i;
+            derivatives[i][k] -= to_i;
+            derivatives[k][k] += to_k;
+            derivatives[k][i] -= to_k;
+        }
+    }
+}

@@ -29,6 +29,9 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return answered(&error),
     };
+    if cli.quiet {
+        message::be_quiet();
+    }
     if !cli.command.keeps_what_it_has()
         && let Err(error) = interrupt::end_at_once()
     {

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{Write, stderr};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Characters of the longest line; of a longer one the beginning and the end are said.
 const LONGEST: usize = 2000;
@@ -18,6 +19,31 @@ pub(crate) fn say(line: impl Display) {
     line.push('\n');
     // In one piece: lines of several processes do not mix.
     stderr().lock().write_all(line.as_bytes()).ok();
+}
+
+/// Whether nothing but failures is to be said.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on nothing but failures is said.
+pub(crate) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether only failures are said: no progress is shown either.
+pub(crate) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Says a line that is no failure: what was found, what may have been overlooked.
+pub(crate) fn remark(line: impl Display) {
+    if !is_quiet() {
+        say(line);
+    }
+}
+
+/// The same for each line of a text.
+pub(crate) fn remark_lines(text: &str) {
+    text.lines().for_each(remark);
 }
 
 /// Says each line of a text.

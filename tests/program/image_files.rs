@@ -152,7 +152,7 @@ fn a_tip_that_may_leave_its_line_is_warned_of() {
     let needed = &folder.json("image.json")["parameters"]["across"]["transverse_stiffness_needed"];
     assert!(needed.as_f64().unwrap() > 0.5, "{needed}");
     folder.prints("run --tip gaussian --alpha 1 --r 1 --until 40 -o run.json");
-    assert!(said(&folder.stickslip(line)).is_empty());
+    assert!(!said(&folder.stickslip(line)).contains("f_yy"));
 }
 
 #[test]

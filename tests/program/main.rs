@@ -22,6 +22,7 @@ mod figures;
 mod image_files;
 mod interrupts;
 mod outcomes;
+mod people;
 mod pictures;
 mod refusals;
 mod resume;

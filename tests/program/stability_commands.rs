@@ -284,7 +284,7 @@ fn tables_and_figures_are_written() {
     let response = "response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60";
     let csv = |line: &str, name: &str| {
         let path = place(name);
-        let all = printed(&format!("{line} -o {}", path.display()));
+        let all = printed(&format!("{line} --quiet -o {}", path.display()));
         assert!(all.is_empty(), "the result is in the file");
         std::fs::read_to_string(path).unwrap()
     };
@@ -302,7 +302,7 @@ fn tables_and_figures_are_written() {
         (response, "response.npz"),
     ] {
         let path = place(name);
-        printed(&format!("{line} -o {}", path.display()));
+        printed(&format!("{line} --quiet -o {}", path.display()));
         assert!(std::fs::read(path).unwrap().starts_with(b"PK"), "{name}");
     }
     for (line, option, name) in [

@@ -1,37 +1,31 @@
 //! `stickslip boundary`.
 
-use super::TipArguments;
+use super::examples::examples;
+use super::{Interval, OutletArguments, TipArguments};
 use clap::Args;
 use std::path::PathBuf;
 
 /// The critical α against r, and what is born along it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) tip: TipArguments,
 
-    /// First and last r.
-    #[arg(
-        long,
-        value_name = "LO,HI",
-        value_delimiter = ',',
-        allow_hyphen_values = true,
-        required = true
-    )]
-    pub(crate) r_range: Vec<f64>,
+    /// First and last r, and how many there are, both included.
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true, required = true)]
+    pub(crate) r_range: Interval,
 
-    /// Number of r, both ends included.
-    #[arg(long, value_name = "N", default_value_t = 200)]
-    pub(crate) points: usize,
+    /// Number of r, where the range does not say it [default: 200].
+    #[arg(long, value_name = "N")]
+    pub(crate) points: Option<usize>,
 
     /// Equal ratios of r from one to the next, in place of equal differences.
     #[arg(long)]
     pub(crate) logarithmic: bool,
 
-    /// File to write: .json for all, .csv or .npz for the boundary; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw the boundary, the unstable region shaded, to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -45,8 +39,8 @@ pub(crate) struct BoundaryArguments {
 
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 6:
-    stickslip boundary --r-range 0.05,3 --points 300 -o boundary.json --plot boundary.svg
+    stickslip boundary --r-range 0.05:3:300 -o boundary.json --plot boundary.svg
   For a tip of your own, over four decades, as CSV:
-    stickslip boundary --tip-file tip.csv --r-range 0.01,100 --points 401 --logarithmic -o boundary.csv
+    stickslip boundary --tip-file tip.csv --r-range 0.01:100:401 --logarithmic -o boundary.csv
   Criticality along it:
-    stickslip boundary --r-range 0.01,100 --logarithmic --plot-onset criticality.svg";
+    stickslip boundary --r-range 0.01:100 --logarithmic --plot-onset criticality.svg";

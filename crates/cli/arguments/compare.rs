@@ -1,14 +1,17 @@
 //! `stickslip compare`.
 
+use super::examples::examples;
 use super::named::named;
-use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
+use super::{
+    DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, StartArguments,
+};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::{GridName, MemoryName};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required(true)))]
 pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -89,21 +92,22 @@ pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
 
-    /// File to write: .json for all, .csv for the motion (`t,closed,grid`), .npz for motion and surface
-    /// as NumPy arrays; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw both motions, and how far apart they and the surfaces are, to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
 
+const USAGE: &str =
+    "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]";
+
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:
     stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76 -o compare.json --plot compare.svg
-  The paper's start, noise on the surface:
-    stickslip compare --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 76
+  From the paper's own start, noise on a flat surface:
+    stickslip compare --alpha-above 0.01 --r 1 --start paper --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:
     stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
   Against the paper's own grid, for a time unit of it:

@@ -1,7 +1,8 @@
 //! `stickslip continue`.
 
-use super::CycleStart;
+use super::examples::examples;
 use super::named::named;
+use super::{CycleStart, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::OverName;
@@ -12,7 +13,7 @@ use stickslip_documents::OverName;
 /// onset of oscillation. Goes through folds, and ends at --to, in steady motion, where it joins a branch of half
 /// the period, or where the period exceeds --longest-period: towards trapping it has no bound.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct ContinueArguments {
     #[command(flatten)]
     pub(crate) start: CycleStart,
@@ -53,15 +54,18 @@ pub(crate) struct ContinueArguments {
     #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Branch")]
     pub(crate) most_points: usize,
 
-    /// File to write: .json for all, .csv or .npz for the branches; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw amplitude and period over what varies, stable cycles solid and unstable ones dashed, to this .svg
     /// or .png; by their logarithm where they become large.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip continue --over alpha --r <R> [OPTIONS]
+       stickslip continue --over r --alpha <A> [OPTIONS]
+       stickslip continue --over <NAME> --from <CYCLE.json> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   From onset through the period doubling and back, drawn:

@@ -1,6 +1,7 @@
 //! `stickslip cycle`.
 
-use super::ModelArguments;
+use super::examples::examples;
+use super::{ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -32,7 +33,7 @@ pub(crate) struct CycleStart {
 /// Solves for the motion and its period at once; unstable cycles are as good as stable ones. A Floquet
 /// multiplier says by how much a small deviation grows in a period.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) start: CycleStart,
@@ -42,14 +43,16 @@ pub(crate) struct CycleArguments {
     #[arg(long, value_name = "N", default_value_t = 400, help_heading = "Output")]
     pub(crate) points: usize,
 
-    /// File to write: .json for all, .csv or .npz for the profile; `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw l(t), the tip's velocity and the ripple left behind to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip cycle (--alpha <A> | --alpha-above <D>) --r <R> [OPTIONS]
+       stickslip cycle --from <CYCLE.json> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   Just above onset, where a run would need thousands of time units to settle:

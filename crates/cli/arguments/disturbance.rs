@@ -6,7 +6,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DisturbanceArguments {
     /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them; A is 0 or
-    /// above.
+    /// above [default: none; 1e-4 with --start paper].
     #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) noise: Option<f64>,
 

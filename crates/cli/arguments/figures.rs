@@ -1,5 +1,6 @@
 //! `stickslip figures`.
 
+use super::examples::examples;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -58,7 +59,7 @@ impl FigureName {
 /// printed numbers, ours, and what explains each difference. The figures for β = 0 use exp(-x²), the tip
 /// that the printed numbers belong to.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct FiguresArguments {
     /// Folder to write to; it is made if need be, and files of the same names are replaced.
     #[arg(long, value_name = "DIR")]

@@ -5,9 +5,12 @@ mod compare;
 mod continuation;
 mod cycle;
 mod disturbance;
+mod examples;
 mod figures;
+mod interval;
 mod model;
 mod named;
+mod outlet;
 mod plot;
 mod response;
 mod run;
@@ -25,13 +28,15 @@ pub(crate) use continuation::ContinueArguments;
 pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
+pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
+pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use stability::StabilityArguments;
-pub(crate) use start::StartArguments;
+pub(crate) use start::{StartArguments, StartChoice};
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, Range, SweepArguments, SweepThen};
 pub(crate) use units::UnitsArguments;
@@ -39,6 +44,7 @@ pub(crate) use verify::VerifyArguments;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use examples::examples;
 use stickslip_documents::SCHEMAS;
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
@@ -47,8 +53,12 @@ use stickslip_documents::SCHEMAS;
 /// indentation rate it sticks, slips and writes ripples. All quantities are dimensionless: lengths in
 /// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, after_help = EXAMPLES)]
+#[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
+    /// Say nothing but what failed: no progress, no remarks, not what was found.
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -56,9 +66,9 @@ pub(crate) struct Cli {
 const EXAMPLES: &str = "Examples:
   stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
   stickslip verify run.json
-  stickslip surface run.json --at 457 --range -5,460 --spacing 0.02 -o surface.csv
+  stickslip surface run.json --at 457 --range -5:460 --spacing 0.02 -o surface.csv
   stickslip stability --r 1
-  stickslip boundary --r-range 0.05,3 --points 200 -o boundary.csv --plot boundary.svg
+  stickslip boundary --r-range 0.05:3:200 -o boundary.csv --plot boundary.svg
   stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
   stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg

@@ -29,14 +29,13 @@ fn names(schema: &Value) -> Vec<PossibleValue> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip_documents::{GridName, MemoryName, OverName, RunFormat, SolveFor, StartName};
+    use stickslip_documents::{GridName, MemoryName, OverName, RunFormat, SolveFor};
 
     #[test]
     fn every_name_is_there_and_explained() {
         let counts = [
-            (schema_for!(StartName), 2),
             (schema_for!(MemoryName), 4),
-            (schema_for!(RunFormat), 4),
+            (schema_for!(RunFormat), 5),
             (schema_for!(GridName), 4),
             (schema_for!(OverName), 2),
             (schema_for!(SolveFor), 2),

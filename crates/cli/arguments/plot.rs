@@ -1,5 +1,6 @@
 //! `stickslip plot`.
 
+use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -7,7 +8,7 @@ use std::path::PathBuf;
 ///
 /// The picture is the one that `--plot` of the command draws, with a width, a resolution and axes of your own.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct PlotArguments {
     /// The document, JSON; `-` for standard input.
     #[arg(value_name = "DOCUMENT.json")]

@@ -1,12 +1,13 @@
 //! `stickslip response`.
 
-use super::{ModelArguments, SamplingArguments};
+use super::examples::examples;
+use super::{ModelArguments, OutletArguments, SamplingArguments};
 use clap::Args;
 use std::path::PathBuf;
 
 /// The linear response of steady motion to weak pulses, as a sum of modes (A.9).
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required(true)))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required(true)))]
 pub(crate) struct ResponseArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -43,15 +44,15 @@ pub(crate) struct ResponseArguments {
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
 
-    /// File to write: .json for all, .csv for the samples, .npz for samples and modes; `-` is JSON on
-    /// standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw l - l0 against t to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip response (--alpha <A> | --alpha-above <D>) --r <R> --pulse <A,T,W> --until <T> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   One pulse, below the critical point:

@@ -1,7 +1,10 @@
 //! `stickslip run`.
 
+use super::examples::examples;
 use super::named::named;
-use super::{DisturbanceArguments, ModelArguments, SamplingArguments, StartArguments};
+use super::{
+    DisturbanceArguments, FieldArguments, ModelArguments, SamplingArguments, StartArguments,
+};
 use clap::{Arg, Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use stickslip_documents::{MemoryName, RunFormat};
@@ -17,7 +20,12 @@ pub(crate) enum HistoryName {
 
 /// Integrate the tip's motion, and say what became of it.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, mut_arg("r", |r| r.required_unless_present("resume")), mut_args(not_on_resume))]
+#[command(
+    override_usage = USAGE,
+    after_help = examples(EXAMPLES),
+    mut_arg("r", |r| r.required_unless_present("resume")),
+    mut_args(not_on_resume)
+)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -62,10 +70,13 @@ pub(crate) struct RunArguments {
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
 
-    /// What is written, whatever the name of the file [default: by its extension; json on standard
-    /// output].
+    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
+    /// terminal, else json].
     #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
+
+    #[command(flatten)]
+    pub(crate) fields: FieldArguments,
 
     /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.
     #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
@@ -101,6 +112,9 @@ pub(crate) struct RunArguments {
     pub(crate) resume: Option<PathBuf>,
 }
 
+const USAGE: &str = "stickslip run (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip run --resume <FILE> [-o <FILE>]";
+
 impl RunArguments {
     /// Where the run is written to.
     pub(crate) fn output(&self) -> &Path {
@@ -111,7 +125,7 @@ impl RunArguments {
 /// A checkpoint holds all options; only where the run is written to can be another place than then.
 fn not_on_resume(argument: Arg) -> Arg {
     match argument.get_id().as_str() {
-        "resume" | "output" | "plot" => argument,
+        "resume" | "output" | "plot" | "print" => argument,
         _ => argument.conflicts_with("resume"),
     }
 }
@@ -119,12 +133,13 @@ fn not_on_resume(argument: Arg) -> Arg {
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 1, just above onset:
     stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
-  Its own start, noise on the surface:
-    stickslip run --alpha-above 0.01 --r 1 --noise 1e-4 --noise-spacing 0.05 --until 457 -o run.json
+  With the paper's own start, noise on a flat surface:
+    stickslip run --alpha-above 0.01 --r 1 --start paper --until 457 -o run.json
   A tip of your own, two pulses, samples as CSV:
     stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:
     stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
-  A long run, its samples written as it passes them, that survives a loss of power:
+  A long run, its samples written as it passes them, that survives a loss of power (errors of the period
+  add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
     stickslip run --resume long.checkpoint";

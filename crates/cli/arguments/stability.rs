@@ -1,7 +1,8 @@
 //! `stickslip stability`.
 
-use super::ModelArguments;
+use super::examples::examples;
 use super::named::named;
+use super::{ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::SolveFor;
@@ -11,7 +12,7 @@ use stickslip_documents::SolveFor;
 /// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical
 /// point.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct StabilityArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
@@ -28,15 +29,16 @@ pub(crate) struct StabilityArguments {
     #[arg(long, value_name = "BOUND", allow_hyphen_values = true)]
     pub(crate) re_above: Option<f64>,
 
-    /// File to write: .json for all, .csv or .npz for the growth exponents; `-` is JSON on standard
-    /// output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw the growth exponents in the complex plane to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str = "stickslip stability --r <R> [OPTIONS]
+       stickslip stability --alpha <A> --solve-for r [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The critical α at r = 1, with the oscillation that is born there:

@@ -1,11 +1,13 @@
 //! `stickslip surface`.
 
+use super::examples::examples;
+use super::{FieldArguments, Format, Interval};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Reconstruct the surface u(x,t) from a run.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct SurfaceArguments {
     /// Document that `stickslip run` wrote; `-` is standard input.
     #[arg(value_name = "RUN.json")]
@@ -19,23 +21,23 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "X1,X2,…", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["range", "spacing"])]
     pub(crate) x: Option<Vec<f64>>,
 
-    /// First and last position [default: from 12 behind the start of the tip to 12 ahead of its end].
-    #[arg(long, value_name = "LO,HI", value_delimiter = ',', allow_hyphen_values = true)]
-    pub(crate) range: Option<Vec<f64>>,
+    /// First and last position, and how many there are [default: from 12 behind the start of the tip to 12 ahead of
+    /// its end].
+    #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true)]
+    pub(crate) range: Option<Interval>,
 
-    /// Distance of the positions in the range [default: 0.05].
+    /// Distance of the positions, where the range does not say how many there are [default: 0.05].
     #[arg(long, value_name = "DX", allow_hyphen_values = true)]
     pub(crate) spacing: Option<f64>,
 
-    /// First and last position across the path: images u(x,y,t) instead of curves u(x,t).
+    /// First and last position across the path, and how many there are: images u(x,y,t) instead of curves u(x,t).
     #[arg(
         long,
-        value_name = "LO,HI",
-        value_delimiter = ',',
+        value_name = "LO:HI:N",
         allow_hyphen_values = true,
         help_heading = "Three dimensions"
     )]
-    pub(crate) y_range: Option<Vec<f64>>,
+    pub(crate) y_range: Option<Interval>,
 
     /// Distance of the positions across the path [default: that of --spacing].
     #[arg(
@@ -68,19 +70,27 @@ pub(crate) struct SurfaceArguments {
     pub(crate) far_behind: bool,
 
     /// File to write: .json, .csv (`t,x,u` or `t,x,y,u`), .npz, or .gsf (Gwyddion, one image); `-` is
-    /// JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    /// standard output.
+    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 
+    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
+    /// terminal, else json].
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
+    pub(crate) format: Option<Format>,
+
+    #[command(flatten)]
+    pub(crate) fields: FieldArguments,
+
     /// Draw the surfaces to this .svg or .png; images as height maps with a colour bar.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "Examples:
-  stickslip surface run.json --at 457 --range 400,460 --spacing 0.02 -o surface.csv
+  stickslip surface run.json --at 457 --range 400:460 --spacing 0.02 -o surface.csv
   stickslip surface run.json --at 100,200,457 --plot surface.png
   An image for Gwyddion, and a height map of the same:
-    stickslip surface run.json --range 400,450 --y-range -2,2 --spacing 0.025 -o image.gsf --plot map.png
+    stickslip surface run.json --range 400:450 --y-range -2:2 --spacing 0.025 -o image.gsf --plot map.png
   Piped:
     stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 80 | stickslip surface - --x 60,60.5,61";

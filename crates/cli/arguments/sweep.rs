@@ -1,6 +1,7 @@
 //! `stickslip sweep`.
 
-use super::TipName;
+use super::examples::examples;
+use super::{OutletArguments, TipName};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -68,7 +69,7 @@ impl FromStr for Shard {
 /// (FILE.partial): after an interrupt the same command goes on from there.
 #[derive(Debug, Args)]
 #[command(
-    after_help = EXAMPLES,
+    override_usage = USAGE, after_help = examples(EXAMPLES),
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true
 )]
@@ -123,10 +124,8 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// File to write: .json for all, .csv or .npz for the columns (regime in .npz: 0 steady, 1 stick-slip,
-    /// 2 trapped, 3 transient); `-` is JSON on standard output, without a FILE.partial to go on from.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
     /// .svg or .png. What has neither, such as steady and trapped tips, is marked at the foot.
@@ -147,14 +146,17 @@ pub(crate) struct MergeArguments {
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
-    /// File to write, as for `sweep`.
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 
     /// Draw it, as for `sweep`.
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }
+
+const USAGE: &str =
+    "stickslip sweep --r <RANGE> (--alpha <RANGE> | --alpha-above <RANGE>) [OPTIONS]
+       stickslip sweep merge <PART.json>... [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The amplitude of stick-slip over α:

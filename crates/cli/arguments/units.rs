@@ -1,8 +1,8 @@
 //! `stickslip units`.
 
-use super::ModelArguments;
+use super::examples::examples;
+use super::{ModelArguments, OutletArguments};
 use clap::Args;
-use std::path::PathBuf;
 
 /// Measured quantities to the numbers of the model, and back.
 ///
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
 /// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a bare number is in SI units.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct UnitsArguments {
     /// Friction Γ of the tip (kg/s or Ns/m), (1).
     #[arg(
@@ -75,10 +75,12 @@ pub(crate) struct UnitsArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// File to write: .json or .csv (`quantity,value,unit`); `-` is JSON on standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 }
+
+const USAGE: &str = "stickslip units --damping <Γ> --stiffness <k> --tip-width <σ> --indentation-rate <N>
+           --slope-force <a> --velocity <v0> [OPTIONS]; of these one may be left out for --r or --alpha, two for both";
 
 const EXAMPLES: &str = "Examples:
   α, r, the lag, and how far it is to stick-slip:

@@ -1,5 +1,7 @@
 //! `stickslip verify`.
 
+use super::OutletArguments;
+use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,19 +13,21 @@ use std::path::PathBuf;
 /// repeated with direct, which holds all of its past. Of a document (.json), all of it is held, and of one with
 /// its history, all steps of the repetition. Lines from a pipe are put into a temporary file.
 ///
+/// On a cycle errors of the period add up: a run of thousands of periods is right to ten tolerances only until some
+/// time, which is said. The repetition takes some twenty times as long as the run.
+///
 /// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows; 3 if all that there is of
 /// a run is right, but it has no end: it was killed, or is not over.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = examples(EXAMPLES))]
 pub(crate) struct VerifyArguments {
     /// What `stickslip run` wrote: a document (.json), lines (.jsonl), or what there is of them
     /// (.jsonl.part); `-` is standard input.
     #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
 
-    /// File to write, as JSON; `-` is standard output.
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
 }
 
 const EXAMPLES: &str = "Examples:

@@ -4,14 +4,10 @@ mod closed;
 mod grid;
 mod pace;
 
-use super::figure::Figure;
+use super::job::{Job, judge_places};
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use crate::message::say;
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip_documents::{
@@ -23,25 +19,15 @@ use stickslip_tip::Scenario;
 const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
-        &files_read(&arguments.model, &arguments.disturbance),
-    )?;
+    let read = files_read(&arguments.model, &arguments.disturbance);
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let closed = closed::run(&asked)?;
     let x = asked.positions(&closed)?;
     let motion = grid::run(&asked, &x)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
-    if arguments.output != std::path::Path::new("-") {
-        say(summary(&document));
-    }
-    if let Some(figure) = figure {
-        figure.draw(&document)?;
-    }
-    write(&document, format, output)
+    job.finish(&document)
 }
 
 /// The options, judged.
@@ -159,35 +145,4 @@ fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters 
         step: arguments.step,
         grid_until: asked.grid_until,
     }
-}
-
-fn write(document: &CompareDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let CompareDocument { t, x, closed, grid, .. } = document;
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_csv("t,closed,grid", &[t, &closed.x0, &grid.x0]),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("t", t)?;
-            npz.vector("x", x)?;
-            npz.vector("closed_x0", &closed.x0)?;
-            npz.vector("closed_u", &closed.u)?;
-            npz.vector("grid_x0", &grid.x0)?;
-            npz.vector("grid_u", &grid.u)?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-/// One line for a person who sent the document to a file.
-fn summary(document: &CompareDocument) -> String {
-    let CompareDocument { closed, grid, max_difference, speedup, .. } = document;
-    format!(
-        "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
-         {speedup:.3} times as fast",
-        max_difference.x0,
-        max_difference.u,
-        1e3 * closed.work.seconds,
-        1e3 * grid.work.seconds,
-    )
 }

@@ -1,24 +1,18 @@
 //! `stickslip continue`.
 
 mod document;
-mod summary;
 
 use super::cycle::start::{Start, explain};
-use super::figure::Figure;
+use super::job::{Job, judge_places};
 use super::model::tip;
 use super::progress::Progress;
+use super::told::digits;
 use crate::arguments::ContinueArguments;
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
 use crate::interrupt::Interrupt;
-use crate::message::say_lines;
 use std::ops::ControlFlow;
-use std::path::Path;
 use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
-use stickslip_documents::{ContinueDocument, CycleBranch, OverName};
-use stickslip_stability::trapping_alpha;
+use stickslip_documents::{ContinueDocument, OverName};
 use stickslip_tip::{TipFunction, stop};
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
@@ -27,16 +21,13 @@ const MOST_BRANCHES: usize = 12;
 const SAME: f64 = 1e-6;
 
 pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
     let start = &arguments.start;
     let read =
         [("--tip-file", start.model.tip.tip_file.as_deref()), ("--from", start.from.as_deref())];
-    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
-    apart(&written, &read)?;
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let job = Job::open::<ContinueDocument>(&arguments.outlet, arguments.plot.as_deref())?;
 
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
@@ -50,13 +41,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
-    if let Some(figure) = figure {
-        figure.draw(&document)?;
-    }
-    write(&document, format, output)?;
-    if arguments.output != Path::new("-") {
-        say_lines(&summary::summary(&document));
-    }
+    job.finish(&document)?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }
 
@@ -137,11 +122,14 @@ fn branches(
     interrupt: &Interrupt,
 ) -> Result<(Vec<Found>, Vec<String>), Failure> {
     let mut remarks = vec![];
-    let mut progress = None;
-    let end = progress_end(settings, origin);
+    // How far a branch goes, and whether it turns back, nobody knows before.
+    let mut progress = Progress::without_end().at_every_call();
+    let name = if settings.over == Parameter::Alpha { "α" } else { "r" };
+    let mut cycles = 0;
     let mut observe = |cycle: &Cycle| {
         let at = parameter(cycle, settings.over);
-        progress.get_or_insert_with(|| Progress::new(at, end).at_every_call()).reached(at);
+        cycles += 1;
+        progress.counted(0.0, || format!("{cycles} cycles, {name} = {}", digits(at, 6)));
         if interrupt.signal().is_some() {
             ControlFlow::Break(())
         } else {
@@ -188,19 +176,6 @@ fn parameter(cycle: &Cycle, over: Parameter) -> f64 {
     }
 }
 
-/// Where the branch is expected to end.
-fn progress_end(settings: &Continuation, origin: &Origin) -> f64 {
-    let r = match origin {
-        Origin::Cycle(start) => start.model().r(),
-        Origin::Onset { other, .. } => *other,
-    };
-    if settings.to.is_finite() {
-        settings.to
-    } else {
-        trapping_alpha(origin.tip(), r).unwrap_or(1.0)
-    }
-}
-
 fn explain_onset(error: &CycleError, arguments: &ContinueArguments) -> Failure {
     match (error, arguments.over) {
         (CycleError::Stability(error), OverName::Alpha) => {
@@ -212,41 +187,5 @@ fn explain_onset(error: &CycleError, arguments: &ContinueArguments) -> Failure {
             Failure::input(format!("--alpha {}", Typed(alpha)), error)
         }
         _ => explain(error),
-    }
-}
-
-fn write(document: &ContinueDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Vec<f64> {
-        document.branches.iter().flat_map(of).copied().collect()
-    };
-    let flags = document.branches.iter().flat_map(|b| &b.stable).map(|s| f64::from(u8::from(*s)));
-    let numbers = document.branches.iter().enumerate();
-    let columns = [
-        ("branch", numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect()),
-        ("alpha", joined(|b| &b.alpha)),
-        ("r", joined(|b| &b.r)),
-        ("period", joined(|b| &b.period)),
-        ("amplitude_x0", joined(|b| &b.amplitude_x0)),
-        ("amplitude_u", joined(|b| &b.amplitude_u)),
-        ("stable", flags.collect()),
-        ("multiplier_re", joined(|b| &b.multiplier_re)),
-        ("multiplier_im", joined(|b| &b.multiplier_im)),
-    ];
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => {
-            let headings = columns.each_ref().map(|(name, _)| *name).join(",");
-            output.write_csv(
-                &headings,
-                &columns.each_ref().map(|(_, c): &(_, Vec<f64>)| c.as_slice()),
-            )
-        }
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            for (name, column) in &columns {
-                npz.vector(name, column)?;
-            }
-            output.write_bytes(&npz.bytes()?)
-        }
     }
 }

@@ -7,7 +7,7 @@ use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::files::place;
-use crate::message::say;
+use crate::message::remark;
 use clap::ValueEnum;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
         let started = Instant::now();
         let files = make(*name, folder)?;
         let seconds = started.elapsed().as_secs_f64();
-        say(format_args!("{} in {seconds:.1} s", files.join(", ")));
+        remark(format_args!("{} in {seconds:.1} s", files.join(", ")));
     }
     Ok(())
 }

@@ -16,7 +16,9 @@ pub(crate) mod sweep;
 pub(crate) mod units;
 pub(crate) mod verify;
 
+mod fields;
 mod figure;
-mod number;
+mod job;
 mod progress;
 mod roots;
+mod told;

@@ -1,17 +1,20 @@
-//! Progress of long work, on standard error when it is a terminal.
+//! Progress of long work, on standard error when it is a terminal: how far it is, what is counted, how long it has
+//! taken, and how much longer it takes where that can be told.
 
+use crate::message::is_quiet;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Display;
 use std::time::{Duration, Instant};
 
 /// Shown after the first second.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Of work whose parts take no longer than a look at the clock.
 const CALLS_PER_LOOK: u32 = 256;
+const TICKS: f64 = 1000.0;
 
-/// A bar from `from` to `to`, in the unit of the work.
+/// Work from `from` to `to`, in its own unit, or of a length that nobody knows.
 pub(crate) struct Progress {
-    from: f64,
-    to: f64,
+    span: Option<(f64, f64)>,
     started: Instant,
     calls: u32,
     /// Calls between two looks at the clock.
@@ -19,18 +22,23 @@ pub(crate) struct Progress {
     bar: Option<ProgressBar>,
 }
 
-const TICKS: f64 = 1000.0;
-
 impl Progress {
+    /// Work that comes from `from` to `to` at an even pace.
     pub(crate) fn new(from: f64, to: f64) -> Self {
         Self {
-            from,
-            to,
+            span: Some((from, to)),
             started: Instant::now(),
             calls: 0,
             calls_per_look: CALLS_PER_LOOK,
             bar: None,
         }
+    }
+
+    /// Work of which nobody knows how much there is.
+    pub(crate) fn without_end() -> Self {
+        let mut progress = Self::new(0.0, 1.0);
+        progress.span = None;
+        progress
     }
 
     /// For work whose parts take longer than a look at the clock.
@@ -41,12 +49,25 @@ impl Progress {
 
     /// The work has come to `at`.
     pub(crate) fn reached(&mut self, at: f64) {
+        self.counted(at, String::new);
+    }
+
+    /// The same, with what is counted in words, such as `12 of 60 points`.
+    pub(crate) fn counted<D: Display>(&mut self, at: f64, what: impl FnOnce() -> D) {
         self.calls = self.calls.wrapping_add(1);
-        if !self.calls.is_multiple_of(self.calls_per_look) || self.started.elapsed() < PATIENCE {
+        let is_due = self.calls.is_multiple_of(self.calls_per_look);
+        if !is_due || self.started.elapsed() < PATIENCE || is_quiet() {
             return;
         }
-        let done = ((at - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
-        self.bar.get_or_insert_with(new_bar).set_position((done * TICKS) as u64);
+        let (span, started) = (self.span, self.started);
+        let bar = self.bar.get_or_insert_with(|| new_bar(span.is_some(), started));
+        if let Some((from, to)) = span {
+            let done = ((at - from) / (to - from)).clamp(0.0, 1.0);
+            bar.set_position((done * TICKS) as u64);
+        } else {
+            bar.tick();
+        }
+        bar.set_message(what().to_string());
     }
 }
 
@@ -59,8 +80,14 @@ impl Drop for Progress {
 }
 
 /// indicatif draws on standard error, and nothing where that is no terminal.
-fn new_bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {eta} left");
-    let bar = ProgressBar::new(TICKS as u64);
+fn new_bar(has_end: bool, started: Instant) -> ProgressBar {
+    let template = if has_end {
+        "{wide_bar} {percent:>3} %  {msg}  {elapsed}, {eta} left"
+    } else {
+        "{spinner} {msg}  {elapsed}"
+    };
+    let style = ProgressStyle::with_template(template);
+    let bar = if has_end { ProgressBar::new(TICKS as u64) } else { ProgressBar::new_spinner() };
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        .with_elapsed(started.elapsed())
 }

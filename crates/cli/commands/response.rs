@@ -1,6 +1,6 @@
 //! `stickslip response`.
 
-use super::figure::Figure;
+use super::job::{Job, judge_places};
 use super::model::model;
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::disturbance::warn_of_idle_pulses;
@@ -9,9 +9,6 @@ use super::run::parse_pulses;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
 use stickslip_documents::{
     FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
     ResponseSamples, Software,
@@ -25,20 +22,11 @@ const VALID_TO: f64 = 1e-6;
 const WIDTHS_OF_PULSE: f64 = 5.5;
 
 pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
-    )?;
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
-
-    let document = document(arguments, &asked)?;
-    if let Some(figure) = figure {
-        figure.draw(&document)?;
-    }
-    write(&document, format, output)
+    let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    job.finish(&document(arguments, &asked)?)
 }
 
 /// The options, judged.
@@ -203,40 +191,4 @@ fn beyond_linear(asked: &Asked, response: &Response, samples: &ResponseSamples) 
         )
     });
     strong.into_iter().chain(grows).collect()
-}
-
-/// Null as NaN, where a column of numbers must hold something.
-fn numbers(column: &[Option<f64>]) -> Vec<f64> {
-    column.iter().map(|value| value.unwrap_or(f64::NAN)).collect()
-}
-
-fn write(document: &ResponseDocument, format: OutputFormat, output: Output) -> Result<(), Failure> {
-    let ResponseSamples { t, l, deviation } = &document.samples;
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_bytes(csv(&document.samples).as_bytes()),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("t", t)?;
-            npz.vector("l", &numbers(l))?;
-            npz.vector("deviation", &numbers(deviation))?;
-            let mut column = |name: &str, of: fn(&ModeDocument) -> f64| {
-                npz.vector(name, &document.modes.iter().map(of).collect::<Vec<_>>())
-            };
-            column("lambda_re", |m| m.lambda.re)?;
-            column("lambda_im", |m| m.lambda.im)?;
-            column("residue_re", |m| m.residue.re)?;
-            column("residue_im", |m| m.residue.im)?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
-}
-
-/// An empty cell where there is no value.
-fn csv(samples: &ResponseSamples) -> String {
-    let cell = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
-    let row = |i: usize| {
-        format!("{},{},{}\n", samples.t[i], cell(samples.l[i]), cell(samples.deviation[i]))
-    };
-    std::iter::once("t,l,deviation\n".to_owned()).chain((0..samples.t.len()).map(row)).collect()
 }

@@ -14,18 +14,17 @@ mod write;
 pub(crate) use disturbance::parse_pulses;
 pub(crate) use order::{explain, option_at_fault};
 
-use super::figure::Figure;
-use crate::arguments::RunArguments;
+use super::fields::Fields;
+use super::job::Job;
+use crate::arguments::{FieldArguments, Format, RunArguments};
 use crate::failure::Failure;
-use crate::files::output::Output;
 use crate::files::place::{Place, Target as File, place};
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
 use journey::Journey;
 use record::{Record, SAMPLE_NUMBERS, Sink};
 use std::path::Path;
-use stickslip_documents::RunFormat;
-use stickslip_documents::{Order, Unusable};
+use stickslip_documents::{Order, RunDocument, RunEnd, RunFormat, Unusable};
 use stickslip_outcome::Watched;
 use stickslip_tip::{RunError, STEP_NUMBERS, Scenario};
 use write::Target;
@@ -47,8 +46,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
-    let (target, sink) = open(arguments.output(), &order, checkpoint.as_ref().map(File::path))?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let (target, sink) = open(arguments, &order, checkpoint.as_ref().map(File::path))?;
 
     let mut record = record(&order, &scenario, sink);
     write::head(&mut record, &order, &scenario)?;
@@ -63,7 +61,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     };
     journey.checkpoint()?;
     let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target, figure)
+    write::all(&order, &scenario, &surface, travelled, target)
 }
 
 /// A place that must be a file.
@@ -79,11 +77,13 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
 
 /// Opens what the run is written to.
 fn open(
-    output: &Path,
+    arguments: &RunArguments,
     order: &Order,
     checkpoint: Option<&Path>,
 ) -> Result<(Target, Sink), Failure> {
+    let (output, fields) = (arguments.output(), &arguments.fields);
     if order.format == RunFormat::Jsonl {
+        let fields = Fields::asked::<RunEnd>(&fields.print)?;
         let stream = Stream::open("--output", output, checkpoint.is_some())?;
         if checkpoint.is_some() && !stream.is_file() {
             return Err(Failure::input(
@@ -92,12 +92,28 @@ fn open(
                  them to a file",
             ));
         }
-        return Ok((Target::Lines, Sink::Lines(stream)));
+        return Ok((Target::Lines(fields), Sink::Lines(stream)));
     }
-    let target = Target::Document(Output::open("--output", output)?);
+    let target = Target::Document(job(order, output, arguments.plot.as_deref(), fields)?);
     let numbers = if keeps_history(order) { STEP_NUMBERS } else { SAMPLE_NUMBERS };
     let journal = |path| record::journal(path, numbers);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
+}
+
+/// Where the document goes, and the figure.
+fn job(
+    order: &Order,
+    output: &Path,
+    plot: Option<&Path>,
+    fields: &FieldArguments,
+) -> Result<Job, Failure> {
+    let format = match order.format {
+        RunFormat::Json | RunFormat::Jsonl => Format::Json,
+        RunFormat::Csv => Format::Csv,
+        RunFormat::Npz => Format::Npz,
+        RunFormat::Text => Format::Text,
+    };
+    Job::of_format::<RunDocument>(format, output, fields, plot)
 }
 
 fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {

@@ -1,13 +1,10 @@
 //! `stickslip stability`.
 
-use super::figure::Figure;
+use super::job::{Job, judge_places};
 use super::model::{model, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
 use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
     StabilityParameters, TrappingDocument,
@@ -21,21 +18,12 @@ use stickslip_tip::{Model, TipFunction};
 const DEFAULT_ROOTS: usize = 10;
 
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
-    )?;
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
-
-    let document = document(arguments, &point)?;
-    if let Some(figure) = figure {
-        figure.draw(&document)?;
-    }
-    write(&document, format, output)
+    let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    job.finish(&document(arguments, &point)?)
 }
 
 /// The critical point, and the one whose roots are listed.
@@ -178,26 +166,4 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         onset: onset.as_ref().ok().map(OnsetDocument::from),
         remarks: said,
     })
-}
-
-fn columns(document: &StabilityDocument) -> (Vec<f64>, Vec<f64>) {
-    document.roots.iter().map(|z| (z.re, z.im)).unzip()
-}
-
-fn write(
-    document: &StabilityDocument,
-    format: OutputFormat,
-    output: Output,
-) -> Result<(), Failure> {
-    let (re, im) = columns(document);
-    match format {
-        OutputFormat::Json => output.write_json(document),
-        OutputFormat::Csv => output.write_csv("re,im", &[&re, &im]),
-        OutputFormat::Npz => {
-            let mut npz = Npz::new();
-            npz.vector("re", &re)?;
-            npz.vector("im", &im)?;
-            output.write_bytes(&npz.bytes()?)
-        }
-    }
 }

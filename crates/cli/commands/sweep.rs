@@ -4,15 +4,14 @@ mod finished;
 mod grid;
 pub(crate) mod merge;
 mod point;
-mod write;
 
+use super::job::{Job, judge_places};
 use super::progress::Progress;
-use crate::arguments::{SweepArguments, SweepThen};
+use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
 use crate::arithmetic::arithmetic;
 use crate::failure::Failure;
-use crate::files::apart::apart;
 use crate::interrupt::Interrupt;
-use crate::message::say;
+use crate::message::remark;
 use finished::Finished;
 use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -23,8 +22,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint};
+use stickslip_figures::judge_sweep;
 use stickslip_tip::stop;
-use write::Writer;
 
 const MOST_THREADS: usize = 4096;
 
@@ -32,15 +31,12 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(SweepThen::Merge(merged)) = &arguments.then {
         return merge::merge(merged);
     }
-    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let threads = threads(arguments)?;
-    apart(
-        &[("--output", Some(output)), ("--plot", plot)],
-        &[("--tip-file", arguments.tip_file.as_deref())],
-    )?;
+    let read = [("--tip-file", arguments.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
-    let writer = Writer::asked(output, plot, &grid.parameters)?;
-    let finished = match writer.file() {
+    let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters)?;
+    let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters)?,
         None => Finished::in_memory(),
     };
@@ -50,9 +46,21 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
     }
-    writer.write(&sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
+    job.finish(&sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
     finished.remove();
     Ok(())
+}
+
+/// Where a sweep goes, which is found out before hours of work.
+fn job(
+    outlet: &OutletArguments,
+    plot: Option<&Path>,
+    parameters: &SweepParameters,
+) -> Result<Job, Failure> {
+    if plot.is_some() {
+        judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
+    }
+    Job::open::<SweepDocument>(outlet, plot)
 }
 
 /// The document of a finished sweep, with its checksum.
@@ -96,6 +104,8 @@ fn threads(arguments: &SweepArguments) -> Result<usize, Failure> {
 struct State {
     finished: Finished,
     progress: Progress,
+    /// Points in all.
+    count: usize,
     /// Whether all could be written down.
     kept: io::Result<()>,
 }
@@ -104,7 +114,8 @@ impl State {
     /// `None` once a point could not be kept: the others need not be found.
     fn keep(&mut self, point: SweepPoint) -> Option<()> {
         self.kept = self.finished.add(point);
-        self.progress.reached(self.finished.points().len() as f64);
+        let done = self.finished.points().len();
+        self.progress.counted(done as f64, || format!("{done} of {} points", self.count));
         self.kept.is_ok().then_some(())
     }
 }
@@ -120,10 +131,14 @@ fn compute(
     let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
     let count = done.len() + missing.len();
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
-        say(format_args!("stickslip: {} of {count} points are in {}", done.len(), path.display()));
+        remark(format_args!(
+            "stickslip: {} of {count} points are in {}",
+            done.len(),
+            path.display()
+        ));
     }
     let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
-    let state = Mutex::new(State { finished, progress, kept: Ok(()) });
+    let state = Mutex::new(State { finished, progress, count, kept: Ok(()) });
     let finished_so_far = Arc::new(AtomicUsize::new(done.len()));
     {
         let done = Arc::clone(&finished_so_far);

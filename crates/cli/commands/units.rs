@@ -2,12 +2,11 @@
 
 mod solve;
 
+use super::job::{Job, format, judge_places};
 use super::model::tip;
 use super::roots::failed;
-use crate::arguments::UnitsArguments;
+use crate::arguments::{Format, UnitsArguments};
 use crate::failure::Failure;
-use crate::files::apart::apart;
-use crate::files::output::{Output, OutputFormat};
 use solve::Given;
 use stickslip_documents::{CriticalUnits, FORMAT_VERSION, LagDocument, Software, UnitsDocument};
 use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
@@ -15,25 +14,18 @@ use stickslip_tip::TipFunction;
 use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
-    let format = OutputFormat::of(&arguments.output)?;
-    apart(
-        &[("--output", Some(&*arguments.output))],
-        &[("--tip-file", arguments.model.tip.tip_file.as_deref())],
-    )?;
-    if format == OutputFormat::Npz {
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    judge_places(&arguments.outlet, None, &read)?;
+    if format(arguments.outlet.format, &arguments.outlet.output, "")? == Format::Npz {
         let message = "there are no arrays to write: .json or .csv will do";
-        return Err(Failure::input(format!("--output {}", arguments.output.display()), message));
+        let named = format!("--output {}", arguments.outlet.output.display());
+        return Err(Failure::input(named, message));
     }
     let tip = tip(&arguments.model.tip)?;
     let given = Given::read(arguments, &tip)?;
     let physical = given.solved()?;
-    let output = Output::open("--output", &arguments.output)?;
-
-    let document = document(arguments, &tip, &given, &physical)?;
-    match format {
-        OutputFormat::Csv => output.write_bytes(csv(&document).as_bytes()),
-        _ => output.write_json(&document),
-    }
+    let job = Job::open::<UnitsDocument>(&arguments.outlet, None)?;
+    job.write(&document(arguments, &tip, &given, &physical)?)
 }
 
 fn document(
@@ -81,36 +73,4 @@ fn document(
         stable,
         remarks: remarks.collect(),
     })
-}
-
-/// `quantity,value,unit`, an empty value where there is none.
-fn csv(document: &UnitsDocument) -> String {
-    let UnitsDocument { physical, lag, scales, critical, .. } = document;
-    let rows = [
-        ("damping", Some(physical.damping), "kg/s"),
-        ("stiffness", Some(physical.stiffness), "N/m"),
-        ("tip_width", Some(physical.tip_width), "m"),
-        ("indentation_rate", Some(physical.indentation_rate), "m/s"),
-        ("slope_force", Some(physical.slope_force), "N"),
-        ("velocity", Some(physical.velocity), "m/s"),
-        ("alpha", Some(document.alpha), "1"),
-        ("r", Some(document.r), "1"),
-        ("lag", Some(lag.metres), "m"),
-        ("lag_dimensionless", Some(lag.dimensionless), "1"),
-        ("length_scale", Some(scales.length), "m"),
-        ("time_scale", Some(scales.time), "s"),
-        ("height_scale", Some(scales.height), "m"),
-        ("force_scale", Some(scales.force), "N"),
-        ("critical_alpha", critical.alpha, "1"),
-        ("critical_indentation_rate", critical.indentation_rate, "m/s"),
-        ("critical_period", critical.period, "s"),
-        ("critical_wavelength", critical.wavelength, "m"),
-        ("critical_r", critical.r, "1"),
-        ("critical_velocity", critical.velocity, "m/s"),
-    ];
-    let row = |(name, value, unit): (&str, Option<f64>, &str)| {
-        let value = value.map(|v| format!("{v:e}")).unwrap_or_default();
-        format!("{name},{value},{unit}\n")
-    };
-    std::iter::once("quantity,value,unit\n".to_owned()).chain(rows.map(row)).collect()
 }

@@ -2,15 +2,16 @@
 
 mod lines;
 
+use super::job::{Job, on_standard_output};
 use super::progress::Progress;
-use crate::arguments::VerifyArguments;
+use crate::arguments::{Format, OutletArguments, VerifyArguments};
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
-use crate::files::output::Output;
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
+use std::path::Path;
 use stickslip_documents::{
     LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
 };
@@ -24,11 +25,23 @@ const ROUNDINGS: f64 = 16.0;
 
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
-    apart(&[("--output", Some(&*arguments.output))], &[("RUN", Some(&**path))])?;
+    let read = [("RUN", Some(&**path))];
+    apart(&[("--output", Some(&*arguments.outlet.output))], &read)?;
     match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
         Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
-        Written::Lines(file) => lines::verify(path, &file, &arguments.output),
+        Written::Lines(file) => lines::verify(path, &file, &arguments.outlet),
     }
+}
+
+/// What is found is JSON whatever the name of the file, or text: there are no columns.
+fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
+    let format = match outlet.format {
+        Some(format @ (Format::Json | Format::Text)) => format,
+        Some(_) => return Err(Failure::input("--format", "json or text will do")),
+        None if outlet.output == Path::new("-") => on_standard_output(),
+        None => Format::Json,
+    };
+    Job::of_format::<VerifyDocument>(format, &outlet.output, &outlet.fields, None)
 }
 
 fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -39,20 +52,21 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     let unusable = |error: Unusable| damaged(error.to_string());
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
-    let (verification, output) = if run.history.is_some() {
+    let (verification, job) = if run.history.is_some() {
         let trajectory = run.trajectory().map_err(unusable)?;
         is_of(&scenario, &trajectory).map_err(damaged)?;
         let samples = samples(&run, &scenario).map_err(damaged)?;
         are_of(&samples, &trajectory, scenario.tolerance).map_err(damaged)?;
-        let output = Output::open("--output", &arguments.output)?;
-        (of_history(&scenario, memory, &trajectory)?, output)
+        let job = job(&arguments.outlet)?;
+        (of_history(&scenario, memory, &trajectory)?, job)
     } else {
         let samples = samples_alone(&run, &scenario).map_err(damaged)?;
-        let output = Output::open("--output", &arguments.output)?;
-        (of_samples(&scenario, memory, &samples)?, output)
+        let job = job(&arguments.outlet)?;
+        (of_samples(&scenario, memory, &samples)?, job)
     };
     let failure = broken(&verification, scenario.tolerance);
-    output.write_json(&VerifyDocument::new(run.parameters, verification, None))?;
+    let job = job.silent_if(failure.is_some());
+    job.write(&VerifyDocument::new(run.parameters, verification, None))?;
     failure.map_or(Ok(()), Err)
 }
 
@@ -155,7 +169,7 @@ fn repeated(
 }
 
 /// What is said after the summary of a run that keeps its promise; else nothing.
-pub(super) fn kept(found: &VerificationDocument) -> String {
+pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
     if !found.kept {
         return String::new();
     }

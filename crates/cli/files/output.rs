@@ -18,12 +18,6 @@ pub(crate) enum OutputFormat {
 }
 
 impl OutputFormat {
-    /// # Errors
-    /// An extension that none of the formats has.
-    pub(crate) fn of(path: &Path) -> Result<Self, Failure> {
-        Self::or_also(path, "")
-    }
-
     /// For a command that has an extension `more`, such as ", .gsf", which it has looked for itself.
     ///
     /// # Errors
@@ -53,7 +47,6 @@ impl OutputFormat {
 pub(crate) struct Output {
     path: PathBuf,
     place: Place,
-    remark: Option<String>,
 }
 
 impl Output {
@@ -62,12 +55,7 @@ impl Output {
     /// # Errors
     /// It cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
-        Ok(Self { path: path.into(), place: place(option, path)?, remark: None })
-    }
-
-    /// Adds a comment at the end of a CSV file.
-    pub(crate) fn with_remark(self, remark: Option<String>) -> Self {
-        Self { remark, ..self }
+        Ok(Self { path: path.into(), place: place(option, path)? })
     }
 
     /// Where it goes, links resolved; `None` for what is no file.
@@ -91,15 +79,6 @@ impl Output {
         self.write_with(|out| out.write_all(bytes))
     }
 
-    /// Writes columns of equal length as CSV under their headings.
-    pub(crate) fn write_csv(self, headings: &str, columns: &[&[f64]]) -> Result<(), Failure> {
-        let remark = self.remark.clone();
-        self.write_with(|out| {
-            csv(out, headings, columns)?;
-            remark.iter().try_for_each(|remark| writeln!(out, "# {remark}"))
-        })
-    }
-
     /// Writes what the function writes, through a buffer. What no file could be made of is kept elsewhere: it may
     /// have taken hours.
     pub(crate) fn write_with(
@@ -119,20 +98,4 @@ impl Output {
             None => Err(Failure::Write { target, error }),
         }
     }
-}
-
-fn csv(out: &mut dyn Write, headings: &str, columns: &[&[f64]]) -> io::Result<()> {
-    writeln!(out, "{headings}")?;
-    let rows = columns.iter().map(|c| c.len()).min().unwrap_or(0);
-    let mut line = String::new();
-    for row in 0..rows {
-        line.clear();
-        for column in columns {
-            line.push_str(if line.is_empty() { "" } else { "," });
-            line.push_str(&column[row].to_string());
-        }
-        line.push('\n');
-        out.write_all(line.as_bytes())?;
-    }
-    Ok(())
 }

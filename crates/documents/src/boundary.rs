@@ -1,5 +1,6 @@
 //! `stickslip/boundary`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{CriticalityName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -113,5 +114,20 @@ impl From<BoundaryBranch> for BranchDocument {
     fn from(branch: BoundaryBranch) -> Self {
         let BoundaryBranch { wave_number, r, alpha } = branch;
         Self { wave_number, r, alpha }
+    }
+}
+
+impl Tabular for BoundaryDocument {
+    /// The boundary, a row for each r.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let OnsetColumns { amplitude_squared_slope, period_slope, lyapunov, .. } = &self.onset;
+        vec![
+            ("Omega", Column::of(&self.wave_number)),
+            ("r", Column::of(&self.r)),
+            ("alpha", Column::of(&self.alpha)),
+            ("amplitude_squared_slope", Column::optional(amplitude_squared_slope)),
+            ("period_slope", Column::optional(period_slope)),
+            ("lyapunov", Column::optional(lyapunov)),
+        ]
     }
 }

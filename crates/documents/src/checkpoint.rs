@@ -70,6 +70,8 @@ pub enum RunFormat {
     Npz,
     /// JSON Lines: what is run, a line for each sample as the run passes it, what became of it.
     Jsonl,
+    /// A few lines for a person.
+    Text,
 }
 
 /// What a growing file held at some time.

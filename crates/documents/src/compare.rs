@@ -1,5 +1,6 @@
 //! `stickslip/compare`.
 
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{
     ForceTable, MemoryName, ModelParameters, NoiseParameters, Profile, PulseParameters, Software,
     StartName,
@@ -155,4 +156,27 @@ pub struct DifferenceDocument {
     pub x0: f64,
     /// In u, over the positions `x` at the last time, in kσ²/a.
     pub u: f64,
+}
+
+impl Tabular for CompareDocument {
+    /// Both motions.
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![
+            ("t", Column::of(&self.t)),
+            ("closed", Column::of(&self.closed.x0)),
+            ("grid", Column::of(&self.grid.x0)),
+        ]
+    }
+
+    /// Motions and surfaces.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        vec![
+            ("t", Array::vector(&self.t)),
+            ("x", Array::vector(&self.x)),
+            ("closed_x0", Array::vector(&self.closed.x0)),
+            ("closed_u", Array::vector(&self.closed.u)),
+            ("grid_x0", Array::vector(&self.grid.x0)),
+            ("grid_u", Array::vector(&self.grid.u)),
+        ]
+    }
 }

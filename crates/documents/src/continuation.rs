@@ -1,5 +1,6 @@
 //! `stickslip/continue`.
 
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -217,5 +218,41 @@ impl From<SpecialKind> for SpecialName {
             SpecialKind::BranchPoint => Self::BranchPoint,
             SpecialKind::Torus => Self::Torus,
         }
+    }
+}
+
+impl Tabular for ContinueDocument {
+    /// The cycles of all branches, one after the other.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
+            self.branches.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+        };
+        let numbers = self.branches.iter().enumerate();
+        let numbers: Vec<f64> = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect();
+        let stable = self.branches.iter().flat_map(|b| &b.stable);
+        let stable: Vec<f64> = stable.map(|stable| f64::from(u8::from(*stable))).collect();
+        vec![
+            ("branch", numbers.into()),
+            ("alpha", joined(|b| &b.alpha)),
+            ("r", joined(|b| &b.r)),
+            ("period", joined(|b| &b.period)),
+            ("amplitude_x0", joined(|b| &b.amplitude_x0)),
+            ("amplitude_u", joined(|b| &b.amplitude_u)),
+            ("stable", stable.into()),
+            ("multiplier_re", joined(|b| &b.multiplier_re)),
+            ("multiplier_im", joined(|b| &b.multiplier_im)),
+        ]
+    }
+
+    fn note(&self) -> Option<String> {
+        self.interrupted.then(|| "interrupted: more of the branches was asked for".into())
+    }
+
+    /// A branch cut short says so.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let columns = self.columns().into_iter();
+        let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
+        let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
+        columns.chain(mark).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! The dense history of a motion in a document.
 
 use crate::Unusable;
+use crate::table::Array;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{Step, Trajectory, nodes_and_weights};
@@ -100,4 +101,17 @@ impl History {
 
 fn unusable(message: impl std::fmt::Display) -> Unusable {
     Unusable::new(format!("history: {message}"))
+}
+
+impl History {
+    /// Its arrays, each named after its field.
+    pub(crate) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        vec![
+            ("history_nodes", Array::vector(&self.nodes)),
+            ("history_weights", Array::vector(&self.weights)),
+            ("history_t", Array::vector(&self.t)),
+            ("history_extension", Array::vector(&self.extension)),
+            ("history_displacement", Array::matrix(&self.displacement)),
+        ]
+    }
 }

@@ -37,6 +37,7 @@ mod software;
 mod stability;
 mod surface;
 mod sweep;
+mod table;
 mod units;
 mod verification;
 
@@ -70,7 +71,7 @@ pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
 };
-pub use schemas::{SCHEMAS, schema};
+pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};
 pub use stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
@@ -80,6 +81,7 @@ pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
 };
 pub use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
+pub use table::{Array, Column, Named, Tabular};
 pub use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };

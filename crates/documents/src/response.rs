@@ -1,5 +1,6 @@
 //! `stickslip/response`.
 
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{
     CertificateDocument, ComplexDocument, ModelParameters, PulseParameters, Software, SteadyState,
 };
@@ -80,4 +81,31 @@ pub struct ResponseSamples {
     pub l: Vec<Option<f64>>,
     /// l - l0, in σ, with all its digits where that is small.
     pub deviation: Vec<Option<f64>>,
+}
+
+impl Tabular for ResponseDocument {
+    fn columns(&self) -> Vec<Named<'_>> {
+        let ResponseSamples { t, l, deviation } = &self.samples;
+        vec![
+            ("t", Column::of(t)),
+            ("l", Column::optional(l)),
+            ("deviation", Column::optional(deviation)),
+        ]
+    }
+
+    /// The samples, and the modes.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let samples = self.columns().into_iter();
+        let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
+        let of = |name, of: fn(&ModeDocument) -> f64| {
+            (name, Array::vector(self.modes.iter().map(of).collect::<Vec<_>>()))
+        };
+        let modes = [
+            of("lambda_re", |m| m.lambda.re),
+            of("lambda_im", |m| m.lambda.im),
+            of("residue_re", |m| m.residue.re),
+            of("residue_im", |m| m.residue.im),
+        ];
+        samples.chain(modes).collect()
+    }
 }

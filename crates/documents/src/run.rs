@@ -1,5 +1,6 @@
 //! `stickslip/run`.
 
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{
     CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters,
     SampleLine, Software, TransientDocument, Unusable, VerificationDocument,
@@ -154,6 +155,25 @@ pub struct WorkDocument {
     pub newton_iterations: u64,
     /// Time of the integration alone, in seconds: the one field that differs from run to run.
     pub seconds: f64,
+}
+
+impl Tabular for RunDocument {
+    fn columns(&self) -> Vec<Named<'_>> {
+        let Samples { t, l, x0, velocity } = &self.samples;
+        vec![
+            ("t", Column::of(t)),
+            ("l", Column::of(l)),
+            ("x0", Column::of(x0)),
+            ("velocity", Column::of(velocity)),
+        ]
+    }
+
+    /// The samples, and the history where it is there.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let samples = self.columns().into_iter();
+        let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
+        samples.chain(self.history.iter().flat_map(History::arrays)).collect()
+    }
 }
 
 #[cfg(test)]

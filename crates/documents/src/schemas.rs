@@ -7,8 +7,11 @@ use crate::{
 };
 use schemars::{Schema, schema_for};
 
-/// Every document that has a schema: its name, which follows "stickslip/" in its `format`, and the schema.
-pub const SCHEMAS: [(&str, fn() -> Schema); 15] = [
+/// The name of a document, which follows "stickslip/" in its `format`, and its schema.
+pub type NamedSchema = (&'static str, fn() -> Schema);
+
+/// Every document that has a schema.
+pub const SCHEMAS: [NamedSchema; 15] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),

@@ -1,5 +1,6 @@
 //! `stickslip/stability`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -200,5 +201,15 @@ impl From<&Onset> for OnsetDocument {
             growth_slope: onset.growth_slope,
             lyapunov: onset.lyapunov,
         }
+    }
+}
+
+impl Tabular for StabilityDocument {
+    /// The growth exponents.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let column = |of: fn(&ComplexDocument) -> f64| {
+            Column::from(self.roots.iter().map(of).collect::<Vec<_>>())
+        };
+        vec![("re", column(|root| root.re)), ("im", column(|root| root.im))]
     }
 }

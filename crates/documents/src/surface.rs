@@ -1,5 +1,6 @@
 //! `stickslip/surface`.
 
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,4 +77,49 @@ pub struct SurfaceCurve {
     pub x: Vec<f64>,
     /// Heights there, in kσ²/a.
     pub u: Vec<f64>,
+}
+
+impl Tabular for SurfaceDocument {
+    /// A row for each place, of all times one after the other.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let Self { surfaces, images, .. } = self;
+        let Some(first) = images.first() else {
+            let joined = |of: fn(&SurfaceCurve) -> &Vec<f64>| -> Column {
+                surfaces.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+            };
+            let t: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
+            return vec![("t", t.into()), ("x", joined(|s| &s.x)), ("u", joined(|s| &s.u))];
+        };
+        let (columns, rows) = (first.x.len(), first.y.len());
+        let t: Vec<f64> = images.iter().map(|image| image.t).collect();
+        vec![
+            ("t", Column::Repeated { values: t.into(), each: columns * rows }),
+            ("x", Column::Repeated { values: (&first.x).into(), each: 1 }),
+            ("y", Column::Repeated { values: (&first.y).into(), each: columns }),
+            ("u", heights(images).into()),
+        ]
+    }
+
+    /// `u` has an axis for t, one for y in an image, and one for x.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let Self { surfaces, images, .. } = self;
+        if let Some(first) = images.first() {
+            let t: Vec<f64> = images.iter().map(|image| image.t).collect();
+            let shape = vec![images.len(), first.y.len(), first.x.len()];
+            return vec![
+                ("t", Array::vector(t)),
+                ("x", Array::vector(&first.x)),
+                ("y", Array::vector(&first.y)),
+                ("u", Array { shape, values: heights(images).into() }),
+            ];
+        }
+        let x = surfaces.first().map(|surface| surface.x.as_slice()).unwrap_or_default();
+        let t: Vec<f64> = surfaces.iter().map(|surface| surface.t).collect();
+        let u: Vec<Vec<f64>> = surfaces.iter().map(|surface| surface.u.clone()).collect();
+        vec![("t", Array::vector(t)), ("x", Array::vector(x)), ("u", Array::matrix(&u))]
+    }
+}
+
+fn heights(images: &[SurfaceImage]) -> Vec<f64> {
+    images.iter().flat_map(|image| image.u.iter().flatten().copied()).collect()
 }

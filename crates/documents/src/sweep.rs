@@ -1,5 +1,6 @@
 //! The document of `stickslip sweep`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -216,5 +217,36 @@ impl SweepPoint {
             self.amplitude_x0_error = Some(motion.amplitude_x0_error);
             self.slips = Some(motion.slips);
         }
+    }
+}
+
+impl Tabular for SweepDocument {
+    /// A row for each point. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
+            self.points.iter().map(of).collect::<Vec<_>>().into()
+        };
+        let words = |of: fn(&SweepPoint) -> Option<String>| -> Vec<String> {
+            self.points.iter().map(|point| of(point).unwrap_or_default()).collect()
+        };
+        let regimes = self.points.iter().map(|p| p.regime.map_or(f64::NAN, |r| f64::from(r as u8)));
+        let regimes = Column::Words(
+            words(|p| p.regime.map(|regime| regime.to_string())),
+            Some(regimes.collect()),
+        );
+        vec![
+            ("beta", number(|p| p.beta)),
+            ("r", number(|p| Some(p.r))),
+            ("alpha", number(|p| p.alpha)),
+            ("critical_alpha", number(|p| p.critical_alpha)),
+            ("period", number(|p| p.period)),
+            ("wavelength", number(|p| p.wavelength)),
+            ("amplitude_x0", number(|p| p.amplitude_x0)),
+            ("amplitude_u", number(|p| p.amplitude_u)),
+            ("slips", number(|p| p.slips.map(|slips| slips as f64))),
+            ("multiplier", number(|p| p.multiplier)),
+            ("regime", regimes),
+            ("source", Column::Words(words(|p| p.source.map(|source| source.to_string())), None)),
+        ]
     }
 }

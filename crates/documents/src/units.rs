@@ -1,5 +1,6 @@
 //! `stickslip/units`.
 
+use crate::table::{Column, Named, Tabular};
 use crate::{Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -147,5 +148,49 @@ impl From<Scales> for ScalesDocument {
             height: scales.height,
             force: scales.force,
         }
+    }
+}
+
+impl UnitsDocument {
+    /// Every quantity: its name, its value where it has one, and its unit.
+    pub fn quantities(&self) -> [(&'static str, Option<f64>, &'static str); 20] {
+        let Self { physical, lag, scales, critical, .. } = self;
+        [
+            ("damping", Some(physical.damping), "kg/s"),
+            ("stiffness", Some(physical.stiffness), "N/m"),
+            ("tip_width", Some(physical.tip_width), "m"),
+            ("indentation_rate", Some(physical.indentation_rate), "m/s"),
+            ("slope_force", Some(physical.slope_force), "N"),
+            ("velocity", Some(physical.velocity), "m/s"),
+            ("alpha", Some(self.alpha), "1"),
+            ("r", Some(self.r), "1"),
+            ("lag", Some(lag.metres), "m"),
+            ("lag_dimensionless", Some(lag.dimensionless), "1"),
+            ("length_scale", Some(scales.length), "m"),
+            ("time_scale", Some(scales.time), "s"),
+            ("height_scale", Some(scales.height), "m"),
+            ("force_scale", Some(scales.force), "N"),
+            ("critical_alpha", critical.alpha, "1"),
+            ("critical_indentation_rate", critical.indentation_rate, "m/s"),
+            ("critical_period", critical.period, "s"),
+            ("critical_wavelength", critical.wavelength, "m"),
+            ("critical_r", critical.r, "1"),
+            ("critical_velocity", critical.velocity, "m/s"),
+        ]
+    }
+}
+
+impl Tabular for UnitsDocument {
+    /// A row for each quantity, an empty value where there is none.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let quantities = self.quantities();
+        let words = |of: fn(&(&'static str, Option<f64>, &'static str)) -> String| {
+            Column::Words(quantities.iter().map(of).collect(), None)
+        };
+        vec![
+            ("quantity", words(|(name, _, _)| (*name).into())),
+            ("value", words(|(_, value, _)| value.map(|v| format!("{v:e}")).unwrap_or_default())),
+            ("unit", words(|(_, _, unit)| (*unit).into())),
+        ]
     }
 }

@@ -1,5 +1,6 @@
 //! `stickslip/verify`, and the same within a run.
 
+use crate::table::{Named, Tabular};
 use crate::{FORMAT_VERSION, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -131,5 +132,12 @@ impl From<&Difference> for LargestDifferenceDocument {
     fn from(difference: &Difference) -> Self {
         let Difference { largest, at, allowed } = *difference;
         Self { largest, at, allowed }
+    }
+}
+
+impl Tabular for VerifyDocument {
+    /// None: there are no columns to what was found.
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![]
     }
 }

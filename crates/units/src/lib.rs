@@ -4,7 +4,7 @@
 //! down slopes with strength a, (1) to (7). In units of σ and Γ/k
 //!
 //! ```text
-//!     r = Γ v0/(kσ)    (12)        α = Γ N a/(σ²k²)    (13)        D = (Γ v0 + N a/v0)/k    (23)
+//!     r = Γ v0/(kσ)    (12)        α = Γ N a/(σ²k²)    (13)        D = (Γ v0 + N a f(0)/v0)/k    (23)
 //! ```
 
 mod quantity;

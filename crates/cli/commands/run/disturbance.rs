@@ -1,12 +1,12 @@
 //! What the tip meets beside its own groove, read and judged.
 
-use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments};
+use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments, StartChoice};
 use crate::failure::{Failure, Typed};
 use crate::files::apart::Named;
 use crate::files::input::{Columns, read_columns, read_profile};
-use crate::message::say;
+use crate::message::remark;
 use std::path::Path;
-use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario};
+use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario, Start};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
 const DEFAULT_SEED: u64 = 1;
@@ -40,14 +40,47 @@ impl Disturbance {
 
     /// A run that starts as asked and meets all this, at the tolerance and with the memory of `Scenario::new`.
     pub(crate) fn scenario(&self, start: &StartArguments, model: Model, until: f64) -> Scenario {
+        let (start, noise) = (begin(start, &model), self.noise.or(default_noise(start.start)));
         Scenario {
-            start: start.start.into(),
-            start_position: start.start_position,
+            start: start.surface,
+            start_position: start.position,
             kick: start.kick,
-            noise: self.noise,
+            noise,
             profile: self.profile.clone(),
             force: self.force.clone(),
             ..Scenario::new(model, until)
+        }
+    }
+}
+
+/// The noise of the paper's simulations, but on a grid on which its slope is small.
+const PAPERS_NOISE: Noise = Noise { amplitude: 1e-4, spacing: 0.05, seed: DEFAULT_SEED };
+
+fn default_noise(start: StartChoice) -> Option<Noise> {
+    (start == StartChoice::Paper).then_some(PAPERS_NOISE)
+}
+
+struct Begin {
+    surface: Start,
+    position: f64,
+    kick: f64,
+}
+
+/// Surface, position and kick. The paper sets its tip down at X with the spring stretched by r + α/r on the steady
+/// surface, which it takes for flat where f has no volume (docs/corrections.md, 13).
+fn begin(start: &StartArguments, model: &Model) -> Begin {
+    let StartArguments { start, start_position: position, kick } = *start;
+    match start {
+        StartChoice::Steady => Begin { surface: Start::Steady, position, kick },
+        StartChoice::Flat => Begin { surface: Start::Flat, position, kick },
+        // Round-off of a sum of Gaussians that cancel.
+        StartChoice::Paper if model.steady_surface_behind().abs() > 1e-9 * model.alpha() => {
+            Begin { surface: Start::Steady, position, kick }
+        }
+        StartChoice::Paper => {
+            let stretched = model.r() + model.alpha() / model.r();
+            let surface = Start::Flat;
+            Begin { surface, position: position + stretched, kick: kick + stretched }
         }
     }
 }
@@ -100,7 +133,7 @@ fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, 
     } else {
         return;
     };
-    say(format_args!("stickslip: {option} has no effect: {advice}"));
+    remark(format_args!("stickslip: {option} has no effect: {advice}"));
 }
 
 fn explain(error: &ForceError, arguments: &DisturbanceArguments) -> Failure {

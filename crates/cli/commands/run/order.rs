@@ -5,10 +5,10 @@ use super::checkpoint;
 use super::disturbance::{Disturbance, files_read, warn_of_idle};
 use super::limits::within_range;
 use super::samples::sample_times;
-use crate::arguments::{DisturbanceArguments, HistoryName, RunArguments, StartArguments};
+use crate::arguments::{DisturbanceArguments, Format, HistoryName, RunArguments, StartArguments};
+use crate::commands::job;
 use crate::failure::{Failure, Typed};
 use crate::files::apart::apart;
-use crate::files::output::OutputFormat;
 use crate::files::place::resolved;
 use std::path::Path;
 use stickslip_documents::{Order, RunFormat, RunParameters};
@@ -93,10 +93,11 @@ fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if extension.is_some_and(|e| e.eq_ignore_ascii_case("jsonl")) {
         return Ok(RunFormat::Jsonl);
     }
-    Ok(match OutputFormat::or_also(arguments.output(), ", .jsonl")? {
-        OutputFormat::Json => RunFormat::Json,
-        OutputFormat::Csv => RunFormat::Csv,
-        OutputFormat::Npz => RunFormat::Npz,
+    Ok(match job::format(None, arguments.output(), ", .jsonl")? {
+        Format::Json => RunFormat::Json,
+        Format::Csv => RunFormat::Csv,
+        Format::Npz => RunFormat::Npz,
+        Format::Text => RunFormat::Text,
     })
 }
 

@@ -5,19 +5,18 @@ use super::journey::Journey;
 use super::record::Sink;
 use super::samples::are_of;
 use super::write::{self, Target};
-use super::{file, record};
+use super::{file, job, record};
 use crate::arguments::RunArguments;
-use crate::commands::figure::Figure;
+use crate::commands::fields::Fields;
 use crate::failure::Failure;
 use crate::files::apart::apart;
-use crate::files::output::Output;
 use crate::files::place::{folder_of, resolved};
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
 use crate::files::within::found_from;
-use crate::message::say;
+use crate::message::remark;
 use std::path::Path;
-use stickslip_documents::{CheckpointHead, Order, RunFormat};
+use stickslip_documents::{CheckpointHead, Order, RunEnd, RunFormat};
 use stickslip_outcome::Watched;
 use stickslip_tip::Scenario;
 
@@ -34,7 +33,6 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     let running = running.map_err(|error| named(error.to_string()))?;
     judge(&head, running.t(), &scenario).map_err(|message| named(message.into()))?;
     let order = head.order;
-    let figure = Figure::asked("--plot", order.plot.as_deref())?;
     let (target, record) = if order.format == RunFormat::Jsonl {
         let target = file("--output", &order.output)?;
         // What the run has written may have its name by now, and have kept the one from before.
@@ -42,15 +40,15 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
         let stream = Stream::resume(target, head.written, &others)?;
         let mut record = record(&order, &scenario, Sink::Lines(stream));
         record.taken = head.samples;
-        (Target::Lines, record)
+        (Target::Lines(Fields::asked::<RunEnd>(&arguments.fields.print)?), record)
     } else {
-        let output = Output::open("--output", &order.output)?;
+        let job = job(&order, &order.output, order.plot.as_deref(), &arguments.fields)?;
         let mut record = record(&order, &scenario, Sink::Memory);
         record.resume(&journal_of(checkpoint.path()), head.written, running.t())?;
-        (Target::Document(output), record)
+        (Target::Document(job), record)
     };
     let (t, until) = (running.t(), scenario.until);
-    say(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
+    remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
     let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, t));
     let mut journey = Journey { running, record, checkpoints, seconds: head.seconds };
@@ -59,7 +57,7 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
         journey.checkpoint()?;
     }
     let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target, figure)
+    write::all(&order, &scenario, &surface, travelled, target)
 }
 
 /// Where the run goes: to the places given now, or those that the checkpoint names. Whoever made that may be a

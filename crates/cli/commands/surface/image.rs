@@ -3,7 +3,7 @@
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
 use crate::failure::{Failure, Typed};
-use crate::message::say;
+use crate::message::remark;
 use stickslip_documents::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, TipFunction};
@@ -50,7 +50,7 @@ impl Images {
             } else {
                 "certain for no transverse spring k'".into()
             };
-            say(format_args!(
+            remark(format_args!(
                 "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
                  may push it off: in steady motion y0 = 0 is stable for {bound}"
             ));

@@ -7,12 +7,10 @@ mod write;
 
 pub(crate) use places::evenly;
 
-use super::figure::Figure;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::files::apart::apart;
 use crate::files::input::read_run;
-use crate::files::output::Output;
 use image::Images;
 use places::Places;
 use stickslip_documents::{
@@ -43,8 +41,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let places = Places::asked(arguments, &trajectory)?;
     let scale = Scale::asked(arguments, &model)?;
     let images = Images::asked(arguments, &model, &places)?;
-    let output = Output::open("--output", &arguments.output)?;
-    let figure = Figure::asked("--plot", arguments.plot.as_deref())?;
+    let job = format.job(arguments)?;
 
     let surface = Surface::new(&model, &initial, &trajectory);
     let result = match &images {
@@ -58,10 +55,10 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
         }
     };
-    if let Some(figure) = figure {
-        figure.draw(&result)?;
+    match format {
+        SurfaceFormat::Document(_) => job.finish(&result),
+        SurfaceFormat::Gsf => job.finish_bytes(&write::field(&result, &places, &scale), &result),
     }
-    write::write(&result, format, &places, &scale, output)
 }
 
 fn curves(

@@ -1,6 +1,6 @@
 //! Where and when a surface is asked for.
 
-use crate::arguments::SurfaceArguments;
+use crate::arguments::{Interval, SurfaceArguments};
 use crate::failure::{Failure, Typed};
 use stickslip_tip::Trajectory;
 
@@ -37,10 +37,13 @@ impl Places {
         let t = times(arguments, trajectory)?;
         let spacing = spacing("--spacing", arguments.spacing, DEFAULT_SPACING)?;
         let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
-        let across = match arguments.y_range.as_deref() {
+        let across = match &arguments.y_range {
             None => None,
-            Some(typed) => Some(range("--y-range", typed, spacing_y)?),
+            Some(typed) => {
+                Some(range(["--y-range", "--spacing-y"], typed, arguments.spacing_y, spacing_y)?)
+            }
         };
+        let spacing_y = across.as_ref().map_or(spacing_y, |across| across.spacing);
         let each = t.len() as f64 * across.as_ref().map_or(1.0, Range::points);
         if let Some(x) = &arguments.x {
             if let Some(x) = x.iter().find(|x| !x.is_finite()) {
@@ -52,13 +55,14 @@ impl Places {
             })?;
             return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
         }
-        let along = match arguments.range.as_deref() {
+        let along = match &arguments.range {
             None => {
                 let (low, high) = default_range(trajectory);
                 Range { low, high, spacing }
             }
-            Some(typed) => range("--range", typed, spacing)?,
+            Some(typed) => range(["--range", "--spacing"], typed, arguments.spacing, spacing)?,
         };
+        let spacing = along.spacing;
         let x = along.positions("--spacing", each)?;
         let y = across.map_or(Ok(vec![]), |across| across.positions("--spacing-y", 1.0))?;
         Ok(Self { t, x, spacing: Some(spacing), y, spacing_y })
@@ -89,15 +93,22 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
     }
 }
 
-fn range(option: &str, typed: &[f64], spacing: f64) -> Result<Range, Failure> {
-    match *typed {
-        [low, high] if low.is_finite() && high.is_finite() && low < high => {
-            Ok(Range { low, high, spacing })
+/// A range with the spacing that its number of values makes, or else with the other option's.
+fn range(
+    [option, other]: [&str; 2],
+    typed: &Interval,
+    given: Option<f64>,
+    spacing: f64,
+) -> Result<Range, Failure> {
+    let (low, high) = typed.ends(option)?;
+    match (typed.points(option)?, given) {
+        (None, _) => Ok(Range { low, high, spacing }),
+        (Some(points), None) => {
+            Ok(Range { low, high, spacing: (high - low) / (points - 1) as f64 })
         }
-        _ => {
-            let typed: Vec<String> = typed.iter().map(|x| Typed(*x).to_string()).collect();
-            let advice = "needs two finite numbers LO,HI with LO below HI";
-            Err(Failure::input(format!("{option} {}", typed.join(",")), advice))
+        (Some(_), Some(_)) => {
+            let message = format!("says how many values there are, and {other} too: leave one out");
+            Err(typed.refused(option, message))
         }
     }
 }

@@ -2,18 +2,16 @@
 
 use super::places::Places;
 use super::units::Scale;
-use crate::arguments::SurfaceArguments;
+use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::job::{Job, format};
 use crate::failure::Failure;
 use crate::files::gsf::{Field, gsf};
-use crate::files::npz::Npz;
-use crate::files::output::{Output, OutputFormat};
-use std::io::{self, Write};
-use stickslip_documents::{SurfaceDocument, SurfaceImage};
+use stickslip_documents::SurfaceDocument;
 
 /// What is written: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SurfaceFormat {
-    Document(OutputFormat),
+    Document(Format),
     /// Gwyddion Simple Field.
     Gsf,
 }
@@ -24,18 +22,18 @@ impl SurfaceFormat {
         let path = &arguments.output;
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let refused = |what: String, advice: &str| Err(Failure::input(what, advice));
-        if extension.as_deref() != Some("gsf") {
+        if extension.as_deref() != Some("gsf") || arguments.format.is_some() {
             if let Some(units) = &arguments.units {
                 let named = format!("--units {}", units.display());
                 let advice =
                     "only .gsf files carry units: name the output so, or leave the option out";
                 return refused(named, advice);
             }
-            return OutputFormat::or_also(path, ", .gsf").map(Self::Document);
+            return format(arguments.format, path, ", .gsf").map(Self::Document);
         }
         let named = format!("--output {}", path.display());
         if arguments.y_range.is_none() {
-            return refused(named, "a .gsf file holds an image: give --y-range LO,HI too");
+            return refused(named, "a .gsf file holds an image: give --y-range LO:HI too");
         }
         if arguments.x.is_some() {
             let advice =
@@ -51,69 +49,20 @@ impl SurfaceFormat {
     }
 }
 
-pub(super) fn write(
-    document: &SurfaceDocument,
-    format: SurfaceFormat,
-    places: &Places,
-    scale: &Scale,
-    output: Output,
-) -> Result<(), Failure> {
-    match format {
-        SurfaceFormat::Document(OutputFormat::Json) => output.write_json(document),
-        SurfaceFormat::Document(OutputFormat::Csv) => csv(document, output),
-        SurfaceFormat::Document(OutputFormat::Npz) => npz(document, places, output),
-        SurfaceFormat::Gsf => output.write_bytes(&field(document, places, scale)),
+impl SurfaceFormat {
+    /// Where surfaces go.
+    pub(super) fn job(self, arguments: &SurfaceArguments) -> Result<Job, Failure> {
+        let format = match self {
+            Self::Document(format) => format,
+            Self::Gsf => Format::Json,
+        };
+        let (output, plot) = (&arguments.output, arguments.plot.as_deref());
+        Job::of_format::<SurfaceDocument>(format, output, &arguments.fields, plot)
     }
 }
 
-fn csv(document: &SurfaceDocument, output: Output) -> Result<(), Failure> {
-    let SurfaceDocument { surfaces, images, .. } = document;
-    if images.is_empty() {
-        let t: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
-        let x: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().copied()).collect();
-        let u: Vec<f64> = surfaces.iter().flat_map(|s| s.u.iter().copied()).collect();
-        return output.write_csv("t,x,u", &[&t, &x, &u]);
-    }
-    output.write_with(|out| {
-        writeln!(out, "t,x,y,u")?;
-        images.iter().try_for_each(|image| write_image(image, out))
-    })
-}
-
-/// A line a point. The text of a position serves for its whole row or column: shortest digits are what
-/// takes the time.
-fn write_image(image: &SurfaceImage, out: &mut dyn Write) -> io::Result<()> {
-    let starts: Vec<String> = image.x.iter().map(|x| format!("{},{x},", image.t)).collect();
-    let mut lines = String::new();
-    for (y, row) in image.y.iter().zip(&image.u) {
-        let y = format!("{y},");
-        lines.clear();
-        for (start, u) in starts.iter().zip(row) {
-            lines.extend([start, &y, &u.to_string(), "\n"]);
-        }
-        out.write_all(lines.as_bytes())?;
-    }
-    Ok(())
-}
-
-/// `u` has an axis for t, one for y in an image, and one for x.
-fn npz(document: &SurfaceDocument, places: &Places, output: Output) -> Result<(), Failure> {
-    let SurfaceDocument { surfaces, images, .. } = document;
-    let mut npz = Npz::new();
-    npz.vector("t", &places.t)?;
-    npz.vector("x", &places.x)?;
-    if images.is_empty() {
-        npz.matrix("u", &surfaces.iter().map(|s| s.u.clone()).collect::<Vec<_>>())?;
-    } else {
-        npz.vector("y", &places.y)?;
-        let shape = [images.len(), places.y.len(), places.x.len()];
-        let values = images.iter().flat_map(|image| image.u.concat()).collect();
-        npz.cube("u", shape, values)?;
-    }
-    output.write_bytes(&npz.bytes()?)
-}
-
-fn field(document: &SurfaceDocument, places: &Places, scale: &Scale) -> Vec<u8> {
+/// The image, for Gwyddion.
+pub(super) fn field(document: &SurfaceDocument, places: &Places, scale: &Scale) -> Vec<u8> {
     let image = &document.images[0];
     let model = &document.parameters.model;
     gsf(&Field {

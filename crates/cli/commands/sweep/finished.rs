@@ -6,7 +6,7 @@ use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
 use crate::files::beside;
 use crate::files::place::IN_USE;
-use crate::message::say;
+use crate::message::remark;
 use serde::Serialize;
 use std::collections::HashSet;
 use std::fs::File;
@@ -116,7 +116,7 @@ impl Kept {
             let path = self.path.display();
             let fate = "the points are in memory alone: an interrupt loses them; at the end they are written to \
                         --output or, where that cannot be, to a temporary file";
-            say(format_args!("stickslip: {path} was removed; {fate}"));
+            remark(format_args!("stickslip: {path} was removed; {fate}"));
         }
     }
 }
@@ -208,7 +208,7 @@ fn read(
     }
     if damaged > 0 {
         let path = path.display();
-        say(format_args!(
+        remark(format_args!(
             "stickslip: {damaged} lines of {path} are damaged: their points are computed again"
         ));
     }

@@ -1,10 +1,10 @@
 //! `stickslip sweep merge`.
 
-use super::write::Writer;
-use super::{checksum, sealed};
+use super::{checksum, job, sealed};
 use crate::arguments::MergeArguments;
+use crate::commands::job::judge_places;
 use crate::failure::Failure;
-use crate::files::apart::{Named, apart};
+use crate::files::apart::Named;
 use crate::files::input::read_document;
 use crate::message::say;
 use std::path::Path;
@@ -12,10 +12,9 @@ use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
-    let (output, plot) = (arguments.output.as_path(), arguments.plot.as_deref());
     let named: Vec<Named> =
         arguments.parts.iter().map(|part| ("PART.json", Some(&**part))).collect();
-    apart(&[("--output", Some(output)), ("--plot", plot)], &named)?;
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
     let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")
@@ -42,7 +41,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
     let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
-    Writer::asked(output, plot, &whole.parameters)?.write(&whole)
+    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(&whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {

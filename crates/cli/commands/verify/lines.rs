@@ -1,9 +1,9 @@
 //! The verification of a run written as lines: read twice, and never held.
 
-use super::{repeated, said_of};
+use super::{job, repeated, said_of};
+use crate::arguments::OutletArguments;
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
-use crate::files::output::Output;
 use std::cell::RefCell;
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -19,11 +19,11 @@ const FIRST: u64 = 2;
 
 /// First all lines are looked at, which takes seconds: what is damaged or cut off is known before the run is
 /// repeated. Then they are compared, one by one, with the repetition.
-pub(super) fn verify(path: &Path, file: &File, output: &Path) -> Result<(), Failure> {
+pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Result<(), Failure> {
     let named = format!("RUN.jsonl {}", path.display());
     let (head, scenario, extent) = survey(file).map_err(|flaw| refused(flaw, &named))?;
     let until = until(&scenario, &extent).map_err(|flaw| refused(flaw, &named))?;
-    let output = Output::open("--output", output)?;
+    let job = job(outlet)?;
     let memory = memory(&scenario, &extent);
     let samples = Samples { file, number: extent.samples, flaw: RefCell::default() };
     let found = repeated(|observe| {
@@ -40,7 +40,8 @@ pub(super) fn verify(path: &Path, file: &File, output: &Path) -> Result<(), Fail
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
     let verification = VerificationDocument::from(&found);
     let failure = failure(&verification, &lines, &scenario, &named);
-    output.write_json(&VerifyDocument::new(head.parameters, verification, Some(lines)))?;
+    let job = job.silent_if(failure.is_some());
+    job.write(&VerifyDocument::new(head.parameters, verification, Some(lines)))?;
     failure.map_or(Ok(()), Err)
 }
 

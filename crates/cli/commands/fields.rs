@@ -1,0 +1,122 @@
+//! `--print FIELD`: single fields of a document, by their path.
+
+use crate::failure::Failure;
+use schemars::{JsonSchema, schema_for};
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// Fields asked for, all of which the document may have.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Fields(Vec<String>);
+
+impl Fields {
+    /// # Errors
+    /// A document of this kind has no such field: those that it has are named.
+    pub(crate) fn asked<D: JsonSchema>(paths: &[String]) -> Result<Self, Failure> {
+        let schema = schema_for!(D).to_value();
+        paths.iter().try_for_each(|path| judge(&schema, path))?;
+        Ok(Self(paths.to_vec()))
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// A line for each, in the order asked for: numbers as in the document, words without quotes, null where there
+    /// is no value.
+    pub(crate) fn of(&self, document: &impl Serialize) -> Result<String, Failure> {
+        let document = serde_json::to_value(document);
+        let document = document.map_err(|error| Failure::Run(error.to_string()))?;
+        Ok(self.0.iter().map(|path| format!("{}\n", shown(&document, path))).collect())
+    }
+}
+
+fn shown(document: &Value, path: &str) -> String {
+    let step = |value: Value, name: &str| match (value, name.parse::<usize>()) {
+        (Value::Array(mut values), Ok(i)) if i < values.len() => values.swap_remove(i),
+        (Value::Object(mut fields), _) => fields.remove(name).unwrap_or_default(),
+        _ => Value::Null,
+    };
+    match path.split('.').fold(document.clone(), step) {
+        Value::String(text) => text,
+        value => value.to_string(),
+    }
+}
+
+fn judge(schema: &Value, path: &str) -> Result<(), Failure> {
+    let mut at = vec![schema];
+    let mut before = String::new();
+    for name in path.split('.') {
+        let kinds: Vec<&Value> = at.iter().flat_map(|kind| kinds(schema, kind)).collect();
+        let next: Vec<&Value> = kinds.iter().filter_map(|kind| below(kind, name)).collect();
+        if next.is_empty() {
+            return Err(unknown(path, &before, &kinds));
+        }
+        before = format!("{before}{name}.");
+        at = next;
+    }
+    Ok(())
+}
+
+/// What a schema may stand for: references and alternatives resolved.
+fn kinds<'a>(root: &'a Value, schema: &'a Value) -> Vec<&'a Value> {
+    let reference = schema["$ref"].as_str().and_then(|name| name.strip_prefix('#'));
+    let referred = reference.and_then(|pointer| root.pointer(pointer));
+    let parts = ["anyOf", "oneOf", "allOf"].into_iter().filter_map(|name| schema[name].as_array());
+    let parts = parts.flatten().chain(referred);
+    std::iter::once(schema).chain(parts.flat_map(|part| kinds(root, part))).collect()
+}
+
+/// The schema of a field, or of an entry.
+fn below<'a>(kind: &'a Value, name: &str) -> Option<&'a Value> {
+    let field = kind["properties"].get(name);
+    let entry = || kind.get("items").filter(|_| name.parse::<usize>().is_ok());
+    field.or_else(entry)
+}
+
+fn unknown(path: &str, before: &str, kinds: &[&Value]) -> Failure {
+    let fields = kinds.iter().filter_map(|kind| kind["properties"].as_object());
+    let names: BTreeSet<&String> = fields.flat_map(serde_json::Map::keys).collect();
+    let names: Vec<String> = names.into_iter().map(|name| format!("{before}{name}")).collect();
+    let has_entries = kinds.iter().any(|kind| kind.get("items").is_some());
+    let advice = match (names.is_empty(), has_entries) {
+        (false, _) => format!("there are {}", names.join(", ")),
+        (true, true) => format!("{before}0 is the first entry there"),
+        (true, false) => format!("{} has no fields", before.trim_end_matches('.')),
+    };
+    Failure::input(format!("--print {path}"), format!("there is no such field: {advice}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_documents::{RunDocument, StabilityDocument};
+
+    #[test]
+    fn fields_are_found_through_references_options_and_entries() {
+        let good = [
+            "oscillation.period",
+            "parameters.alpha",
+            "parameters.tip.gaussians.0.width",
+            "history.displacement.0.5",
+            "work",
+        ];
+        let good = good.map(String::from);
+        assert!(Fields::asked::<RunDocument>(&good).is_ok());
+        for bad in ["period", "oscillation.perod", "samples.t.first", "regime.x", ""] {
+            let refused = Fields::asked::<RunDocument>(&[bad.into()]).unwrap_err().to_string();
+            assert!(refused.contains("there is no such field"), "{refused}");
+        }
+        let refused = Fields::asked::<StabilityDocument>(&["critical.x".into()]).unwrap_err();
+        assert!(refused.to_string().contains("critical.alpha, critical.omega"), "{refused}");
+    }
+
+    #[test]
+    fn values_are_those_of_the_document() {
+        let document = serde_json::json!({"a": {"b": [1.5, null]}, "name": "x y", "none": null});
+        let fields = ["a.b.0", "a.b.1", "a.b.7", "name", "none", "a"].map(String::from);
+        let shown = Fields(fields.into()).of(&document).unwrap();
+        assert_eq!(shown, "1.5\nnull\nnull\nx y\nnull\n{\"b\":[1.5,null]}\n");
+    }
+}

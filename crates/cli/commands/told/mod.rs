@@ -1,0 +1,156 @@
+//! What was found, for a person: a line or two, aligned values with their errors, and what to try next.
+
+mod cycles;
+mod linear;
+mod others;
+mod run;
+mod verify;
+
+pub(in crate::commands) use run::{of_lines, of_run};
+
+use std::fmt::Write;
+
+/// What a person is told of a result.
+#[derive(Debug, Default)]
+pub(crate) struct Told {
+    headline: String,
+    rows: Vec<(String, String)>,
+    remarks: Vec<String>,
+    next: Vec<String>,
+}
+
+impl Told {
+    /// What was found, and whether what was promised is kept, in a line or two: all that is said beside a file.
+    pub(crate) fn new(headline: impl Into<String>) -> Self {
+        Self { headline: headline.into(), ..Self::default() }
+    }
+
+    /// A value under its name.
+    #[must_use]
+    pub(crate) fn row(mut self, name: &str, value: impl Into<String>) -> Self {
+        self.rows.push((name.into(), value.into()));
+        self
+    }
+
+    /// The same, if there is one.
+    #[must_use]
+    pub(crate) fn maybe(self, name: &str, value: Option<String>) -> Self {
+        match value {
+            Some(value) => self.row(name, value),
+            None => self,
+        }
+    }
+
+    /// What a reader should know.
+    #[must_use]
+    pub(crate) fn remarks(mut self, remarks: &[String]) -> Self {
+        self.remarks.extend_from_slice(remarks);
+        self
+    }
+
+    /// A command to try.
+    #[must_use]
+    pub(crate) fn next(mut self, command: impl Into<String>) -> Self {
+        self.next.push(command.into());
+        self
+    }
+
+    /// What is said beside a file: what was found, and what should be known of it.
+    pub(crate) fn in_short(&self) -> String {
+        let remarks = self.remarks.iter().map(|remark| format!("\nremark: {remark}"));
+        self.headline.clone() + &remarks.collect::<String>()
+    }
+
+    /// All of it, in lines.
+    pub(crate) fn text(&self) -> String {
+        let width = self.rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        let mut text = format!("{}\n", self.headline.trim_end());
+        for (name, value) in &self.rows {
+            let gap = width - name.chars().count();
+            // A String takes all that is written to it.
+            writeln!(text, "  {name}{:gap$}  {value}", "").ok();
+        }
+        for remark in &self.remarks {
+            writeln!(text, "  remark: {remark}").ok();
+        }
+        for command in &self.next {
+            writeln!(text, "next: {command}").ok();
+        }
+        text
+    }
+}
+
+/// The command as it was typed, but for where its result goes, with more options in place of those of the same name.
+pub(crate) fn again(more: &str) -> String {
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    typed(words, more)
+}
+
+/// Of each, the value goes with the option.
+const OUTLET: [&str; 4] = ["-o", "--output", "--plot", "--format"];
+
+fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
+    let is_replaced = |name: &str| OUTLET.contains(&name) || more.split(' ').any(|m| m == name);
+    let mut kept = vec![];
+    while let Some(word) = words.next() {
+        let (name, value) = word.split_once('=').unwrap_or((&word, ""));
+        if !(name.starts_with('-') && is_replaced(name)) {
+            kept.push(quoted(word));
+        } else if value.is_empty() {
+            words.next();
+        }
+    }
+    format!("stickslip {} {more}", kept.join(" "))
+}
+
+fn quoted(word: String) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
+}
+
+/// With so many digits that count, as few as it needs.
+pub(crate) fn digits(value: f64, count: usize) -> String {
+    let exponent = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    if !value.is_finite() || !(-5..15).contains(&exponent) {
+        let mantissa = format!("{value:.*e}", count - 1);
+        let Some((number, exponent)) = mantissa.split_once('e') else { return mantissa };
+        return format!("{}e{exponent}", without_zeros(number));
+    }
+    let decimals = usize::try_from(count as i32 - 1 - exponent).unwrap_or(0);
+    without_zeros(&format!("{value:.decimals$}")).into()
+}
+
+fn without_zeros(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_stand_below_each_other() {
+        let told =
+            Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
+        let told = told.remarks(&["few".into()]).next("stickslip units");
+        let text =
+            "steady: t = 5\n  α       1.2\n  period  6\n  remark: few\nnext: stickslip units\n";
+        assert_eq!(told.text(), text);
+    }
+
+    #[test]
+    fn digits_are_those_that_count() {
+        let cases = [(1.0690361749, 7), (0.0, 7), (2e-9, 3), (1234567.0, 7), (-0.5, 3), (1e300, 4)];
+        let shown = cases.map(|(value, count)| digits(value, count));
+        assert_eq!(shown, ["1.069036", "0", "2e-9", "1234567", "-0.5", "1e300"]);
+    }
+
+    #[test]
+    fn a_command_is_typed_again_with_other_options() {
+        let words = ["run", "--alpha", "1.2", "--until", "40", "--format=text", "-o", "a b.json"];
+        let again = typed(words.map(String::from).into_iter(), "--until 160 --plot run.svg");
+        assert_eq!(again, "stickslip run --alpha 1.2 --until 160 --plot run.svg");
+        let again = typed(["surface", "a b.json"].map(String::from).into_iter(), "-o s.csv");
+        assert_eq!(again, "stickslip surface 'a b.json' -o s.csv");
+    }
+}

@@ -69,6 +69,10 @@ pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result
     serde_json::from_reader(whole).map_err(|error| match error.classify() {
         Category::Data => Unusable(format!("damaged: {error}")),
         Category::Io => unreadable(&error),
+        // JSON allows it, and only its size is wrong.
+        Category::Syntax if error.to_string().starts_with("number out of range") => {
+            Unusable(format!("damaged: {error}"))
+        }
         Category::Syntax | Category::Eof => no_document(&error, wanted),
     })
 }

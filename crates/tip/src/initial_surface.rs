@@ -5,19 +5,8 @@
 //! with a factor α; from (14) it is -u0'(x0), for u0 is a height.
 
 use crate::Model;
-use crate::relief::{Piece, Relief};
+use crate::relief::{Noise, Piece, Relief};
 use crate::series::SeriesError;
-
-/// White noise on a grid, made smooth by a cubic spline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
-    /// Heights are uniform in [-amplitude, amplitude]; 0 or above.
-    pub amplitude: f64,
-    /// Distance of the grid points. White noise has no limit as it goes to 0: it is part of the start.
-    pub spacing: f64,
-    /// Seed of the `ChaCha8` stream that the heights are drawn from, left to right.
-    pub seed: u64,
-}
 
 /// u0(x): the sum of what the surface held before.
 #[derive(Debug, Clone, Default)]

@@ -1,6 +1,5 @@
 //! One thing that the surface held before the run: a profile of height, with two derivatives.
 
-use crate::initial_surface::Noise;
 use crate::series::{SeriesError, checked};
 use crate::spline::CubicSpline;
 use crate::{Model, TipFunction};
@@ -10,6 +9,17 @@ use rand_chacha::ChaCha8Rng;
 /// A height as a function of x, smooth but for breaks at known places.
 #[derive(Debug, Clone)]
 pub struct Relief(Shape);
+
+/// White noise on a grid, made smooth by a cubic spline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Heights are uniform in [-amplitude, amplitude]; 0 or above.
+    pub amplitude: f64,
+    /// Distance of the grid points. White noise has no limit as it goes to 0: it is part of the start.
+    pub spacing: f64,
+    /// Seed of the `ChaCha8` stream that the heights are drawn from, left to right.
+    pub seed: u64,
+}
 
 #[derive(Debug, Clone)]
 enum Shape {

@@ -1,6 +1,6 @@
 //! The definition: a sum over visits. The oracle for the other sums.
 
-use super::Groove;
+use super::groove::{Groove, range};
 use super::record::Record;
 use crate::TipFunction;
 use crate::collocation::{STAGES, Stages};
@@ -10,7 +10,7 @@ use crate::collocation::{STAGES, Stages};
 /// It costs as much as there are visits within reach, and a look at every block of them.
 pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mut Groove<'_>) {
     let position = record.position();
-    let (low, high) = super::range(at);
+    let (low, high) = range(at);
     let near = record.blocks_near(position + low, position + high);
     groove.clear();
     add(near.flatten().copied(), tip, (position, at), groove);

@@ -2,7 +2,8 @@
 
 mod saved;
 
-use super::{Groove, direct, longest_look};
+use super::direct;
+use super::groove::{Groove, longest_look};
 use crate::TipFunction;
 use crate::collocation::STAGES;
 use std::ops::Range;
@@ -93,7 +94,7 @@ impl Fft {
         fft
     }
 
-    /// As [`Memory::remember`](super::Memory::remember).
+    /// As [`Memory::remember`](super::groove::Memory::remember).
     pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) -> Lattice {
         let Some(moved) = position.last() else { return Lattice::Same };
         let here = self.position;
@@ -103,7 +104,7 @@ impl Fft {
         if self.pending.len() >= self.most_pending || strayed { self.fold() } else { Lattice::Same }
     }
 
-    /// As [`Memory::groove`](super::Memory::groove).
+    /// As [`Memory::groove`](super::groove::Memory::groove).
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         let told = groove.slope.iter_mut().zip(groove.curvature.iter_mut());
         for (at, (slope, curvature)) in at.iter().zip(told) {

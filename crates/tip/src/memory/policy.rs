@@ -2,11 +2,13 @@
 
 mod saved;
 
+use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
+use super::direct;
 use super::fft::{Fft, Lattice};
+use super::groove::{Groove, Memory, range};
 use super::modes::{Fit, FitError, Modes};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
-use super::{Groove, Memory, MemoryChoice, direct};
 use crate::TipFunction;
 use std::sync::Arc;
 
@@ -39,15 +41,6 @@ struct Retreats {
     fft: Option<Box<Fft>>,
     count: u64,
 }
-
-/// Nodes within reach from which a direct sum is the dearer one. A step costs the others less than a direct
-/// sum over six nodes, but the plan of `fft` takes some 30 µs and the fit of `modes`, made once for a
-/// footprint and an accuracy, some 300 µs: as much as the first 8 or 20 steps of a direct sum
-/// (benches/memory.rs).
-pub const CROSSOVER_NODES: usize = 48;
-
-/// Remembered steps from which a direct sum is the dearer one, wherever they lie: `direct` looks through them all.
-pub const CROSSOVER_STEPS: usize = 1024;
 
 impl Policy {
     /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`.
@@ -180,7 +173,7 @@ impl Memory for Policy {
                     modes.groove(at, groove);
                 } else {
                     // An iteration gone astray, or the last step before a retreat is noticed.
-                    let (low, high) = super::range(at);
+                    let (low, high) = range(at);
                     groove.clear();
                     direct::add(record.near(low, high), &self.tip, (0.0, at), groove);
                 }

@@ -91,7 +91,7 @@ impl Record {
         self.nodes.push((self.position + position, weight));
     }
 
-    /// As [`Memory::remember`](super::Memory::remember).
+    /// As [`Memory::remember`](super::groove::Memory::remember).
     pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(moved) = position.last() else { return };
         let (whole, rest) = position.as_chunks::<STAGES>();

@@ -1,6 +1,7 @@
 //! What is worth knowing of a memory, as data and in a sentence.
 
-use super::{CROSSOVER_NODES, CROSSOVER_STEPS, FitCertificate, FitError, MemoryChoice};
+use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
+use super::modes::{FitCertificate, FitError};
 
 /// Which sum over the past was in use, and why.
 #[derive(Debug, Clone, PartialEq)]

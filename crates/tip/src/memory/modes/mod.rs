@@ -14,7 +14,7 @@ pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub use term::Term;
 
-use super::Groove;
+use super::groove::{Groove, range};
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
@@ -72,7 +72,7 @@ impl Modes {
         self.farthest = self.farthest.max(position);
     }
 
-    /// As [`Memory::remember`](super::Memory::remember).
+    /// As [`Memory::remember`](super::groove::Memory::remember).
     pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         self.pass(position);
         self.bank.advance(position, weight);
@@ -92,10 +92,10 @@ impl Modes {
         visits.for_each(|(position, weight)| self.bank.add(position, weight));
     }
 
-    /// As [`Memory::groove`](super::Memory::groove), where the sum holds.
+    /// As [`Memory::groove`](super::groove::Memory::groove), where the sum holds.
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         if !self.groove.holds(at) {
-            let (low, high) = super::range(at);
+            let (low, high) = range(at);
             let (center, radius) = (0.5 * (low + high), 0.5 * BEYOND_THE_STAGES * (high - low));
             if !self.bank.expand(center, radius, &mut self.groove) {
                 self.groove.forget();

@@ -5,13 +5,15 @@ PLOT ?= run.svg
 # Cases of each of six parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
+# Runs of `make judge`.
+RUNS ?= 1000
 
 # Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
 trial := --locked --profile trial --no-default-features
 stickslip = $(CARGO) build $(trial) && echo 'stickslip $(1)' && $(CARGO) run $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive check outputs bench work-precision figures peers fuzz doc install clean
+.PHONY: help run test survive judge check outputs bench work-precision figures peers fuzz doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -25,6 +27,9 @@ test: ## all tests of the workspace
 
 survive: ## the long tests: 200 kills, 200 pairs of writers, 500 flipped bits, forged checkpoints, ten million time units
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
+
+judge: ## 1,000 random runs, each against one ten times as long: regimes, errors, prospects
+	CASES=$(RUNS) $(CARGO) test --release --locked -p stickslip-outcome --test judged_runs -- --ignored --nocapture
 
 check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) fmt --all --check

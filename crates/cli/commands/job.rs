@@ -86,10 +86,10 @@ impl Job {
 
     /// Draws, writes and tells the result.
     pub(crate) fn finish<P: Product + Drawn>(mut self, product: &P) -> Result<(), Failure> {
-        if let Some(figure) = self.figure.take() {
-            figure.draw(product)?;
-        }
-        self.write(product)
+        // The document first: a picture that fails costs no result.
+        let figure = self.figure.take();
+        self.write(product)?;
+        figure.map_or(Ok(()), |figure| figure.draw(product))
     }
 
     /// Writes and tells a result that is not drawn.
@@ -122,11 +122,10 @@ impl Job {
         bytes: &[u8],
         product: &P,
     ) -> Result<(), Failure> {
-        if let Some(figure) = self.figure.take() {
-            figure.draw(product)?;
-        }
+        let figure = self.figure.take();
         self.output.write_bytes(bytes)?;
-        after(product, &product.told(), &self.fields, self.is_told)
+        after(product, &product.told(), &self.fields, self.is_told)?;
+        figure.map_or(Ok(()), |figure| figure.draw(product))
     }
 }
 

@@ -1,6 +1,6 @@
 //! `stickslip/continue`.
 
-use crate::table::{Column, Named, Tabular};
+use crate::table::{Array, Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -242,5 +242,17 @@ impl Tabular for ContinueDocument {
             ("multiplier_re", joined(|b| &b.multiplier_re)),
             ("multiplier_im", joined(|b| &b.multiplier_im)),
         ]
+    }
+
+    fn note(&self) -> Option<String> {
+        self.interrupted.then(|| "interrupted: more of the branches was asked for".into())
+    }
+
+    /// A branch cut short says so.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let columns = self.columns().into_iter();
+        let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
+        let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
+        columns.chain(mark).collect()
     }
 }

@@ -26,12 +26,24 @@ pub struct CycleDocument {
     pub parameters: CycleParameters,
     /// T, in Γ/k.
     pub period: f64,
+    /// Error of `period`, in Γ/k.
+    #[serde(default)]
+    pub period_error: Option<f64>,
     /// rT, that of the surface left behind, in σ.
     pub wavelength: f64,
+    /// Error of `wavelength`, in σ.
+    #[serde(default)]
+    pub wavelength_error: Option<f64>,
     /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
     pub amplitude_x0: f64,
+    /// Error of `amplitude_x0`, in σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
     /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
     pub amplitude_u: f64,
+    /// Error of `amplitude_u`, in kσ²/a.
+    #[serde(default)]
+    pub amplitude_u_error: Option<f64>,
     /// Maxima of l in one period.
     pub slips: usize,
     /// One period from where l is largest, sampled at uneven times: densely where the motion is fast.
@@ -65,9 +77,13 @@ impl CycleDocument {
             software: Software::this(),
             parameters,
             period: cycle.period(),
+            period_error: Some(cycle.error()),
             wavelength: cycle.wavelength(),
+            wavelength_error: Some(cycle.model().r() * cycle.error()),
             amplitude_x0: cycle.amplitude_x0(),
+            amplitude_x0_error: Some(cycle.error()),
             amplitude_u: cycle.amplitude_u(),
+            amplitude_u_error: Some(cycle.amplitude_u_error()),
             slips: cycle.slips(),
             profile: CycleProfile::of(cycle, points),
             floquet: multipliers.iter().map(|m| ComplexDocument { re: m.re, im: m.im }).collect(),

@@ -67,9 +67,11 @@ pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result
     let (kind, whole) = told(source, wanted)?;
     kind.judge(wanted)?;
     serde_json::from_reader(whole).map_err(|error| match error.classify() {
-        Category::Data => Unusable(format!("damaged: {error}")),
         Category::Io => unreadable(&error),
-        Category::Syntax | Category::Eof => no_document(&error, wanted),
+        Category::Data => Unusable(format!("damaged: {error}")),
+        Category::Syntax | Category::Eof => {
+            Unusable(format!("damaged, or {}", no_document(&error, wanted)))
+        }
     })
 }
 
@@ -182,7 +184,7 @@ mod tests {
             ("0.1,0.2\n", "not a whole JSON document"),
             ("{\"format\":\"stickslip/run\",\"format_version\":1,", "format is stickslip/run"),
             ("{\"format\":\"stickslip/sweep\",\"format_version\":7,", "format_version is 7"),
-            ("{\"format\":\"stickslip/sweep\",\"format_version\":1,\"points\":[", "not a whole"),
+            ("{\"format\":\"stickslip/sweep\",\"format_version\":1,\"points\":[", "damaged"),
             ("{\"points\":[1,2,3],\"format_version\":1,", "not a whole"),
         ];
         for (begins, words) in begins {

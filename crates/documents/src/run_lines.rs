@@ -17,7 +17,7 @@ pub enum RunLine {
     /// A sample.
     Sample(SampleLine),
     /// The last line.
-    End(RunEnd),
+    End(Box<RunEnd>),
 }
 
 /// What is run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.

@@ -184,14 +184,15 @@ impl End<'_> {
             return None;
         }
         let Scenario { model, tolerance, .. } = self.scenario;
-        let mut unstable: Option<Reference> = None;
+        let (mut unstable, mut missed): (Option<Reference>, Option<usize>) = (None, None);
         for slips in sequence.likely_slips(SETTLED * swing) {
-            let found = Reference::of(model, *tolerance, &self.tail, &self.extrema, slips);
+            // A motion that repeats itself is on a cycle, and worth another try.
+            let repeats = sequence.change(slips, 0).is_some_and(|change| change <= SETTLED * swing);
+            let tries = if repeats { 2 } else { 1 };
+            let (tail, extrema) = (&self.tail, &self.extrema);
+            let found = Reference::of(model, *tolerance, tail, extrema, slips, tries);
             let Some(found) = found else {
-                let repeats = self.extrapolated(&sequence, slips);
-                if repeats.is_some() {
-                    return repeats;
-                }
+                missed.get_or_insert(slips);
                 continue;
             };
             if found.gap() > ON_THE_CIRCLE && found.distance() < BESIDE {
@@ -201,10 +202,10 @@ impl End<'_> {
                 unstable.get_or_insert(found);
             }
         }
-        if let Some(unstable) = unstable {
-            return Some(self.beside_unstable(&unstable));
-        }
-        None
+        // A cycle may be there that Newton's method did not reach.
+        let repeats =
+            missed.and_then(|slips| self.extrapolated(&sequence, slips, unstable.as_ref()));
+        repeats.or_else(|| unstable.map(|unstable| self.beside_unstable(&unstable)))
     }
 
     /// Whether small swings about l0 grow or decay as linear theory has it: then no cycle is near.
@@ -264,28 +265,35 @@ impl End<'_> {
     }
 
     /// Where no cycle is to be had, an oscillation whose changes from period to period die out.
-    fn extrapolated(&self, sequence: &Sequence, slips: usize) -> Option<Outcome> {
+    fn extrapolated(
+        &self,
+        sequence: &Sequence,
+        slips: usize,
+        unstable: Option<&Reference>,
+    ) -> Option<Outcome> {
         let (_, growth) = sequence.swing()?;
         let tolerance = self.scenario.tolerance;
         let found = motion::Oscillation::with_slips(&self.tail, &self.extrema, slips)?;
         let change = (0..3)
             .map(|back| sequence.change(slips, back))
             .try_fold(0.0_f64, |a, b| Some(a.max(b?)))?;
-        // Near onset a cycle attracts at twice the rate at which steady motion repels or attracts.
-        let slowest = match self.linear {
-            Linear::Stable(Slowest { rate, .. }) | Linear::Unstable(Slowest { rate, .. }) => {
-                -(-2.0 * rate * found.period).exp_m1()
-            }
-            Linear::Unknown => return None,
+        // Near onset a cycle attracts at twice the rate at which steady motion repels or attracts, and beyond a
+        // period doubling at twice that at which the old one repels.
+        let (Linear::Stable(Slowest { rate, .. }) | Linear::Unstable(Slowest { rate, .. })) =
+            self.linear
+        else {
+            return None;
         };
-        let factor = sequence.factor(slips)?;
+        let onset = -(-2.0 * rate * found.period).exp_m1();
+        let doubling = unstable.map_or(1.0, |old| 2.0 * (old.multiplier.powi(2) - 1.0).abs());
+        let slowest = onset.min(doubling).max(f64::EPSILON);
         let noise = NOISE * tolerance;
         let rest = if change <= noise {
             noise / slowest
-        } else if factor < 1.0 {
-            2.0 * change * factor / (1.0 - factor) + noise / slowest
         } else {
-            return None;
+            // Of several motions that die out the fastest are seen first.
+            let factor = sequence.slowest_factor(slips)?;
+            2.0 * change * factor / (1.0 - factor).min(doubling) + noise / slowest
         };
         let amplitude = found.amplitude_x0;
         // Swings about stable steady motion decay, however slowly.

@@ -9,9 +9,6 @@ const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
 
-/// Periods that are tried.
-const TRIES: usize = 2;
-
 /// A cycle beside a motion.
 pub(crate) struct Reference {
     pub(crate) cycle: Cycle,
@@ -24,17 +21,18 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// The cycle that Newton's method reaches from the last so many slips of a motion.
+    /// The cycle that Newton's method reaches from the last so many slips of a motion, or else from those before.
     pub(crate) fn of(
         model: &Model,
         tolerance: f64,
         tail: &Trajectory,
         extrema: &[Extremum],
         slips: usize,
+        tries: usize,
     ) -> Option<Self> {
         // Where a step of the run ends decides whether Newton's method likes its mesh: one period or another.
         let spans =
-            (0..TRIES).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
+            (0..tries).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
         let near =
             spans.into_iter().find_map(|span| cycle_within(model, tail, span, RESIDUAL).ok());
         let near = Self::beside(near?, tail, extrema)?;

@@ -7,6 +7,9 @@ pub(crate) struct Sequence<'a>(pub(crate) &'a [Extremum]);
 
 /// Periods that the changes are compared over.
 const PERIODS: usize = 6;
+const FEWEST: usize = 4;
+/// A change that falls by less from period to period may not fall at all.
+const FALLS: f64 = 0.95;
 /// Maxima of l in a period, at most.
 pub(crate) const MOST_SLIPS: usize = 8;
 
@@ -25,15 +28,13 @@ impl Sequence<'_> {
         Some(here.iter().zip(before).map(|(a, b)| a.l - b.l))
     }
 
-    /// The factor by which these changes grow from period to period, and over how many periods it was
-    /// measured.
-    pub(crate) fn factor(&self, slips: usize) -> Option<f64> {
+    /// The largest factor by which these changes fall from a period to the next, over at least four; `None` where
+    /// they do not fall throughout.
+    pub(crate) fn slowest_factor(&self, slips: usize) -> Option<f64> {
         let sizes: Vec<f64> = (0..PERIODS).map_while(|back| self.change(slips, back)).collect();
-        let (last, first) = (sizes.first()?, sizes.last()?);
-        let intervals = sizes.len() - 1;
-        let grown = last / first;
-        (intervals > 0 && grown.is_finite())
-            .then(|| grown.powf(1.0 / f64::from(u32::try_from(intervals).unwrap_or(u32::MAX))))
+        let factors = sizes.windows(2).map(|pair| pair[0] / pair[1]);
+        let slowest = factors.fold(0.0, f64::max);
+        (sizes.len() >= FEWEST && slowest < FALLS).then_some(slowest)
     }
 
     /// The numbers of maxima that may make a period, the likeliest first: the fewest of which the period repeats

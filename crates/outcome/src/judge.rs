@@ -195,11 +195,17 @@ impl End<'_> {
                 missed.get_or_insert(slips);
                 continue;
             };
-            if found.gap() > ON_THE_CIRCLE && found.distance() < BESIDE {
-                return Some(self.beside_stable(found));
+            if found.distance() >= BESIDE {
+                continue;
             }
-            if found.gap() <= ON_THE_CIRCLE && found.distance() < BESIDE {
+            if found.gap() <= ON_THE_CIRCLE {
                 unstable.get_or_insert(found);
+            } else if found.distance() > SETTLED && missed.is_some() {
+                // The motion may stay where another cycle was missed.
+                let repeats = missed.and_then(|m| self.extrapolated(&sequence, m, Some(&found)));
+                return Some(repeats.unwrap_or_else(|| self.beside_stable(found)));
+            } else {
+                return Some(self.beside_stable(found));
             }
         }
         // A cycle may be there that Newton's method did not reach.

@@ -45,6 +45,8 @@ const SLOW: f64 = 0.01;
 const ADDS_UP: f64 = 0.2;
 /// But for tolerances above this part of the length in which θ' changes by a factor of e.
 const COARSE: f64 = 1e-3;
+/// Of an error of the position most shifts all that is ahead alike; this part of it does not.
+const DISPLACED: f64 = 0.2;
 /// A coefficient is known to so many times what the velocity and the tolerance may make of it.
 const MARGIN: f64 = 10.0;
 
@@ -129,7 +131,8 @@ impl Exponentials {
         }
         let velocity = if coarse { 1.0 / now } else { velocity };
         // What the velocity neglected, and an error of the position, make of the coefficient.
-        let pushed = velocity + stuck.model.r() * now * stuck.tolerance;
+        let displaced = DISPLACED * stuck.tolerance;
+        let pushed = velocity.abs() + stuck.model.r() * now * displaced;
         let unknown = MARGIN * pushed / (stuck.model.alpha() * creep.slopes[0].norm());
         if c.norm() <= unknown {
             return Fate::Open;

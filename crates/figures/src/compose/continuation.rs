@@ -215,7 +215,7 @@ fn between(a: &Point, b: &Point, joints: &[Point]) -> Option<Point> {
 }
 
 fn joint(a: &Point, b: &Point, joints: &[Point]) -> Point {
-    between(a, b, joints).unwrap_or_else(|| Point {
+    between(a, b, joints).unwrap_or(Point {
         parameter: 0.5 * (a.parameter + b.parameter),
         amplitude: 0.5 * (a.amplitude + b.amplitude),
         period: 0.5 * (a.period + b.period),

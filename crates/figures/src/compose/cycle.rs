@@ -49,7 +49,7 @@ fn ripple(
     // From out of reach before to out of reach behind; a motion leaves the mean by less than its amplitude.
     let reach = model.tip().reach().unwrap_or(0.0) + 2.0 * cycle.amplitude_x0;
     let before = (reach / wavelength).ceil() + 1.0;
-    if !(before < MOST_PERIODS) {
+    if before.is_nan() || before >= MOST_PERIODS {
         return Ok(None);
     }
     let periods = (2.0 * before + WAVELENGTHS) as usize;

@@ -191,8 +191,10 @@ fn the_help_of_every_command_shows_an_example() {
     let help = |line: &str| String::from_utf8(folder.prints(line)).unwrap();
     let general = help("--help");
     let commands = general.split("Commands:").nth(1).unwrap().split("\n\n").next().unwrap();
-    let commands: Vec<&str> =
-        commands.lines().filter_map(|l| l.split_whitespace().next()).collect();
+    // What is said of a command may go on in the next line.
+    let begin = |line: &&str| line.starts_with("  ") && !line.starts_with("   ");
+    let commands = commands.lines().filter(begin).filter_map(|l| l.split_whitespace().next());
+    let commands: Vec<&str> = commands.collect();
     assert!(commands.contains(&"run") && commands.contains(&"surface"), "{commands:?}");
     for command in commands.into_iter().filter(|command| *command != "help") {
         let text = help(&format!("{command} --help"));

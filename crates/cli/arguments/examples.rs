@@ -43,7 +43,7 @@ mod tests {
         let shown = examples(text);
         assert_eq!(
             shown,
-            "Examples:\n  The paper's:\n    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json \\\n        --plot run.svg\n"
+            "Examples:\n  The paper's:\n    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\\n        -o run.json --plot run.svg\n"
         );
         assert!(shown.lines().all(|line| line.chars().count() <= WIDTH + 1));
     }

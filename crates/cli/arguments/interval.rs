@@ -79,6 +79,6 @@ mod tests {
             assert!(bad.parse::<Interval>().unwrap_err().contains("LO:HI:N"), "{bad}");
         }
         let refused = "3,1".parse::<Interval>().unwrap().ends("--r-range").unwrap_err();
-        assert!(refused.to_string().starts_with("--r-range 3:1: needs"), "{refused}");
+        assert!(refused.to_string().starts_with("--r-range 3,1: needs"), "{refused}");
     }
 }

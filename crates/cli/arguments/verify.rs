@@ -5,7 +5,9 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Repeat a saved run with another memory and a tighter tolerance: does it keep its promise?
+/// Repeat a saved run in another way and tighter: does it keep its promise?
+///
+/// It is repeated with another memory and a hundredth of its tolerance.
 ///
 /// A run written as lines (.jsonl) is read line by line, twice: first all of it, for what is damaged or cut off,
 /// then beside its repetition. Neither the lines nor the repetition are held: 15 MB will do however long the run,

@@ -57,7 +57,7 @@ impl<'a> Journey<'a> {
             && let Some(step) = self.step()?
         {
             is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
-            progress.reached(step.end());
+            progress.counted(step.end(), || format!("t = {:.6}", step.end()));
             signal = interrupt.signal();
             // Of a step whose samples were not all taken there is none: the last one is before it.
             if !is_whole {

@@ -19,13 +19,13 @@ const NEIGHBOURS: usize = 11;
 
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
     validate(x, f)?;
-    let (spacing, coefficients) = gaussians_through(x, f);
+    let (spacing, coefficients) = lattice_through(x, f);
     Ok(gaussians_of(spacing, &coefficients))
 }
 
 /// Spacing of the lattice, and the coefficients on its points ≥ 0 of the even sum of Gaussians that takes the
 /// values f at x, valid columns of a table.
-pub(crate) fn gaussians_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
+pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     let (spacing, mut samples) = on_a_lattice(x, f);
     samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
     let origin = samples.len() - 1;

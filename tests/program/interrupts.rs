@@ -1,7 +1,7 @@
 //! Signals end every command at once, whatever it is at, and whatever it was started with; and what would go on
 //! for ever is refused, or given up with a reason.
 
-use crate::folder::{Folder, said};
+use crate::folder::{Folder, said, wait_until_it_listens};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -46,7 +46,8 @@ fn a_signal_ends_every_command_even_where_it_was_to_be_ignored() {
             shell.args(["-c", "trap '' INT; exec \"$0\" \"$@\""]).arg(inner.get_program());
             shell.args(inner.get_args()).current_dir(folder.path(""));
             let mut child = shell.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
-            sleep(Duration::from_millis(700));
+            wait_until_it_listens(&mut child);
+            sleep(Duration::from_millis(300));
             assert!(child.try_wait().unwrap().is_none(), "{line}: it must take longer");
             let sent = Instant::now();
             let id = child.id().to_string();

@@ -6,6 +6,7 @@ pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
 pub(crate) mod model;
+mod noise;
 pub(crate) mod plot;
 pub(crate) mod response;
 pub(crate) mod run;

@@ -1,5 +1,6 @@
 //! From the model's options to a model.
 
+use super::noise::tell_of_noise;
 use crate::arguments::{ModelArguments, TipArguments, TipName};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
@@ -46,7 +47,16 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        return from_file(read_tip(path)?).map_err(|message| Failure::input(named, message));
+        let file = read_tip(path)?;
+        let table = match &file {
+            TipFile::Table(table) => Some(table.clone()),
+            _ => None,
+        };
+        let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
+        if let Some((x, f)) = table {
+            tell_of_noise(&named, (&x, &f), &tip);
+        }
+        return Ok(tip);
     }
     let name = tip.unwrap_or(TipName::TripleGaussian);
     if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {

@@ -43,7 +43,7 @@ const ACCURACY_OF_SHORT: f64 = 1e-8;
 /// Waves of a lattice of exponents, where no few exponentials follow f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
 const MOST_WAVES_OF_SHORT: usize = 120;
-const MOST_WAVES_OF_MULTIPLIERS: usize = 400;
+const MOST_WAVES_OF_MULTIPLIERS: usize = 200;
 /// What a step may miss of f, as a displacement, and the waves that this leaves over those of round-off.
 const ACCURACY_OF_STEPS: f64 = 1e-5;
 const WAVES_OF_ROUND_OFF: f64 = 1.5;

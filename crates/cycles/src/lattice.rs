@@ -128,10 +128,3 @@ pub(super) fn band(tip: &TipFunction, wanted: f64) -> Result<f64, FitError> {
     let waves = terms(tip, wanted, MOST_LOOKED_AT)?;
     Ok(waves.iter().map(|term| term.exponent.im).fold(0.0, f64::max))
 }
-
-/// What is left of a lattice's exponentials at this distance; of a sum of other exponents, 0.
-pub(super) fn left(fit: &Fit, distance: f64) -> f64 {
-    let rates = || fit.terms().iter().map(|term| term.exponent.re);
-    let (fastest, slowest) = (rates().fold(0.0, f64::min), rates().fold(f64::MIN, f64::max));
-    if fit.terms().len() > 1 && fastest >= slowest { (slowest * distance).exp() } else { 0.0 }
-}

@@ -44,7 +44,6 @@ pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
 pub use search::{Settled, cycle, cycle_near, cycle_within, settle, small_cycle};
 
-use embedding::Embedding;
 use multipliers::multipliers;
 use num_complex::Complex;
 use ripple::Ripple;
@@ -61,8 +60,6 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 const ON_THE_CIRCLE: f64 = 1e-7;
 /// Multipliers below this modulus are those of the exponentials rather than of f.
 const LEAST_MULTIPLIER: f64 = 1e-6;
-/// And so are those that come near what is left of a lattice of exponents after a period.
-const ABOVE_THE_LATTICE: f64 = 100.0;
 
 /// Of [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
@@ -87,7 +84,7 @@ impl Cycle {
         }
         let (alpha, r) = (closed.equation.alpha, closed.equation.r);
         let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
-        let multipliers = closed.monodromy().and_then(multipliers);
+        let multipliers = multipliers(&closed);
         let multipliers = multipliers.ok_or(CycleError::Multipliers { alpha, r })?;
         let motion = closed.orbit.trajectory(r);
         let extrema = latest_extrema(&motion);
@@ -159,14 +156,11 @@ impl Cycle {
         &self.motion
     }
 
-    /// The Floquet multipliers above 1e-6 in modulus, or above what tells them from those of the sum that stands
-    /// for f, the largest first: by how much small deviations grow in a period. One of them is 1, that of a shift in time.
+    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a
+    /// period. Those of the sum that stands for f, which another sum has not, are left out. One of them is 1, that of a shift in time.
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
-        let Embedding { precise, r, .. } = &self.closed.equation;
-        let left = lattice::left(precise, r * self.period());
-        let least = (ABOVE_THE_LATTICE * left).min(left.sqrt()).max(LEAST_MULTIPLIER);
-        let count = self.multipliers.partition_point(|m| m.norm() >= least);
+        let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
         &self.multipliers[..count]
     }
 
@@ -220,6 +214,12 @@ impl Cycle {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.closed.orbit.stages.len()
+    }
+
+    /// In the unit of [`solve::MOST_WORK`].
+    fn work(&self) -> f64 {
+        let state = 2.0 * self.closed.equation.short.terms().len() as f64 + 1.0;
+        (self.iterations() * self.steps()) as f64 * state * state
     }
 
     /// Linearisations that it took.

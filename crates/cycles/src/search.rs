@@ -2,10 +2,9 @@
 
 use super::embedding::Embedding;
 use super::orbit::Orbit;
-use super::solve::{Condition, close};
+use super::solve::{Condition, MOST_WORK, close};
 use super::start::{from_onset, from_runs, part, small_cycle_exists};
-use super::{Continuation, Cycle, CycleError, End, Parameter, TOLERANCES, Tried};
-use std::ops::ControlFlow;
+use super::{Cycle, CycleError, Ended, TOLERANCES, Tried};
 use stickslip_stability::{Critical, StabilityError, critical, onset_at};
 use stickslip_tip::{Model, Trajectory, stop};
 
@@ -60,9 +59,10 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
         if let Some(found) = stable {
             return Ok(found);
         }
-        let followed = followed_from_onset(model, tolerance);
         let ended = ended.map(|run| run.ended());
-        let found = match (followed, unstable) {
+        let is_stuck = ended == Some(Ended::Stuck);
+        let followed = || followed_from_onset(&equation, model, critical, tolerance);
+        let found = match (if is_stuck { None } else { followed() }, unstable) {
             (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
             (_, other) => other,
         };
@@ -165,26 +165,42 @@ impl Search {
     }
 }
 
-/// What leads from onset to any cycle in reach has fewer points, and shorter periods.
-const FARTHEST: Continuation = Continuation {
-    over: Parameter::Alpha,
-    to: f64::INFINITY,
-    tolerance: super::DEFAULT_TOLERANCE,
-    longest_period: 300.0,
-    longest_step: 0.1,
-    most_points: 80,
-};
+/// The first cycle on the way from onset, and the first step on it, as shares of the way.
+const FIRST_SHARE: f64 = 0.02;
+const FIRST_STEP: f64 = 0.05;
+const GROWTH: f64 = 1.5;
+/// Steps that may fail; each that does is tried again at half its length.
+const MOST_FAILURES: usize = 4;
 
-/// The cycle that the branch from onset leads to.
-fn followed_from_onset(model: &Model, tolerance: f64) -> Option<Cycle> {
-    let longest_period = FARTHEST.longest_period / model.r().min(1.0);
-    let way = Continuation { to: model.alpha(), tolerance, longest_period, ..FARTHEST };
-    let passed = |cycle: &Cycle| {
-        let shrinks = cycle.model().alpha() < 0.5 * model.alpha();
-        if shrinks { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// The cycle that the one born at αc becomes as α rises from there, where it does not turn back on the way.
+fn followed_from_onset(
+    equation: &Embedding,
+    model: &Model,
+    critical: Critical,
+    tolerance: f64,
+) -> Option<Cycle> {
+    let at = |share: f64| {
+        let alpha = critical.alpha + share * (model.alpha() - critical.alpha);
+        let model = Model::new(model.tip().clone(), alpha, model.r()).ok()?;
+        Some((Embedding { alpha, ..equation.clone() }, model))
     };
-    let branch = way.from_onset(model.tip(), model.r(), passed).ok()?;
-    (branch.end == End::Reached).then_some(branch.last)
+    let (nearby, small) = at(FIRST_SHARE)?;
+    let mut cycle = solve(&nearby, born(&nearby, &small, critical)?, tolerance)?;
+    let (mut share, mut step, mut failures, mut work) = (FIRST_SHARE, FIRST_STEP, 0, 0.0);
+    while share < 1.0 {
+        let next = (share + step).min(1.0);
+        if let Some(found) = solve(&at(next)?.0, cycle.closed.orbit.clone(), tolerance) {
+            work += found.work();
+            (cycle, share, step) = (found, next, GROWTH * step);
+        } else {
+            failures += 1;
+            step *= 0.5;
+        }
+        if failures > MOST_FAILURES || work > MOST_WORK || stop::is_asked() {
+            return None;
+        }
+    }
+    Some(cycle)
 }
 
 /// A guess at the small cycle on this side of onset.

@@ -41,8 +41,8 @@ pub(super) struct NotClosed;
 const MOST_ITERATIONS: usize = 15;
 const MOST_STEPS: usize = 4000;
 const MOST_MESHES: usize = 8;
-/// Steps times the square of the length of the state, summed over linearisations: some 20 s of work.
-const MOST_WORK: f64 = 1.5e9;
+/// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
+pub(super) const MOST_WORK: f64 = 4e8;
 /// Residuals within a step may exceed the estimate by as much.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
 /// A correction of this size leaves an error of its square.
@@ -148,8 +148,13 @@ impl Closed {
         if self.equation.short_is_precise() {
             return Some(self.linearisation.monodromy());
         }
+        self.monodromy_in(&self.equation.precise)
+    }
+
+    /// The same in another sum.
+    pub(super) fn monodromy_in(&self, sum: &Arc<Fit>) -> Option<DMatrix<f64>> {
         let Self { equation, orbit, .. } = self;
-        let precise = Embedding { short: Arc::clone(&equation.precise), ..equation.clone() };
+        let precise = Embedding { short: Arc::clone(sum), ..equation.clone() };
         let again = Linearisation::new(&precise, orbit, Parameter::Alpha, &equation.fine);
         again.ok().map(|linearisation| linearisation.monodromy())
     }

@@ -11,6 +11,9 @@ const MOST_MINOR: i32 = 8;
 const FEW_DECADES: f64 = 1.7;
 const NO_DECADE: f64 = 0.6;
 
+/// Ticks tried for on an axis on which fewer leave but one.
+const MOST_TRIED: f64 = 20.0;
+
 /// A tick, and its label if it is not one of the small ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
@@ -23,6 +26,10 @@ pub(crate) fn linear(low: f64, high: f64, count: f64) -> Vec<Tick> {
     let step = nice_step((high - low) / count);
     let largest = low.abs().max(high.abs());
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+    if last - first < 1.0 && count < MOST_TRIED {
+        // A single tick tells no scale.
+        return linear(low, high, 1.7 * count);
+    }
     let ticks = (last - first).clamp(0.0, 100.0) as usize;
     let tick = |i: usize| {
         let value = (first + i as f64) * step;
@@ -129,6 +136,12 @@ mod tests {
         for (low, high, count, expected) in cases {
             assert_eq!(labels(&linear(low, high, count)), expected);
         }
+    }
+
+    #[test]
+    fn an_axis_has_two_ticks_at_least() {
+        assert_eq!(labels(&linear(0.963, 1.037, 2.0)), ["0.98", "1.00", "1.02"]);
+        assert!(labels(&linear(1.0 - 1e-4, 1.0 + 3e-4, 1.0)).len() > 1);
     }
 
     #[test]

@@ -43,6 +43,10 @@ pub(crate) enum Fate {
 const SLOW: f64 = 0.01;
 /// The exponentials must add up to the velocity at the end within this part.
 const ADDS_UP: f64 = 0.2;
+/// But for tolerances above this part of the length in which θ' changes by a factor of e.
+const COARSE: f64 = 1e-3;
+/// Of an error of the position most shifts all that is ahead alike; this part of it does not.
+const DISPLACED: f64 = 0.2;
 /// A coefficient is known to so many times what the velocity and the tolerance may make of it.
 const MARGIN: f64 = 10.0;
 
@@ -59,7 +63,7 @@ impl Stuck<'_> {
     pub(crate) fn fate(&self) -> Option<Fate> {
         let (model, end) = (self.model, self.tail.end());
         let velocity = self.tail.velocity(end);
-        if !(velocity > 0.0 && velocity < 0.5 * model.r()) {
+        if velocity.abs() > 0.5 * model.r() {
             return None;
         }
         let creep = creep(model).ok()?;
@@ -119,12 +123,16 @@ impl Exponentials {
 
     fn fate(&self, stuck: &Stuck, velocity: f64, creep: &Creep) -> Fate {
         let (now, slope) = self.at(0.0);
-        if (now * velocity - 1.0).abs() > ADDS_UP {
+        let (p, c) = self.terms[0];
+        // The slope of a coarse step is no velocity of a tip that hardly moves: that of the exponentials is.
+        let coarse = stuck.tolerance * p.norm() > COARSE && now * stuck.model.r() > MARGIN;
+        if !coarse && (now * velocity - 1.0).abs() > ADDS_UP {
             return Fate::Open;
         }
-        let (p, c) = self.terms[0];
+        let velocity = if coarse { 1.0 / now } else { velocity };
         // What the velocity neglected, and an error of the position, make of the coefficient.
-        let pushed = velocity + stuck.model.r() * now * stuck.tolerance;
+        let displaced = DISPLACED * stuck.tolerance;
+        let pushed = velocity.abs() + stuck.model.r() * now * displaced;
         let unknown = MARGIN * pushed / (stuck.model.alpha() * creep.slopes[0].norm());
         if c.norm() <= unknown {
             return Fate::Open;

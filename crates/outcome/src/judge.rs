@@ -28,6 +28,8 @@ const SMALL: f64 = 0.3;
 const AS_FORETOLD: f64 = 0.2;
 /// Changes below so many tolerances from period to period are those of the steps.
 const NOISE: f64 = 30.0;
+/// A deviation of l below this is round-off, in σ.
+const ROUND_OFF: f64 = 1e-12;
 /// Errors of steps push l away from steady motion by this part of the tolerance in a period.
 const PUSHED: f64 = 0.6;
 /// Below this part of the tolerance l is steady motion itself, of which steps make no error.
@@ -195,11 +197,17 @@ impl End<'_> {
                 missed.get_or_insert(slips);
                 continue;
             };
-            if found.gap() > ON_THE_CIRCLE && found.distance() < BESIDE {
-                return Some(self.beside_stable(found));
+            if found.distance() >= BESIDE {
+                continue;
             }
-            if found.gap() <= ON_THE_CIRCLE && found.distance() < BESIDE {
+            if found.gap() <= ON_THE_CIRCLE {
                 unstable.get_or_insert(found);
+            } else if found.distance() > SETTLED && missed.is_some() {
+                // The motion may stay where another cycle was missed.
+                let repeats = missed.and_then(|m| self.extrapolated(&sequence, m, Some(&found)));
+                return Some(repeats.unwrap_or_else(|| self.beside_stable(found)));
+            } else {
+                return Some(self.beside_stable(found));
             }
         }
         // A cycle may be there that Newton's method did not reach.
@@ -346,12 +354,20 @@ impl End<'_> {
         let Some(small) = small.filter(stickslip_cycles::Cycle::is_stable) else {
             return Outcome::transient(None, None);
         };
+        // Newton's method may miss from the motion what it finds from onset.
+        let near = Reference::beside(small.clone(), &self.tail, &self.extrema);
+        if let Some(near) =
+            near.filter(|near| near.distance() < BESIDE && near.gap() > ON_THE_CIRCLE)
+        {
+            return self.beside_stable(near);
+        }
         let amplitude = small.amplitude_x0();
         if deviation > (1.0 + BESIDE) * amplitude {
             return Outcome::transient(None, None);
         }
         let away = ((amplitude / deviation).powi(2) - 1.0).abs().max(2.0 * SETTLED);
-        let time = (deviation > 0.0).then(|| (0.5 * away / SETTLED).ln() / (2.0 * rate));
+        // What is there of round-off does not grow from where it is, but from where it last was made.
+        let time = (deviation > ROUND_OFF).then(|| (0.5 * away / SETTLED).ln() / (2.0 * rate));
         Outcome::transient(Some(Regime::StickSlip), time)
     }
 

@@ -118,7 +118,9 @@ fn beside_cycle(found: &Oscillation, cycle: &Cycle) -> Option<String> {
 
 /// What the run ten times as long contradicts.
 fn contradicted(short: &Outcome, long: &Outcome, further: f64) -> Option<String> {
-    let said = |what: &str| Some(format!("{what}: {:?} {:?}", long.regime, long.prospect));
+    let said = |what: &str| {
+        Some(format!("{what}: {:?} {:?} {:?}", long.regime, long.prospect, long.remarks))
+    };
     match (short.regime, long.regime) {
         (Regime::StickSlip, Regime::StickSlip) => {
             let (a, b) = (short.oscillation.as_ref()?, long.oscillation.as_ref()?);

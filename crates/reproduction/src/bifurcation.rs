@@ -2,7 +2,7 @@
 
 use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
-use crate::Failed;
+use crate::failed::Failed;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};

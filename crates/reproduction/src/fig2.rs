@@ -3,7 +3,7 @@
 use super::onset::{FITTED, Onset};
 use super::parts::{curve, failed, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::Failed;
+use crate::failed::Failed;
 use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
 use stickslip_stability::onset;
 

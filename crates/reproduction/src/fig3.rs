@@ -4,7 +4,7 @@ use super::fig2::distances;
 use super::onset::{FITTED, Onset};
 use super::parts::{curve, figure as empty, panel};
 use super::tips::{BETA_0, beta_0, beta_1};
-use crate::Failed;
+use crate::failed::Failed;
 use stickslip_documents::{FigureDocument, StyleName};
 
 pub(super) fn figure() -> Result<FigureDocument, Failed> {

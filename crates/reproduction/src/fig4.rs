@@ -2,7 +2,7 @@
 
 use super::parts::{curve, failed, figure as empty, finished, heights, panel, spaced};
 use super::tips::{BETA_0, beta_0};
-use crate::Failed;
+use crate::failed::Failed;
 use std::sync::LazyLock;
 use stickslip_documents::{FigureDocument, StyleName};
 use stickslip_tip::{Noise, Run, Scenario};

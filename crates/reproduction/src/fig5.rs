@@ -4,7 +4,7 @@ use super::fig2::amplitudes;
 use super::onset::Onset;
 use super::parts::{figure as empty, spaced};
 use super::tips::beta_1;
-use crate::Failed;
+use crate::failed::Failed;
 use stickslip_documents::FigureDocument;
 
 const ALPHA: f64 = 1.0;

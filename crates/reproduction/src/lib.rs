@@ -5,6 +5,7 @@
 
 mod bifurcation;
 mod criticality;
+mod failed;
 mod fig1;
 mod fig2;
 mod fig3;
@@ -19,21 +20,10 @@ mod table;
 mod tips;
 mod work_precision;
 
+pub use failed::Failed;
 pub use table::{page, table};
 
 use stickslip_documents::FigureDocument;
-use thiserror::Error;
-
-/// Something that could not be computed.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub struct Failed(String);
-
-impl Failed {
-    fn new(what: String) -> Self {
-        Self(what)
-    }
-}
 
 /// A figure: its name, and what computes it.
 pub type Figure = (&'static str, fn() -> Result<FigureDocument, Failed>);

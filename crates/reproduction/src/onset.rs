@@ -2,7 +2,7 @@
 
 use super::parts::{failed, line_of_best_fit};
 use super::tips::Tip;
-use crate::Failed;
+use crate::failed::Failed;
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_tip::Model;
 

@@ -1,6 +1,6 @@
 //! What figures are put together from.
 
-use crate::Failed;
+use crate::failed::Failed;
 use std::fmt::Display;
 use stickslip_documents::{
     CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName,

@@ -7,7 +7,7 @@ mod printed;
 
 pub use markdown::page;
 
-use crate::Failed;
+use crate::failed::Failed;
 use stickslip_documents::{FORMAT_VERSION, ReproductionDocument, ReproductionParameters, Software};
 
 /// The numbers.

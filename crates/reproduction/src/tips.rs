@@ -1,7 +1,7 @@
 //! The paper's two tips, and where they lose stability.
 
 use super::parts::failed;
-use crate::Failed;
+use crate::failed::Failed;
 use std::f64::consts::FRAC_1_SQRT_2;
 use stickslip_stability::{Critical, critical, critical_r};
 use stickslip_tip::{Model, TipFunction};

@@ -2,7 +2,7 @@
 //! what `make work-precision` measured last.
 
 use super::parts::{curve, failed, figure as empty, panel};
-use crate::Failed;
+use crate::failed::Failed;
 use serde::Deserialize;
 use stickslip_documents::{FigureDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};

@@ -4,7 +4,7 @@ use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, OverName, RegimeName, SpecialName,
-    SweepDocument,
+    SweepDocument, to_its_digits,
 };
 
 impl Product for CycleDocument {
@@ -14,9 +14,11 @@ impl Product for CycleDocument {
             1 => "one slip".into(),
             n => format!("{n} slips"),
         };
-        let (period, amplitude) = (self.period, self.amplitude_x0);
+        let held = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
+        let period = held(self.period, self.period_error);
+        let amplitude = held(self.amplitude_x0, self.amplitude_x0_error);
         let told = Told::new(format!(
-            "{stable} cycle of {slips}, period {period:.9}, amplitude of x0 {amplitude:.9}"
+            "{stable} cycle of {slips}, period {period}, amplitude of x0 {amplitude}"
         ));
         let shift = self.floquet.iter().map(|m| (m.re - 1.0).hypot(m.im));
         let shift = shift.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i);
@@ -26,10 +28,13 @@ impl Product for CycleDocument {
             let [re, im] = [m.re, m.im].map(|part| digits(part, 6));
             format!("{re} + {im} i, ± {:.0e}", self.floquet_error)
         });
-        told.row("period", format!("{period:.9} Γ/k"))
-            .row("wavelength", format!("{:.9} σ", self.wavelength))
-            .row("amplitude of x0", format!("{amplitude:.9} σ"))
-            .row("amplitude of u", format!("{} kσ²/a", digits(self.amplitude_u, 9)))
+        told.row("period", format!("{period} Γ/k"))
+            .row("wavelength", format!("{} σ", held(self.wavelength, self.wavelength_error)))
+            .row("amplitude of x0", format!("{amplitude} σ"))
+            .row(
+                "amplitude of u",
+                format!("{} kσ²/a", held(self.amplitude_u, self.amplitude_u_error)),
+            )
             .maybe("largest multiplier", leading)
             .row("residual of (18)", format!("{:.0e} kσ/Γ", self.residual))
             .next(again("-o cycle.json --plot cycle.svg"))

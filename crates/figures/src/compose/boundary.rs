@@ -1,16 +1,14 @@
 //! The stability boundary, and what is born along it.
 
+use super::drawn::{Drawn, View};
+use super::labels::{ALPHA, R};
 use super::tip::tip_name;
-use super::{Drawn, View};
 use crate::axis::extremes;
 use crate::error::FigureError;
 use stickslip_documents::{
     BoundaryDocument, BranchDocument, CurveDocument, FigureDocument, ModelParameters, NoteDocument,
     PanelDocument, ScaleName, SpacingName, StyleName,
 };
-
-pub(super) const R: &str = "r = Γv₀/(kσ)";
-pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
 
 /// Room above the boundary.
 const AIR: f64 = 1.15;

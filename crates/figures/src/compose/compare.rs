@@ -1,7 +1,7 @@
 //! Both motions, and how far apart they are.
 
+use super::drawn::{Drawn, View};
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::error::FigureError;
 use stickslip_documents::{
     CompareDocument, CurveDocument, FigureDocument, PanelDocument, ScaleName, StyleName,

@@ -1,8 +1,8 @@
 //! The bifurcation diagram: branches of cycles over a parameter.
 
-use super::boundary::{ALPHA, R};
+use super::drawn::{Drawn, View};
+use super::labels::{ALPHA, R, WIDE};
 use super::tip::tip_name;
-use super::{Drawn, View};
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::seven_digits;
@@ -11,8 +11,6 @@ use stickslip_documents::{
     PanelDocument, ScaleName, SpecialName, StyleName,
 };
 
-/// Values that span more than this ratio are drawn on a logarithmic axis.
-pub(super) const WIDE: f64 = 30.0;
 /// A branch over less than this part of the abscissas shows as a dot, if at all, and has no name of its own.
 const SHORT: f64 = 0.01;
 
@@ -217,7 +215,7 @@ fn between(a: &Point, b: &Point, joints: &[Point]) -> Option<Point> {
 }
 
 fn joint(a: &Point, b: &Point, joints: &[Point]) -> Point {
-    between(a, b, joints).unwrap_or_else(|| Point {
+    between(a, b, joints).unwrap_or(Point {
         parameter: 0.5 * (a.parameter + b.parameter),
         amplitude: 0.5 * (a.amplitude + b.amplitude),
         period: 0.5 * (a.period + b.period),

@@ -1,9 +1,10 @@
 //! A limit cycle: spring, velocity, the ripple left behind.
 
 use super::dense::Part;
-use super::run::{L, NATURAL, VELOCITY, against};
+use super::drawn::{Drawn, View};
+use super::labels::{L, NATURAL, SURFACE, VELOCITY};
+use super::run::against;
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use stickslip_documents::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName};
@@ -48,7 +49,7 @@ fn ripple(
     // From out of reach before to out of reach behind; a motion leaves the mean by less than its amplitude.
     let reach = model.tip().reach().unwrap_or(0.0) + 2.0 * cycle.amplitude_x0;
     let before = (reach / wavelength).ceil() + 1.0;
-    if !(before < MOST_PERIODS) {
+    if before.is_nan() || before >= MOST_PERIODS {
         return Ok(None);
     }
     let periods = (2.0 * before + WAVELENGTHS) as usize;
@@ -64,7 +65,7 @@ fn ripple(
     let flat = InitialSurface::flat();
     let u = Surface::new(model, &flat, &long).far_behind(long.end(), &shifted);
     let u = u.map_err(|error| FigureError::Damaged(error.to_string()))?.to_vec();
-    let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
+    let mut panel = PanelDocument::new("", SURFACE);
     panel.natural = NATURAL;
     panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
     Ok(Some(panel))

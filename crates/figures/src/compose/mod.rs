@@ -5,6 +5,8 @@ mod compare;
 mod continuation;
 mod cycle;
 mod dense;
+mod drawn;
+mod labels;
 mod response;
 mod run;
 mod stability;
@@ -22,25 +24,8 @@ use stickslip_documents::{
 };
 
 pub use boundary::onset_of;
+pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
-
-/// What is asked of a figure beyond what its document says.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct View {
-    /// First and last abscissa of the first panel, and of those with the same axis label.
-    pub x_range: Option<[f64; 2]>,
-    /// First and last ordinate of the first panel, and of those with the same axis label.
-    pub y_range: Option<[f64; 2]>,
-}
-
-/// A document that has a figure.
-pub trait Drawn {
-    /// The figure; within `view.x_range` as fine as the document allows.
-    ///
-    /// # Errors
-    /// The document is damaged, or holds nothing that could be drawn.
-    fn figure(&self, view: &View) -> Result<FigureDocument, FigureError>;
-}
 
 /// The figure of a document.
 ///

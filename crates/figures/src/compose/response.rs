@@ -1,7 +1,7 @@
 //! The linear response to weak pulses.
 
+use super::drawn::{Drawn, View};
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::error::FigureError;
 use stickslip_documents::{
     CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName,

@@ -3,8 +3,9 @@
 mod ground;
 
 use super::dense::{Part, Quantity};
+use super::drawn::{Drawn, View};
+use super::labels::{FORCE, L, NATURAL, VELOCITY};
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
@@ -14,13 +15,6 @@ use stickslip_documents::{
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Trajectory};
-
-pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
-pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
-const FORCE: (&str, &str) = ("t (Γ/k)", "F_{ext} (kσ)");
-
-/// Natural size of the dimensionless quantities: variations far below are round-off.
-pub(super) const NATURAL: Option<f64> = Some(1.0);
 
 /// From so many oscillations on their envelope is drawn, and the last of them beside it.
 const MANY: usize = 50;

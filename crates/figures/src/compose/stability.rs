@@ -1,7 +1,7 @@
 //! Growth exponents in the complex plane.
 
+use super::drawn::{Drawn, View};
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::axis::extremes;
 use crate::error::FigureError;
 use stickslip_documents::{

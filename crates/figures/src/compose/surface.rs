@@ -1,7 +1,8 @@
 //! Surfaces, and their images.
 
+use super::drawn::{Drawn, View};
+use super::labels::{NATURAL, SURFACE};
 use super::tip::model_name;
-use super::{Drawn, View};
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
@@ -59,8 +60,8 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
     let x_range = view.x_range.or((from < to).then_some([from, to]));
     let mut panels = vec![];
     for surface in surfaces {
-        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
-        panel.natural = Some(1.0);
+        let mut panel = PanelDocument::new("", SURFACE);
+        panel.natural = NATURAL;
         panel.x_range = x_range;
         if high - low > 1e-6 {
             let air = 0.06 * (high - low);
@@ -100,7 +101,9 @@ fn overlaid(panels: Vec<PanelDocument>) -> Vec<PanelDocument> {
 fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
     let (first, last) = (*surface.x.first()?, *surface.x.last()?);
     let end = *surface.u.last()?;
-    let beyond = surface.u.iter().rposition(|u| (u - end).abs() > LEVEL * span);
+    let places = surface.x.iter().zip(&surface.u);
+    let beyond = places.rev().position(|(_, u)| (u - end).abs() > LEVEL * span);
+    let beyond = beyond.map(|back| surface.x.len().min(surface.u.len()) - 1 - back);
     let to = beyond.map_or(last, |i| (surface.x[i] + UNTOUCHED).min(last));
     Some([first, to])
 }

@@ -2,50 +2,14 @@
 
 mod cells;
 mod row;
+mod varied;
 
-use super::boundary::{ALPHA, R};
+use super::drawn::{Drawn, View};
 use super::tip::tip_name;
-use super::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
-    ColourName, FigureDocument, ModelParameters, RegimeName, SweepDocument, SweepParameters,
-    SweepPoint,
-};
-
-/// A parameter that varies.
-#[derive(Debug, Clone, Copy)]
-struct Varied<'a> {
-    values: &'a [f64],
-    label: &'static str,
-    /// Index of a point in the grid to its place along this axis.
-    stride: usize,
-}
-
-impl Varied<'_> {
-    fn place(&self, point: &SweepPoint) -> usize {
-        point.index / self.stride % self.values.len()
-    }
-}
-
-/// Those that vary, the slowest first.
-fn varied(parameters: &SweepParameters) -> Vec<Varied<'_>> {
-    let SweepParameters { beta, r, alpha, alpha_above, .. } = parameters;
-    let above = alpha_above.as_deref().map(|values| (values, "α − α_c"));
-    let (alphas, label) =
-        alpha.as_deref().map(|values| (values, ALPHA)).or(above).unwrap_or((&[], ALPHA));
-    let stride = alphas.len().max(1);
-    let all = [
-        Varied {
-            values: beta.as_deref().unwrap_or(&[]),
-            label: "β",
-            stride: stride * r.len().max(1),
-        },
-        Varied { values: r, label: R, stride },
-        Varied { values: alphas, label, stride: 1 },
-    ];
-    all.into_iter().filter(|axis| axis.values.len() > 1).collect()
-}
+use stickslip_documents::{FigureDocument, ModelParameters, SweepDocument, SweepParameters};
+use varied::varied;
 
 /// Refuses a grid that no picture shows, before its points are computed.
 ///
@@ -105,59 +69,4 @@ fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
         Some(ModelParameters { tip: tip.clone(), alpha, alpha_above, r })
     };
     parameters.tips.first().and_then(model).into_iter().collect()
-}
-
-/// Kinds of motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    Steady,
-    OneSlip,
-    TwoSlips,
-    MoreSlips,
-    Trapped,
-    Unsettled,
-}
-
-impl Phase {
-    const ALL: [Self; 6] = [
-        Self::Steady,
-        Self::OneSlip,
-        Self::TwoSlips,
-        Self::MoreSlips,
-        Self::Trapped,
-        Self::Unsettled,
-    ];
-
-    fn of(point: &SweepPoint) -> Option<Self> {
-        Some(match (point.regime?, point.slips) {
-            (RegimeName::Steady, _) => Self::Steady,
-            (RegimeName::StickSlip, Some(1)) => Self::OneSlip,
-            (RegimeName::StickSlip, Some(2)) => Self::TwoSlips,
-            (RegimeName::StickSlip, _) => Self::MoreSlips,
-            (RegimeName::Trapped, _) => Self::Trapped,
-            (RegimeName::Transient, _) => Self::Unsettled,
-        })
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Steady => "steady",
-            Self::OneSlip => "one slip a period",
-            Self::TwoSlips => "two slips",
-            Self::MoreSlips => "three or more",
-            Self::Trapped => "trapped",
-            Self::Unsettled => "not settled",
-        }
-    }
-
-    fn colour(self) -> ColourName {
-        match self {
-            Self::Steady => ColourName::Silver,
-            Self::OneSlip => ColourName::Blue,
-            Self::TwoSlips => ColourName::Vermillion,
-            Self::MoreSlips => ColourName::Orange,
-            Self::Trapped => ColourName::Black,
-            Self::Unsettled => ColourName::Purple,
-        }
-    }
 }

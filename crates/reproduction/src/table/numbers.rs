@@ -1,7 +1,7 @@
 //! Critical points, and what formulas give.
 
 use super::printed::Printed;
-use crate::Failed;
+use crate::failed::Failed;
 use crate::parts::failed;
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip_documents::NumberDocument;

@@ -1,7 +1,7 @@
 //! What the paper says of the oscillations, as numbers.
 
 use super::printed::Printed;
-use crate::Failed;
+use crate::failed::Failed;
 use crate::onset::{Onset, solved};
 use crate::parts::line_of_best_fit;
 use crate::tips::{Tip, beta_0, beta_1};

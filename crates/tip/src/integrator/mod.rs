@@ -84,6 +84,9 @@ pub struct Integrator<'a, M> {
 /// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
 const ENOUGH: f64 = 0.01;
 
+/// By which a step may be longer to end where it is to.
+const MOST_ROUNDINGS: usize = 64;
+
 impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
     /// remembered but what `memory` brings along.
@@ -162,8 +165,16 @@ impl<'a, M: Memory> Integrator<'a, M> {
             let least = 4.0 * f64::EPSILON * self.t.abs().max(1e-3);
             // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
             // make up for a rounding short.
-            while self.t + h < end && end - (self.t + h) <= least {
+            let is_short = |h: f64| self.t + h < end && end - (self.t + h) <= least;
+            for _ in 0..MOST_ROUNDINGS {
+                if !is_short(h) {
+                    break;
+                }
                 h = h.next_up();
+            }
+            // Far from t = 0 the difference is exact, and the roundings of h are too small to be counted through.
+            if is_short(h) {
+                h = end - self.t;
             }
             if h <= least {
                 let tolerance = self.control.tolerance();

@@ -1,7 +1,7 @@
 //! The surface that a run leaves, with the tip on it.
 
 use crate::axis::extremes;
-use crate::compose::run::NATURAL;
+use crate::compose::labels::{NATURAL, SURFACE};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip_documents::{
@@ -101,7 +101,7 @@ impl Ground<'_> {
     }
 
     fn panel(&self) -> PanelDocument {
-        let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
+        let mut panel = PanelDocument::new("", SURFACE);
         panel.natural = NATURAL;
         panel
     }

@@ -1,7 +1,7 @@
 //! The phase diagram: what the motion comes to, over two parameters.
 
-use super::{Phase, Varied};
-use crate::compose::boundary::ALPHA;
+use super::varied::{Phase, Varied};
+use crate::compose::labels::ALPHA;
 use stickslip_documents::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
     TipDocument,

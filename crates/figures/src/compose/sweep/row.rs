@@ -1,9 +1,9 @@
 //! Amplitude and period of what the motion comes to, over one parameter. Steady and trapped tips have neither: they
 //! are marked at the foot of the axes.
 
-use super::{Phase, Varied};
+use super::varied::{Phase, Varied};
 use crate::axis::extremes;
-use crate::compose::continuation::WIDE;
+use crate::compose::labels::WIDE;
 use stickslip_documents::{
     CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint,
 };

@@ -70,8 +70,17 @@ impl Bins {
 
     /// The bin of that number, made if need be; `None` if it is farther behind than is kept.
     fn bin(&mut self, number: i64) -> Option<&mut Bin> {
+        let end = self.first.saturating_add(self.moments.len() as i64);
+        if !self.moments.is_empty() && number.saturating_sub(end) >= MOST_BINS as i64 {
+            // So far ahead that nothing of what there is will be kept.
+            self.moments.clear();
+            self.dropped = true;
+        }
         if self.moments.is_empty() {
-            self.first = number;
+            self.first = number.min(i64::MAX - 2 * MOST_BINS as i64);
+            if self.first < number {
+                return None;
+            }
         }
         while number < self.first {
             if self.moments.len() == MOST_BINS {

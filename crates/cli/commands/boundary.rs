@@ -6,7 +6,7 @@ use super::model::tip;
 use super::progress::Progress;
 use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use std::f64::consts::PI;
 use stickslip_documents::{
     BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Software, SpacingName,
@@ -25,7 +25,7 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
         ("--plot", arguments.plot.as_deref()),
         ("--plot-onset", arguments.plot_onset.as_deref()),
     ];
-    apart(&written, &read)?;
+    distinct(&written, &read)?;
     let tip = tip(&arguments.tip)?;
     let range = range(arguments)?;
     let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;

@@ -6,7 +6,7 @@ use super::figure::Figure;
 use super::told::Told;
 use crate::arguments::{FieldArguments, Format, OutletArguments};
 use crate::failure::Failure;
-use crate::files::apart::{Named, apart};
+use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, OutputFormat};
 use crate::files::table::{write_csv, write_npz};
 use crate::message::remark_lines;
@@ -29,7 +29,7 @@ pub(crate) fn judge_places(
     plot: Option<&Path>,
     reads: &[Named],
 ) -> Result<(), Failure> {
-    apart(&[("--output", Some(&*outlet.output)), ("--plot", plot)], reads)
+    distinct(&[("--output", Some(&*outlet.output)), ("--plot", plot)], reads)
 }
 
 /// Where a result goes, known to be writable.

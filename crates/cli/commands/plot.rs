@@ -3,7 +3,7 @@
 use super::figure::{Figure, undrawn};
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use crate::files::input::{open, read_document};
 use std::path::Path;
 use stickslip_documents::{BoundaryDocument, FigureDocument};
@@ -16,7 +16,7 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         y_range: range("--y-range", arguments.y_range.as_deref())?,
     };
     let read = [("DOCUMENT.json", Some(&*arguments.document))];
-    apart(&[("--output", Some(&*arguments.output))], &read)?;
+    distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Figure::at("--output", &arguments.output)?;
     output.write(&figure(arguments, &view)?, &size)
 }

@@ -3,7 +3,7 @@
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
 mod document;
-mod journey;
+mod integration;
 pub(crate) mod limits;
 mod order;
 mod record;
@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::files::place::{Place, Target as File, place};
 use crate::files::stream::Stream;
 use checkpoint::Checkpoints;
-use journey::Journey;
+use integration::Integration;
 use record::{Record, SAMPLE_NUMBERS, Sink};
 use std::path::Path;
 use stickslip_documents::{Order, RunDocument, RunEnd, RunFormat, Unusable};
@@ -51,7 +51,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let mut record = record(&order, &scenario, sink);
     write::head(&mut record, &order, &scenario)?;
     let start = scenario.start_time();
-    let mut journey = Journey {
+    let mut integration = Integration {
         running,
         record,
         checkpoints: checkpoint
@@ -59,9 +59,9 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
             .map(|(file, every)| Checkpoints::new(file, &order, start, every, start)),
         seconds: 0.0,
     };
-    journey.checkpoint()?;
-    let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target)
+    integration.checkpoint()?;
+    let integrated = integration.finish(&scenario)?;
+    write::all(&order, &scenario, &surface, integrated, target)
 }
 
 /// A place that must be a file.

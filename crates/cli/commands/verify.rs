@@ -6,7 +6,7 @@ use super::job::{Job, on_standard_output};
 use super::progress::Progress;
 use crate::arguments::{Format, OutletArguments, VerifyArguments};
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::interrupt::Interrupt;
@@ -26,7 +26,7 @@ const ROUNDINGS: f64 = 16.0;
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
     let read = [("RUN", Some(&**path))];
-    apart(&[("--output", Some(&*arguments.outlet.output))], &read)?;
+    distinct(&[("--output", Some(&*arguments.outlet.output))], &read)?;
     match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
         Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
         Written::Lines(file) => lines::verify(path, &file, &arguments.outlet),

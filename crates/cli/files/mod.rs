@@ -1,7 +1,7 @@
 //! Files that come in and go out.
 
-pub(crate) mod apart;
 pub(crate) mod beside;
+pub(crate) mod distinct;
 pub(crate) mod gsf;
 pub(crate) mod input;
 pub(crate) mod journal;

@@ -2,7 +2,7 @@
 
 use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments, StartChoice};
 use crate::failure::{Failure, Typed};
-use crate::files::apart::Named;
+use crate::files::distinct::Named;
 use crate::files::input::{Columns, read_columns, read_profile};
 use crate::message::remark;
 use std::path::Path;

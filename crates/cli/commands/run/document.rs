@@ -1,6 +1,6 @@
 //! What became of a run, for its document.
 
-use super::journey::Travelled;
+use super::integration::Integrated;
 use crate::failure::Failure;
 use stickslip_documents::{OscillationDocument, RunEnd, WorkDocument};
 use stickslip_surface::{Surface, ripple_behind};
@@ -10,9 +10,9 @@ use stickslip_tip::{InitialSurface, Scenario};
 pub(super) fn end(
     scenario: &Scenario,
     initial: &InitialSurface,
-    travelled: &Travelled,
+    integrated: &Integrated,
 ) -> Result<RunEnd, Failure> {
-    let Travelled { running, seconds, signal, .. } = travelled;
+    let Integrated { running, seconds, signal, .. } = integrated;
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
     let (outcome, work) = (running.outcome(), running.work());
     Ok(RunEnd {

@@ -8,7 +8,7 @@ use super::samples::sample_times;
 use crate::arguments::{DisturbanceArguments, Format, HistoryName, RunArguments, StartArguments};
 use crate::commands::job;
 use crate::failure::{Failure, Typed};
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use crate::files::paths::resolved;
 use std::path::Path;
 use stickslip_documents::{Order, RunFormat, RunParameters};
@@ -71,7 +71,7 @@ fn files(arguments: &RunArguments) -> Result<(), Failure> {
         ("--plot", arguments.plot.as_deref()),
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
-    apart(&written, &files_read(&arguments.model, &arguments.disturbance))?;
+    distinct(&written, &files_read(&arguments.model, &arguments.disturbance))?;
     let is_text = |path: &Path| resolved(path).to_str().is_some();
     let odd = written
         .into_iter()

@@ -1,7 +1,7 @@
 //! A run taken up where a checkpoint was made.
 
 use super::checkpoint::{self, Checkpoints};
-use super::journey::Journey;
+use super::integration::Integration;
 use super::record::Sink;
 use super::samples::are_of;
 use super::write::{self, Target};
@@ -9,7 +9,7 @@ use super::{file, job, record};
 use crate::arguments::RunArguments;
 use crate::commands::fields::Fields;
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use crate::files::paths::{folder_of, resolved};
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
@@ -51,13 +51,13 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
     let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, t));
-    let mut journey = Journey { running, record, checkpoints, seconds: head.seconds };
+    let mut integration = Integration { running, record, checkpoints, seconds: head.seconds };
     if arguments.output.is_some() || arguments.plot.is_some() {
         // From here on it is gone on with at the new places.
-        journey.checkpoint()?;
+        integration.checkpoint()?;
     }
-    let travelled = journey.travel(&scenario)?;
-    write::all(&order, &scenario, &surface, travelled, target)
+    let integrated = integration.finish(&scenario)?;
+    write::all(&order, &scenario, &surface, integrated, target)
 }
 
 /// Where the run goes: to the places given now, or those that the checkpoint names. Whoever made that may be a
@@ -93,7 +93,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
         ("--output", Some(&*order.output)),
         ("--plot", order.plot.as_deref()),
     ];
-    apart(&written, &[])?;
+    distinct(&written, &[])?;
     let is_other = arguments.output.as_deref().is_some_and(|path| is_of_other(path, order.format));
     if is_other {
         let message =

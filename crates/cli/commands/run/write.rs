@@ -1,7 +1,7 @@
 //! A run on its way out.
 
 use super::document;
-use super::journey::Travelled;
+use super::integration::Integrated;
 use super::record::{Record, Sink};
 use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
@@ -36,21 +36,21 @@ pub(super) fn all(
     order: &Order,
     scenario: &Scenario,
     initial: &InitialSurface,
-    mut travelled: Travelled,
+    mut integrated: Integrated,
     target: Target,
 ) -> Result<(), Failure> {
-    let end = document::end(scenario, initial, &travelled)?;
-    let reached = travelled.signal.map(|_| end.end);
+    let end = document::end(scenario, initial, &integrated)?;
+    let reached = integrated.signal.map(|_| end.end);
     if order.output == Path::new("-") && order.format != RunFormat::Text {
         // Beside a file they are told with what was found.
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
-    let steps = travelled.record.steps.take();
+    let steps = integrated.record.steps.take();
     let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
-            let Sink::Lines(mut stream) = travelled.record.sink else {
+            let Sink::Lines(mut stream) = integrated.record.sink else {
                 unreachable!("lines are written to a stream")
             };
             stream.line(&end)?;
@@ -59,7 +59,7 @@ pub(super) fn all(
             job::after(&end, &told, &fields, order.output != Path::new("-"))?;
         }
         Target::Document(job) => {
-            let samples = &travelled.record.samples;
+            let samples = &integrated.record.samples;
             let mut document = RunDocument::new(
                 order.parameters.clone(),
                 (&scenario.model).into(),
@@ -67,7 +67,7 @@ pub(super) fn all(
                 trajectory.as_ref().filter(|_| order.history).map(Into::into),
                 end.clone(),
             );
-            let asked = trajectory.as_ref().filter(|_| order.verify && travelled.signal.is_none());
+            let asked = trajectory.as_ref().filter(|_| order.verify && integrated.signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found =
                 asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
@@ -85,7 +85,7 @@ pub(super) fn all(
             };
         }
     }
-    let interrupted = travelled.signal.map(Failure::Interrupted);
+    let interrupted = integrated.signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 

@@ -9,7 +9,7 @@ pub(crate) use places::evenly;
 
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
-use crate::files::apart::apart;
+use crate::files::distinct::distinct;
 use crate::files::input::read_run;
 use image::Images;
 use places::Places;
@@ -25,7 +25,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = SurfaceFormat::of(arguments)?;
     let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
     let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
-    apart(&written, &read)?;
+    distinct(&written, &read)?;
     let document = read_run(&arguments.run)?;
     let damaged = |message: String| {
         Failure::input(

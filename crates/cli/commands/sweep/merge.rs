@@ -4,7 +4,7 @@ use super::{checksum, job, sealed};
 use crate::arguments::MergeArguments;
 use crate::commands::job::judge_places;
 use crate::failure::Failure;
-use crate::files::apart::Named;
+use crate::files::distinct::Named;
 use crate::files::input::read_document;
 use crate::message::say;
 use std::path::Path;

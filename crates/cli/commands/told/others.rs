@@ -6,7 +6,7 @@ use stickslip_documents::{CompareDocument, SurfaceDocument, UnitsDocument};
 
 impl Product for SurfaceDocument {
     fn told(&self) -> Told {
-        let curves = self.surfaces.iter().map(|s| (s.t, &s.x, s.u.iter().copied().collect()));
+        let curves = self.surfaces.iter().map(|s| (s.t, &s.x, s.u.to_vec()));
         let images = self.images.iter().map(|image| {
             (image.t, &image.x, image.u.iter().flatten().copied().collect::<Vec<f64>>())
         });

@@ -68,18 +68,18 @@ impl Across {
     /// h(y).
     #[must_use]
     pub fn value(&self, y: f64) -> f64 {
-        self.bells(y).map(|z| (-0.5 * z * z).exp()).sum()
+        self.offsets(y).map(|z| (-0.5 * z * z).exp()).sum()
     }
 
     /// h''(0).
     #[must_use]
     pub fn curvature_at_0(&self) -> f64 {
-        let bell = |z: f64| (z * z - 1.0) * (-0.5 * z * z).exp();
-        self.bells(0.0).map(bell).sum::<f64>() / (self.width * self.width)
+        let term = |z: f64| (z * z - 1.0) * (-0.5 * z * z).exp();
+        self.offsets(0.0).map(term).sum::<f64>() / (self.width * self.width)
     }
 
     /// Distances of y from the centers, in widths.
-    fn bells(&self, y: f64) -> impl Iterator<Item = f64> {
+    fn offsets(&self, y: f64) -> impl Iterator<Item = f64> {
         let twin = (self.center > 0.0).then_some(-self.center);
         let Self { center, width } = *self;
         std::iter::once(center).chain(twin).map(move |center| (y - center) / width)

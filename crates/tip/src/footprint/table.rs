@@ -1,4 +1,4 @@
-//! A table (x, y, f) turned into layers: bells on a lattice, first along x, then along y.
+//! A table (x, y, f) turned into layers: Gaussians on a lattice, first along x, then along y.
 
 use super::{Across, Layer};
 use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
@@ -18,11 +18,11 @@ pub(super) fn layers_through(
     let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     // Coefficients along x for every y, then along y for every x of the lattice.
     let rows: Vec<(f64, Vec<f64>)> =
-        grid.rows.iter().map(|row| table::bells_through(&grid.x, row)).collect();
+        grid.rows.iter().map(|row| table::lattice_through(&grid.x, row)).collect();
     let (spacing, columns) = (rows[0].0, rows[0].1.len());
     let column = |i: usize| -> Vec<f64> { rows.iter().map(|(_, row)| row[i]).collect() };
     let across: Vec<(f64, Vec<f64>)> =
-        (0..columns).map(|i| table::bells_through(&grid.y, &column(i))).collect();
+        (0..columns).map(|i| table::lattice_through(&grid.y, &column(i))).collect();
     let spacing_y = across[0].0;
     let layer = |k: usize| -> Option<Layer> {
         let along: Vec<f64> = across.iter().map(|(_, column)| column[k]).collect();

@@ -19,13 +19,13 @@ const NEIGHBOURS: usize = 11;
 
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
     validate(x, f)?;
-    let (spacing, coefficients) = bells_through(x, f);
+    let (spacing, coefficients) = lattice_through(x, f);
     Ok(gaussians_of(spacing, &coefficients))
 }
 
-/// Spacing of the lattice, and the coefficients on its points ≥ 0 of the even sum of bells that takes the
+/// Spacing of the lattice, and the coefficients on its points ≥ 0 of the even sum of Gaussians that takes the
 /// values f at x, valid columns of a table.
-pub(crate) fn bells_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
+pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     let (spacing, mut samples) = on_a_lattice(x, f);
     samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
     let origin = samples.len() - 1;
@@ -33,7 +33,7 @@ pub(crate) fn bells_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     (spacing, coefficients.split_off(origin))
 }
 
-/// The bells on the whole lattice, the coefficients given for its points ≥ 0.
+/// The Gaussians on the whole lattice, the coefficients given for its points ≥ 0.
 pub(crate) fn gaussians_of(spacing: f64, coefficients: &[f64]) -> Vec<Gaussian> {
     let width = WIDTH_PER_SPACING * spacing;
     let term = |i: usize, sign: f64| {
@@ -106,7 +106,7 @@ fn interpolate(samples: &[f64]) -> Vec<f64> {
     let apply = |v: &[f64]| -> Vec<f64> {
         let row = |i: usize| -> f64 {
             let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(n);
-            near.map(|j| bell(i.abs_diff(j)) * v[j]).sum()
+            near.map(|j| gaussian(i.abs_diff(j)) * v[j]).sum()
         };
         (0..n).map(row).collect()
     };
@@ -135,7 +135,7 @@ fn interpolate(samples: &[f64]) -> Vec<f64> {
     c
 }
 
-fn bell(distance: usize) -> f64 {
+fn gaussian(distance: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "small")]
     let z = distance as f64 / WIDTH_PER_SPACING;
     (-0.5 * z * z).exp()
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn a_table_of_the_triple_gaussian_gives_it_back() {
         let exact = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        // Finer than the bells need be wide: what is left is their saturation error.
+        // Finer than the Gaussians need be wide: what is left is their saturation error.
         let x: Vec<f64> = (0..=120).map(|i| 0.1 * f64::from(i)).collect();
         let f: Vec<f64> = x.iter().map(|&x| exact.value(x)).collect();
         let table = TipFunction::table(&x, &f).unwrap();

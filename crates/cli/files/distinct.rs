@@ -17,7 +17,7 @@ const ENDINGS: [&str; 3] = [".part", ".partial", ".journal"];
 ///
 /// # Errors
 /// Names the option, and the one that it collides with.
-pub(crate) fn apart(written: &[Named], read: &[Named]) -> Result<(), Failure> {
+pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure> {
     let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {
         let Some(path) = path.filter(|path| is_file(path)) else { continue };
@@ -97,12 +97,14 @@ mod tests {
         for (one, other) in pairs {
             let (one, other) = (at(one), at(other));
             let named = [("--one", Some(&*one)), ("--other", Some(&*other))];
-            assert!(apart(&named, &[]).is_err(), "{named:?}");
-            assert!(apart(&[named[1], named[0]], &[]).is_err(), "{named:?}");
-            assert!(apart(&named[..1], &named[1..]).is_err(), "{named:?}");
-            assert!(apart(&[], &named).is_ok());
+            assert!(distinct(&named, &[]).is_err(), "{named:?}");
+            assert!(distinct(&[named[1], named[0]], &[]).is_err(), "{named:?}");
+            assert!(distinct(&named[..1], &named[1..]).is_err(), "{named:?}");
+            assert!(distinct(&[], &named).is_ok());
         }
         let (one, other) = (at("a"), at("b"));
-        assert!(apart(&[("--one", Some(&one))], &[("--other", Some(&other)), ("-", None)]).is_ok());
+        assert!(
+            distinct(&[("--one", Some(&one))], &[("--other", Some(&other)), ("-", None)]).is_ok()
+        );
     }
 }

@@ -10,7 +10,7 @@ use stickslip_outcome::Watched;
 use stickslip_tip::{Scenario, Step};
 
 /// A run under way, with all that accompanies it.
-pub(super) struct Journey<'a> {
+pub(super) struct Integration<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) checkpoints: Option<Checkpoints>,
@@ -19,7 +19,7 @@ pub(super) struct Journey<'a> {
 }
 
 /// A run that has come to an end.
-pub(super) struct Travelled<'a> {
+pub(super) struct Integrated<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) seconds: f64,
@@ -27,7 +27,7 @@ pub(super) struct Travelled<'a> {
     pub(super) signal: Option<u8>,
 }
 
-impl<'a> Journey<'a> {
+impl<'a> Integration<'a> {
     /// Makes a checkpoint here, if any are to be made.
     pub(super) fn checkpoint(&mut self) -> Result<(), Failure> {
         match &mut self.checkpoints {
@@ -47,7 +47,7 @@ impl<'a> Journey<'a> {
     }
 
     /// Goes to the end of the scenario.
-    pub(super) fn travel(mut self, scenario: &Scenario) -> Result<Travelled<'a>, Failure> {
+    pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<'a>, Failure> {
         let interrupt = Interrupt::listen()
             .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
@@ -71,6 +71,6 @@ impl<'a> Journey<'a> {
         }
         let seconds = before + started.elapsed().as_secs_f64();
         self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
-        Ok(Travelled { running: self.running, record: self.record, seconds, signal })
+        Ok(Integrated { running: self.running, record: self.record, seconds, signal })
     }
 }

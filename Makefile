@@ -9,8 +9,9 @@ MOTIONS ?= 25000
 RUNS ?= 1000
 
 # Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
-trial := --locked --profile trial --no-default-features
-stickslip = $(CARGO) build $(trial) && echo 'stickslip $(1)' && $(CARGO) run $(trial) --quiet -- $(1)
+trial := --profile trial --no-default-features
+stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
+	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
 .PHONY: help run test survive judge check outputs bench work-precision figures peers fuzz doc install clean

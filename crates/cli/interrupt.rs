@@ -95,8 +95,13 @@ impl Interrupt {
 
     /// Raised by the first signal: for work to look at.
     pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
-        &state().received
+        flag()
     }
+}
+
+/// Raised by the first signal that is listened for.
+pub(crate) fn flag() -> &'static Arc<AtomicBool> {
+    &state().received
 }
 
 impl Drop for Interrupt {

@@ -123,7 +123,7 @@ fn both_motions_and_their_distance_are_drawn() {
     for label in ["closed equation", "grid", "|Δx₀|", "|Δu|"] {
         assert!(pictures[0].contains(label), "{label}");
     }
-    folder.refuses(&format!("{CASE} -o c.svg --plot c.svg"), &["--output c.svg"]);
+    folder.refuses(&format!("{CASE} -o c.svg --plot c.svg"), &["--output", "c.svg"]);
     folder.refuses(&format!("{CASE} --plot c.jpg"), &["--plot c.jpg", ".svg"]);
 }
 

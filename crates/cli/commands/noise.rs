@@ -26,19 +26,25 @@ pub(super) fn tell_of_noise(option: &str, (x, f): (&[f64], &[f64]), tip: &TipFun
     }
 }
 
-/// αc(1) of all rows, and of every other one.
+/// αc(1) of all rows, and that of every other one, the even or the odd, which is farther from it.
 fn critical_alphas((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Option<(f64, f64)> {
     if x.len() < FEWEST_ROWS {
         return None;
     }
-    let last = x.len() - 1;
-    let kept = |column: &[f64]| -> Vec<f64> {
-        let even = (0..last - 1).step_by(2).chain([last]);
-        even.map(|i| column[i]).collect()
-    };
-    let half = TipFunction::table(&kept(x), &kept(f)).ok()?;
     let alpha = |tip: &TipFunction| critical(tip, 1.0).ok().map(|at| at.alpha);
-    Some((alpha(tip)?, alpha(&half)?))
+    let all = alpha(tip)?;
+    let last = x.len() - 1;
+    let half = |first: usize| {
+        // A table begins at 0 and ends where f has faded.
+        let kept = |column: &[f64]| -> Vec<f64> {
+            let rows = (first..last - 1).step_by(2).filter(|i| *i > 0);
+            [0].into_iter().chain(rows).chain([last]).map(|i| column[i]).collect()
+        };
+        alpha(&TipFunction::table(&kept(x), &kept(f)).ok()?)
+    };
+    let halves = [half(2), half(1)].into_iter().flatten();
+    let farther = halves.max_by(|a, b| (a / all).ln().abs().total_cmp(&(b / all).ln().abs()));
+    Some((all, farther?))
 }
 
 #[cfg(test)]

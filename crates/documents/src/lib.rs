@@ -40,6 +40,7 @@ mod sweep;
 mod table;
 mod units;
 mod verification;
+mod work;
 
 pub use boundary::{
     BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
@@ -66,7 +67,7 @@ pub use outcome::{
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
-pub use run::{RunDocument, Samples, SteadyState, WorkDocument};
+pub use run::{RunDocument, Samples};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
@@ -88,3 +89,4 @@ pub use units::{
 pub use verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
 };
+pub use work::{SteadyState, WorkDocument};

@@ -3,11 +3,12 @@
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
     CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters,
-    SampleLine, Software, TransientDocument, Unusable, VerificationDocument,
+    SampleLine, Software, SteadyState, TransientDocument, Unusable, VerificationDocument,
+    WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Model, Trajectory};
+use stickslip_tip::Trajectory;
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -90,18 +91,6 @@ impl RunDocument {
     }
 }
 
-/// Steady motion.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SteadyState {
-    /// l0 = α f(0)/r, in σ.
-    pub l: f64,
-    /// r + l0, the distance by which the tip lags behind the support, in σ.
-    pub lag: f64,
-    /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
-    pub surface_behind: Option<f64>,
-}
-
 /// Columns of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -116,17 +105,6 @@ pub struct Samples {
     pub velocity: Vec<f64>,
 }
 
-impl From<&Model> for SteadyState {
-    fn from(model: &Model) -> Self {
-        let behind = model.steady_surface_behind();
-        Self {
-            l: model.steady_l(),
-            lag: model.steady_lag(),
-            surface_behind: behind.is_finite().then_some(behind),
-        }
-    }
-}
-
 impl From<&[SampleLine]> for Samples {
     fn from(samples: &[SampleLine]) -> Self {
         let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();
@@ -137,24 +115,6 @@ impl From<&[SampleLine]> for Samples {
             velocity: column(|s| s.velocity),
         }
     }
-}
-
-/// Counts that depend on the input alone, and the time that it took.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WorkDocument {
-    /// Memory in use at the end.
-    pub memory: String,
-    /// Why that one.
-    pub memory_reason: String,
-    /// Accepted steps.
-    pub steps: u64,
-    /// Steps repeated with a smaller length.
-    pub rejected: u64,
-    /// Newton iterations in all steps.
-    pub newton_iterations: u64,
-    /// Time of the integration alone, in seconds: the one field that differs from run to run.
-    pub seconds: f64,
 }
 
 impl Tabular for RunDocument {

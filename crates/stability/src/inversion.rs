@@ -9,7 +9,7 @@
 //! on a line right of all roots, has a short range, and the trapezoidal rule converges exponentially: with a step of
 //! 2π/P it adds the response at t + nP times e^{-σnP}, n ≥ 1, and to both sides of the range nothing.
 
-use super::response::transform;
+use super::pulse::transform;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::Pulse;

@@ -25,6 +25,7 @@ mod half_plane;
 mod inversion;
 mod newton;
 mod onset;
+mod pulse;
 mod raster;
 mod response;
 mod roots;

@@ -1,6 +1,7 @@
 //! Linear response to a weak pulse: the residue sum (A.9).
 
 use super::characteristic::Characteristic;
+use super::pulse::transform;
 use super::scaled_erfc::scaled_erfc;
 use super::transform::{CurvatureTransform, Scaled};
 use super::{Inversion, Spectrum, StabilityError, leading_roots};
@@ -92,12 +93,6 @@ fn characteristic(model: &Model) -> Box<dyn Fn(Complex64) -> Complex64 + '_> {
         let Scaled { value, log_scale, .. } = h.at(z / r);
         value * log_scale.exp()
     })
-}
-
-/// F̃ext(λ) = ∫ Fext e^{-λt}dt = A W √(2π) exp(λ²W²/2 - λT).
-pub(super) fn transform(pulse: &Pulse, lambda: Complex64) -> Complex64 {
-    let exponent = lambda * (lambda * (0.5 * pulse.width * pulse.width) - pulse.time);
-    exponent.exp() * (pulse.amplitude * pulse.width * (2.0 * PI).sqrt())
 }
 
 /// ∫_{-∞}^t Fext(t') e^{λ(t-t')}dt' = A W √(π/2) e^{-(t-T)²/2W²} erfcx(z), z = -(λW² + t - T)/(W√2).

@@ -2,9 +2,10 @@
 
 use super::integration::Integrated;
 use crate::failure::Failure;
+use crate::interrupt;
 use stickslip_documents::{OscillationDocument, RunEnd, WorkDocument};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::{InitialSurface, Scenario};
+use stickslip_tip::{InitialSurface, Scenario, stop};
 
 /// What became of the run.
 pub(super) fn end(
@@ -14,7 +15,9 @@ pub(super) fn end(
 ) -> Result<RunEnd, Failure> {
     let Integrated { running, seconds, signal, .. } = integrated;
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
-    let (outcome, work) = (running.outcome(), running.work());
+    // Whoever stops the judgement too, or stopped the run, is told what can be said at once.
+    let outcome = stop::where_asked_by(interrupt::flag(), || running.outcome());
+    let work = running.work();
     Ok(RunEnd {
         end: running.t(),
         regime: outcome.regime.into(),

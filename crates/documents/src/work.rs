@@ -1,0 +1,46 @@
+//! What a run took, and the steady motion that it is seen beside.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_tip::Model;
+
+/// Steady motion.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SteadyState {
+    /// l0 = α f(0)/r, in σ.
+    pub l: f64,
+    /// r + l0, the distance by which the tip lags behind the support, in σ.
+    pub lag: f64,
+    /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
+    pub surface_behind: Option<f64>,
+}
+
+impl From<&Model> for SteadyState {
+    fn from(model: &Model) -> Self {
+        let behind = model.steady_surface_behind();
+        Self {
+            l: model.steady_l(),
+            lag: model.steady_lag(),
+            surface_behind: behind.is_finite().then_some(behind),
+        }
+    }
+}
+
+/// Counts that depend on the input alone, and the time that it took.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorkDocument {
+    /// Memory in use at the end.
+    pub memory: String,
+    /// Why that one.
+    pub memory_reason: String,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated with a smaller length.
+    pub rejected: u64,
+    /// Newton iterations in all steps.
+    pub newton_iterations: u64,
+    /// Time of the integration alone, in seconds: the one field that differs from run to run.
+    pub seconds: f64,
+}

@@ -44,7 +44,7 @@ const MOST_MESHES: usize = 8;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
 /// Residuals within a step may exceed the estimate by as much.
-const ESTIMATE_FALLS_SHORT: f64 = 0.55;
+const ESTIMATE_FALLS_SHORT: f64 = 0.7;
 /// A correction of this size leaves an error of its square.
 const ENOUGH: f64 = 1e-9;
 /// Enough to see how far the mesh must be refined.

@@ -140,6 +140,7 @@ impl Tabular for RunDocument {
 mod tests {
     use super::*;
     use crate::read;
+    use stickslip_tip::Model;
     use stickslip_tip::{Scenario, TipFunction, run};
 
     /// A document is the run: scenario and motion come back from its text to the last bit.

@@ -3,8 +3,7 @@
 //! References: Hua & Sarkar, IEEE Trans. ASSP 38, 814 (1990); Roy & Kailath, IEEE Trans. ASSP 37,
 //! 984 (1989).
 
-use crate::eigenvalues;
-use nalgebra::{DMatrix, SVD};
+use nalgebra::{DMatrix, SVD, Schur};
 use num_complex::Complex;
 
 /// The signal space of evenly spaced samples `y_n`: the left singular vectors of the Hankel matrix
@@ -42,6 +41,10 @@ impl Pencil {
 
     /// Exponents s of p terms `e^{sξ}`, one of each conjugate pair; `None` if one of them grows.
     pub(super) fn exponents(&self, p: usize) -> Option<Vec<Complex<f64>>> {
+        // Of no terms there are no eigenvalues, which nalgebra looks for all the same.
+        if p == 0 {
+            return None;
+        }
         let rows = self.vectors.nrows() - 1;
         let upper = self.vectors.view((0, 0), (rows, p));
         let lower = self.vectors.view((1, 0), (rows, p));
@@ -51,7 +54,8 @@ impl Pencil {
         let product = upper.transpose() * lower;
         let rest = 1.0 - v.norm_squared();
         let shift = &product + &v * (v.transpose() * &product) / rest;
-        let exponents = eigenvalues(shift)?.into_iter().map(|l| l.ln() / self.spacing);
+        let eigenvalues = Schur::try_new(shift, f64::EPSILON, MOST_SWEEPS)?.complex_eigenvalues();
+        let exponents = eigenvalues.iter().map(|l| l.ln() / self.spacing);
         let kept: Vec<_> = exponents.filter(|s| s.im >= 0.0).collect();
         // The logarithm of a negative eigenvalue is at the end of what the samples resolve.
         let resolved = |s: &Complex<f64>| s.im * self.spacing < 3.0;

@@ -38,7 +38,7 @@ fn change((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Option<f64> {
     let alpha = |tip: &TipFunction| critical(tip, 1.0).ok().map(|at| at.alpha);
     let all = alpha(tip)?;
     let noise = noise(f);
-    let changes = (0..DRAWS).filter_map(|draw| {
+    let changes = (0..DRAWS).map(|draw| {
         let mut random = uniform(draw);
         let last = f.len() - 1;
         // Variance 1/3 on [-1, 1]; the end where f has faded stays.
@@ -46,7 +46,7 @@ fn change((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Option<f64> {
         let noisy: Vec<f64> = f.iter().enumerate().map(|(i, f)| f + more(i)).collect();
         let changed = TipFunction::table(x, &noisy).ok().and_then(|tip| alpha(&tip));
         // Noise that leaves no footprint changes all.
-        Some(changed.map_or(1.0, |changed| (changed / all).ln().abs()))
+        changed.map_or(1.0, |changed| (changed / all).ln().abs())
     });
     let squares: Vec<f64> = changes.map(|change| change * change).collect();
     Some((squares.iter().sum::<f64>() / squares.len() as f64).sqrt())

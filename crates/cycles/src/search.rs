@@ -123,7 +123,7 @@ fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
 
 pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
     judge(tolerance)?;
-    Ok(Embedding::new(model, tolerance)?)
+    Embedding::new(model, tolerance)
 }
 
 fn judge(tolerance: f64) -> Result<(), CycleError> {

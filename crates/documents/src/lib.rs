@@ -17,6 +17,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "t[i] is an entry, also in the descriptions of the schemas"
+)]
+
 mod boundary;
 mod checkpoint;
 mod compare;

@@ -10,6 +10,7 @@ const DEFAULT: f64 = 900.0;
 const NARROWEST: f64 = 280.0;
 const WIDEST: f64 = 20_000.0;
 /// Pixels for each unit of the default, which makes 288 in an inch.
+#[cfg(feature = "png")]
 const DENSITY: f64 = 2.0;
 const DOTS: (f64, f64) = (10.0, 10_000.0);
 

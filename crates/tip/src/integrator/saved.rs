@@ -1,6 +1,7 @@
 //! The integrator between two steps, written down and taken up again.
 
 use super::{Integrator, Work};
+use crate::history::Heights;
 use crate::memory::Memory;
 use crate::state::{Damaged, Reader, Saved, State};
 
@@ -12,6 +13,10 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
             state.number(number);
         }
         state.steps(self.last.iter());
+        if let Some(corner) = &self.corner {
+            corner.save(state);
+            state.numbers(self.last.iter().filter_map(|last| last.height).flat_map(Heights::numbers).collect::<Vec<_>>().into_iter());
+        }
         let Work { steps, rejected, newton_iterations } = self.work;
         [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));
         self.control.save(state);
@@ -23,6 +28,12 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         (self.velocity, self.curvature) = (state.finite()?, state.finite()?);
         self.limits_from_before = (state.finite()?, state.finite()?);
         self.last = state.steps()?.pop();
+        if let Some(corner) = &mut self.corner {
+            corner.restore(state)?;
+            let numbers = state.numbers()?;
+            let heights = Heights::from_numbers(&numbers);
+            self.last.iter_mut().for_each(|last| last.height = heights);
+        }
         self.work = Work {
             steps: state.count()?,
             rejected: state.count()?,

@@ -46,12 +46,7 @@ impl Model {
     ///
     /// # Errors
     /// As [`new`](Self::new); a parameter of the wider law out of its range.
-    pub fn under(
-        wider: Wider,
-        tip: TipFunction,
-        alpha: f64,
-        r: f64,
-    ) -> Result<Self, ModelError> {
+    pub fn under(wider: Wider, tip: TipFunction, alpha: f64, r: f64) -> Result<Self, ModelError> {
         wider.validate()?;
         if !(alpha.is_finite() && (alpha >= 0.0 || !wider.spring)) {
             return Err(ModelError::Alpha(alpha));

@@ -105,8 +105,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         tolerance: f64,
     ) -> Self {
         let (t, extension) = start;
-        let support =
-            if model.wider().spring { Support::Moving(model.r()) } else { Support::None };
+        let support = if model.wider().spring { Support::Moving(model.r()) } else { Support::None };
         let x = support.position(t) - extension;
         let (slope, curvature) = surface.slope_and_curvature(x);
         let control = Control::new(tolerance);

@@ -15,7 +15,14 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         state.steps(self.last.iter());
         if let Some(corner) = &self.corner {
             corner.save(state);
-            state.numbers(self.last.iter().filter_map(|last| last.height).flat_map(Heights::numbers).collect::<Vec<_>>().into_iter());
+            state.numbers(
+                self.last
+                    .iter()
+                    .filter_map(|last| last.height)
+                    .flat_map(Heights::numbers)
+                    .collect::<Vec<_>>()
+                    .into_iter(),
+            );
         }
         let Work { steps, rejected, newton_iterations } = self.work;
         [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));

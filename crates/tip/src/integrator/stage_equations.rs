@@ -186,8 +186,7 @@ impl<'a> StageEquations<'a> {
                 .map(|factors| Jacobian::Limited(Box::new(factors))),
             _ => {
                 let curvatures = (&known.past_curvature, &known.relief_curvature);
-                let matrix: Matrix =
-                    self.equations.jacobian(curvatures.0, curvatures.1, &look.own);
+                let matrix: Matrix = self.equations.jacobian(curvatures.0, curvatures.1, &look.own);
                 Factors::of(matrix).map(Jacobian::Plain)
             }
         }
@@ -199,12 +198,10 @@ impl<'a> StageEquations<'a> {
         let own = OwnGroove::near(self.apex, self.model.tip(), d);
         if let Some(depth) = &self.depth {
             let own_height = OwnHeight::near(self.apex, self.model.tip(), d);
-            let missed =
-                depth.missed(&self.equations, (d, height), &known, (&own, &own_height));
+            let missed = depth.missed(&self.equations, (d, height), &known, (&own, &own_height));
             return Look { known, own, own_height: Some(own_height), missed };
         }
-        let velocity =
-            self.equations.velocity(d, &known.past_slope, &known.relief_slope, &own);
+        let velocity = self.equations.velocity(d, &known.past_slope, &known.relief_slope, &own);
         let displacement = self.equations.residual(d, &velocity);
         let missed = Missed { displacement, height: [0.0; STAGES] };
         Look { known, own, own_height: None, missed }
@@ -224,8 +221,7 @@ impl<'a> StageEquations<'a> {
                 self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
         }
         if self.depth.is_some() {
-            known.relief_height =
-                d.map(|d| self.surface.height_on(self.stretch, self.x + d));
+            known.relief_height = d.map(|d| self.surface.height_on(self.stretch, self.x + d));
         }
         if let Some(left) = &self.left {
             known.fade(&left.past, &left.relief);

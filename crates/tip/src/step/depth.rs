@@ -112,9 +112,7 @@ impl Depth {
         let alpha = equations.alpha();
         Missed {
             displacement: equations.residual(d, &velocity),
-            height: std::array::from_fn(|i| {
-                height[i] - known.relief_height[i] + alpha * groove[i]
-            }),
+            height: std::array::from_fn(|i| height[i] - known.relief_height[i] + alpha * groove[i]),
         }
     }
 

@@ -22,8 +22,7 @@ impl Inertia {
         let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
         let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
         let along = |v: Stages| apply(&RADAU.a, &v).map(|d| h * d);
-        let by_force =
-            |k: usize| factors.solve(&std::array::from_fn(|i| share * RADAU.a[i][k]));
+        let by_force = |k: usize| factors.solve(&std::array::from_fn(|i| share * RADAU.a[i][k]));
         Self {
             carried: columns(|k| along(by_force(k))),
             glide: along(factors.solve(&[velocity; STAGES])),

@@ -1,8 +1,8 @@
 //! The velocity of the tip, and the equations that it makes for the stages of a step.
 
+use super::healing::healing;
 use super::inertia::Inertia;
 use super::own::{Matrix, OwnGroove, carving};
-use super::healing::healing;
 use crate::Model;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 

@@ -127,7 +127,11 @@ mod tests {
                         let (f1, f2) = tip.slope_and_curvature(d[i]);
                         let allowed = (error + 1e-13) * size;
                         let miss = (value[i] - tip.value(d[i])).abs();
-                        assert!(miss < allowed * length.max(1.0), "{tip:?} {error} {} {miss}", d[i]);
+                        assert!(
+                            miss < allowed * length.max(1.0),
+                            "{tip:?} {error} {} {miss}",
+                            d[i]
+                        );
                         assert!(
                             (slope[i] - f1).abs() < allowed,
                             "{tip:?} {error} {} {f1} {}",

@@ -1,7 +1,7 @@
 //! `stickslip stability`.
 
 use super::job::{Job, judge_places};
-use super::model::{model, tip};
+use super::model::{model, only_papers, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
@@ -37,6 +37,7 @@ struct Point {
 
 impl Point {
     fn asked(arguments: &StabilityArguments) -> Result<Self, Failure> {
+        only_papers(&arguments.model, "stability")?;
         let tip = tip(&arguments.model.tip)?;
         match arguments.solve_for {
             SolveFor::Alpha => Self::for_alpha(&arguments.model, tip),
@@ -52,7 +53,11 @@ impl Point {
             return Err(Failure::input(format!("--r {}", Typed(r)), error));
         }
         if arguments.alpha.is_some() || arguments.alpha_above.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: model(arguments, "stability")?,
+                at_critical: false,
+            });
         }
         let advice = "give --alpha A for the growth exponents there";
         let at = critical.map_err(|error| {
@@ -73,7 +78,11 @@ impl Point {
             return Err(Failure::input(format!("--alpha {}", Typed(alpha)), error));
         }
         if arguments.r.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: model(arguments, "stability")?,
+                at_critical: false,
+            });
         }
         let advice = "give --r R for the growth exponents there";
         let at = critical.map_err(|error| {

@@ -34,8 +34,8 @@ pub struct Heights {
     pub nodes: Stages,
 }
 
-/// How many numbers make a step, beside its heights.
-pub const STEP_NUMBERS: usize = 3 + STAGES;
+/// How many numbers make a step: its heights too, NaN where there are none.
+pub const STEP_NUMBERS: usize = 4 + 2 * STAGES;
 
 impl Step {
     /// Time at its end.
@@ -96,19 +96,36 @@ impl Step {
         self.height.map(|height| height.at(self.part(t)))
     }
 
-    /// t, h, extension and displacements: all that it is, beside its heights.
+    /// t, h, extension, displacements and heights: all that it is.
     #[must_use]
     pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
-        let mut numbers = [0.0; STEP_NUMBERS];
+        let mut numbers = [f64::NAN; STEP_NUMBERS];
         numbers[..3].copy_from_slice(&[self.t, self.h, self.extension]);
-        numbers[3..].copy_from_slice(&self.displacement);
+        let (displacement, heights) = numbers[3..].split_at_mut(STAGES);
+        displacement.copy_from_slice(&self.displacement);
+        if let Some(Heights { start, nodes }) = self.height {
+            heights[0] = start;
+            heights[1..].copy_from_slice(&nodes);
+        }
         numbers
+    }
+
+    /// Whether it is a step: of a finite duration above 0, with finite numbers throughout.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let heights = self.height.into_iter().flat_map(|h| h.nodes.into_iter().chain([h.start]));
+        let numbers = [self.t, self.h, self.extension].into_iter().chain(self.displacement);
+        self.h > 0.0 && numbers.chain(heights).all(f64::is_finite)
     }
 
     /// From its [`numbers`](Self::numbers).
     #[must_use]
-    pub fn from_numbers([t, h, extension, displacement @ ..]: [f64; STEP_NUMBERS]) -> Self {
-        Self { t, h, extension, displacement, height: None }
+    pub fn from_numbers([t, h, extension, rest @ ..]: [f64; STEP_NUMBERS]) -> Self {
+        let displacement = std::array::from_fn(|i| rest[i]);
+        let nodes = std::array::from_fn(|i| rest[1 + STAGES + i]);
+        let start = rest[STAGES];
+        let height = (!start.is_nan()).then_some(Heights { start, nodes });
+        Self { t, h, extension, displacement, height }
     }
 
     /// With the weights w of its visits under a law.
@@ -118,19 +135,6 @@ impl Step {
 }
 
 impl Heights {
-    /// Start and nodes: all that they are.
-    #[must_use]
-    pub fn numbers(self) -> [f64; 1 + STAGES] {
-        std::array::from_fn(|i| if i == 0 { self.start } else { self.nodes[i - 1] })
-    }
-
-    /// From their [`numbers`](Self::numbers).
-    #[must_use]
-    pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
-        let (start, nodes) = numbers.split_first()?;
-        Some(Self { start: *start, nodes: nodes.try_into().ok()? })
-    }
-
     /// At the fraction τ of the step.
     #[must_use]
     pub fn at(&self, tau: f64) -> f64 {

@@ -259,7 +259,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         }
         let heights = self.heights(&solution);
         if let Some((corner, heights)) = self.corner.as_ref().zip(heights.as_ref()) {
-            corner.passed(heights, h)?;
+            corner.passed(heights, (self.t, h))?;
         }
         let stiffness = (1.0 + self.curvature).max(0.0);
         let signs = self.signs_of_error(&displacement, h);
@@ -317,10 +317,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
         }
         self.memory.remember(&displacement, &solution.spent);
         self.extension = step.extension_at_end(self.support.velocity(self.t));
-        self.t = step.end();
         if let Some((corner, height)) = self.corner.as_mut().zip(height) {
-            corner.arrive(&height);
+            corner.arrive(&height, (step.t, h));
         }
+        self.t = step.end();
         self.velocity = step::velocity_at_end(&displacement, h);
         self.curvature = solution.curvature_at_end;
         self.limits_from_before = (self.relief_slope(), self.force.value(self.t.next_down()));

@@ -1,7 +1,6 @@
 //! The integrator between two steps, written down and taken up again.
 
 use super::{Integrator, Work};
-use crate::history::Heights;
 use crate::memory::Memory;
 use crate::state::{Damaged, Reader, Saved, State};
 
@@ -13,17 +12,7 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
             state.number(number);
         }
         state.steps(self.last.iter());
-        if let Some(corner) = &self.corner {
-            corner.save(state);
-            state.numbers(
-                self.last
-                    .iter()
-                    .filter_map(|last| last.height)
-                    .flat_map(Heights::numbers)
-                    .collect::<Vec<_>>()
-                    .into_iter(),
-            );
-        }
+        self.corner.iter().for_each(|corner| corner.save(state));
         let Work { steps, rejected, newton_iterations } = self.work;
         [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));
         self.control.save(state);
@@ -37,9 +26,9 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         self.last = state.steps()?.pop();
         if let Some(corner) = &mut self.corner {
             corner.restore(state)?;
-            let numbers = state.numbers()?;
-            let heights = Heights::from_numbers(&numbers);
-            self.last.iter_mut().for_each(|last| last.height = heights);
+        }
+        if self.last.is_some_and(|last| last.height.is_some() != self.corner.is_some()) {
+            return Err(Damaged::OutOfRange);
         }
         self.work = Work {
             steps: state.count()?,

@@ -194,8 +194,9 @@ impl Scenario {
         }
     }
 
-    /// Of a tip with inertia.
-    pub(super) fn velocity_at_start(&self) -> f64 {
+    /// Velocity with which a tip with inertia starts.
+    #[must_use]
+    pub fn velocity_at_start(&self) -> f64 {
         self.start_velocity.unwrap_or(match self.start {
             Start::Steady => self.model.r(),
             Start::Flat => 0.0,

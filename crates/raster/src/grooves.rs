@@ -137,15 +137,17 @@ impl Grooves {
         let within = |row: &&Row| (row.y - y).abs() <= self.reach_across;
         self.rows.iter().find(within)?;
         let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
-        for row in self.rows.iter().filter(within) {
-            let layers = self.footprint.layers().iter().zip(&self.stretch.layers);
-            for (layer, transform) in layers {
-                let height = -self.alpha * layer.across.value(y - row.y);
-                let terms = row.spectrum.iter().zip(transform);
-                sum.iter_mut().zip(terms).for_each(|(sum, (rho, g))| *sum += rho * (height * g));
-            }
-        }
+        self.rows.iter().filter(within).for_each(|row| self.add_groove(row, y, &mut sum));
         Some(sum)
+    }
+
+    /// Adds what the lines of a row left at y.
+    fn add_groove(&self, row: &Row, y: f64, sum: &mut [Complex64]) {
+        for (layer, transform) in self.footprint.layers().iter().zip(&self.stretch.layers) {
+            let height = -self.alpha * layer.across.value(y - row.y);
+            let terms = row.spectrum.iter().zip(transform);
+            sum.iter_mut().zip(terms).for_each(|(sum, (rho, g))| *sum += rho * (height * g));
+        }
     }
 
     /// What a tip on the line y finds; with `mirrored_about` X in the frame X - x. `None` where no line is within reach.
@@ -160,8 +162,25 @@ impl Grooves {
 
     /// The heights on the line y, at every x.
     pub(crate) fn heights(&mut self, y: f64, x: &[f64]) -> Vec<f64> {
-        let Some(heights) = self.surface(y) else { return vec![0.0; x.len()] };
-        let field = self.stretch.spectra.field(&heights);
+        match self.surface(y) {
+            Some(heights) => self.read(&heights, x),
+            None => vec![0.0; x.len()],
+        }
+    }
+
+    /// What each line alone left below it, at every x.
+    pub(crate) fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
+        let own = |row: &Row| {
+            let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
+            self.add_groove(row, row.y, &mut sum);
+            sum
+        };
+        let spectra: Vec<Vec<Complex64>> = self.rows.iter().map(own).collect();
+        spectra.iter().map(|heights| self.read(heights, x)).collect()
+    }
+
+    fn read(&mut self, heights: &[Complex64], x: &[f64]) -> Vec<f64> {
+        let field = self.stretch.spectra.field(heights);
         let range = field.range();
         x.iter().map(|x| if range.contains(x) { field.value(*x) } else { 0.0 }).collect()
     }

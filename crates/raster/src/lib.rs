@@ -31,12 +31,14 @@
 mod grooves;
 mod line;
 mod path;
+mod pattern;
 mod plan;
 mod scan;
 mod surface;
 
 pub use line::Line;
 pub use path::{Path, Track};
+pub use pattern::{LineRegime, Pattern, Regime, line_regime, pattern};
 pub use plan::{MOST_LINES, Plan, RasterError};
 pub use scan::Scanning;
 pub use surface::{Scanned, volume};

@@ -74,7 +74,7 @@ const MOST_WITHIN_REACH: f64 = 1e4;
 /// Points of the lattice that a line is held on.
 const MOST_POINTS: f64 = 1e7;
 /// A Gaussian ends so many widths from its center: e^{-40.5} = 2.6e-18.
-const WIDTHS: f64 = 9.0;
+pub(crate) const WIDTHS: f64 = 9.0;
 
 impl Plan {
     /// Lines over a flat surface under the law of `model`, to a tolerance of 1e-9.

@@ -27,6 +27,13 @@ impl Scanned {
         }
         heights
     }
+
+    /// What each line alone left below it (rows), at every x (columns).
+    #[must_use]
+    pub fn own_grooves(&mut self, x: &[f64]) -> Array2<f64> {
+        let rows = self.grooves.own_heights(x);
+        Array2::from_shape_fn((rows.len(), x.len()), |(n, i)| rows[n][i])
+    }
 }
 
 /// ∫∫ u dx dy after these lines: -α ∫∫f times how long the tip was there, -α (X/r) ∫∫f for each line.

@@ -47,7 +47,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
 
 /// What is to be scanned, and the document's word for it.
 fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
-    let model = model(&arguments.model)?;
+    let model = model(&arguments.model, "raster")?;
     let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
     let path = Path::from(arguments.path);
     let pitch = match (arguments.path, arguments.pitch) {

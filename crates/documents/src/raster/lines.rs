@@ -109,7 +109,7 @@ impl LineHistory {
     ) -> Result<Trajectory, Unusable> {
         let Self { t, extension, displacement } = self.clone();
         let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
-        History { nodes, weights, t, extension, displacement }.trajectory(r)
+        History { nodes, weights, t, extension, displacement, height: None }.trajectory(r)
     }
 
     /// Line `n` of a plan.

@@ -190,3 +190,80 @@ impl Grooves {
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::Path;
+    use stickslip_tip::{Model, Step, TipFunction, Work, nodes_and_weights};
+
+    fn plan() -> Plan {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
+        Plan::new(footprint, Model::new(tip, 0.7, 1.0).unwrap(), Path::OneWay, 0.8, 20, 15.0)
+    }
+
+    /// Line n of a tip that goes evenly from `from` to `to`.
+    fn line(plan: &Plan, n: usize, (from, to): (f64, f64)) -> Line {
+        let h = 15.0 / 40.0;
+        let step = |i: u32| {
+            let t = h * f64::from(i);
+            let x = from + (to - from) * f64::from(i) / 40.0;
+            let nodes = nodes_and_weights().0;
+            let displacement = std::array::from_fn(|j| (to - from) / 40.0 * nodes[j]);
+            Step { t, h, extension: t - x, displacement }
+        };
+        Line::new(plan.track(n), 1.0, (0..40).map(step).collect(), Work::default())
+    }
+
+    /// Σ over all lines and all visits.
+    fn direct(plan: &Plan, lines: &[Line], x: f64, y: f64) -> f64 {
+        let of = |line: &Line| -> f64 {
+            let (positions, weights) = line.residence();
+            let visits = positions.iter().zip(&weights);
+            visits.map(|(p, w)| w * plan.footprint.value(x - p, y - line.track().y)).sum()
+        };
+        -0.7 * lines.iter().map(of).sum::<f64>()
+    }
+
+    /// Tips far outside of where the support goes make the stretch longer, and nothing else: what is known does not
+    /// depend on when that was.
+    #[test]
+    fn a_tip_far_outside_is_held_too() {
+        let plan = plan();
+        let ends = [(0.0, 14.0), (-31.0, 12.0), (1.0, 14.0), (0.0, 60.0), (2.0, 13.0)];
+        let lines: Vec<Line> = (0..5).map(|n| line(&plan, n, ends[n])).collect();
+        let mut grooves = Grooves::new(&plan);
+        for n in 1..=lines.len() {
+            grooves.add(&lines[..n]);
+        }
+        let mut again = Grooves::of_all(&plan, &lines);
+        for y in [0.0, 2.1, 4.0] {
+            let relief = grooves.relief(y, None).unwrap();
+            let x: Vec<f64> = (0..220).map(|i| 0.5 * f64::from(i) - 40.0).collect();
+            let whole = again.heights(y, &x);
+            for (x, whole) in x.iter().zip(whole) {
+                let wanted = direct(&plan, &lines, *x, y);
+                assert!((relief.height(*x) - wanted).abs() < 1e-12, "{x} {y}");
+                assert_eq!(relief.height(*x).to_bits(), whole.to_bits(), "{x} {y}");
+            }
+        }
+    }
+
+    /// Lines out of reach of the last one are dropped: as many are held as are felt, and the sum is the same.
+    #[test]
+    fn no_more_lines_are_held_than_are_felt() {
+        let plan = plan();
+        let lines: Vec<Line> = (0..60).map(|n| line(&plan, n, (0.0, 14.0))).collect();
+        let mut grooves = Grooves::new(&plan);
+        for n in 1..=lines.len() {
+            grooves.add(&lines[..n]);
+            assert!(grooves.rows.len() <= 1 + (plan.reach_across() / plan.pitch) as usize);
+        }
+        let y = plan.track(60).y;
+        let relief = grooves.relief(y, None).unwrap();
+        for x in [-2.0, 3.3, 9.0, 15.5] {
+            assert!((relief.height(x) - direct(&plan, &lines, x, y)).abs() < 1e-13);
+        }
+    }
+}

@@ -10,9 +10,9 @@ use stickslip_raster::{Pattern, Regime};
 pub enum RasterRegimeName {
     /// No ripples.
     Steady,
-    /// One wave vector, the same from line to line.
+    /// Crests, the same from line to line.
     Ripples,
-    /// Two wave vectors of like strength: a lattice of pits.
+    /// Crests broken into pits, lines still following each other.
     Pits,
     /// Neither; zigzag lines of which every other one is shifted to and fro too.
     Disordered,

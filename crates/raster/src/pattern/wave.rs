@@ -28,8 +28,6 @@ const FEWEST_WAVES: f64 = 2.0;
 const PER_PEAK: f64 = 2.0;
 /// Of the band: what is looked through. The groove of a sharp pit has less than e^{-6} of its power beyond.
 const LOOKED_AT: f64 = 0.4;
-/// A second wave vector is none of the flank of the first, nor its harmonics: so many widths of a peak off.
-const APART: f64 = 6.0;
 
 impl Sheet {
     pub(super) fn new(
@@ -54,6 +52,21 @@ impl Sheet {
         let ends = |(low, high): (f64, f64), u: &f64| (low.min(*u), high.max(*u));
         let (low, high) = self.u.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
         0.5 * (high - low)
+    }
+
+    /// How far slopes all point one way, whichever: 1 where u is made of straight crests, 0 where it is the same in all
+    /// directions. (λ1 - λ2)/(λ1 + λ2) of the mean of ∇u ∇uᵀ.
+    pub(super) fn straightness(&self) -> f64 {
+        let (rows, columns) = self.u.dim();
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for n in 1..rows - 1 {
+            for i in 1..columns - 1 {
+                let x = (self.u[(n, i + 1)] - self.u[(n, i - 1)]) / (2.0 * self.spacing);
+                let y = (self.u[(n + 1, i)] - self.u[(n - 1, i)]) / (2.0 * self.pitch);
+                (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+            }
+        }
+        (xx - yy).hypot(2.0 * xy) / (xx + yy)
     }
 
     /// Wave numbers that differ by less than these are the same to it.
@@ -93,8 +106,8 @@ impl Sheet {
 }
 
 impl Wave {
-    /// The strongest wave vector with q > 0; beside a first one the strongest that is neither it nor made of it.
-    pub(super) fn strongest(sheet: &Sheet, first: Option<&Self>) -> Option<Self> {
+    /// The strongest wave vector with q > 0.
+    pub(super) fn strongest(sheet: &Sheet) -> Option<Self> {
         let (dq, dk) = sheet.resolution();
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
         let half = (PI / sheet.pitch / step_k).round() as i64;
@@ -104,9 +117,6 @@ impl Wave {
             let along = sheet.along(q);
             for i in -half..half {
                 let kappa = step_k * i as f64;
-                if first.is_some_and(|first| first.is_akin(q, kappa, (dq, dk), sheet.pitch)) {
-                    continue;
-                }
                 let power = sheet.across(&along, kappa);
                 if best.is_none_or(|best| power > best.power) {
                     best = Some(Self { q, kappa, power });
@@ -114,18 +124,7 @@ impl Wave {
             }
             q += step_q;
         }
-        best.map(|best| if first.is_none() { best.refined(sheet, (step_q, step_k)) } else { best })
-    }
-
-    /// Whether a wave vector is this one or a multiple of it, within the width of the peak.
-    fn is_akin(&self, q: f64, kappa: f64, (dq, dk): (f64, f64), pitch: f64) -> bool {
-        let turn = TAU / pitch;
-        (0..6).any(|n| {
-            let n = f64::from(n);
-            let off = kappa - n * self.kappa;
-            let off = off - turn * (off / turn).round();
-            (q - n * self.q).abs() < APART * dq && off.abs() < APART * dk
-        })
+        best.map(|best| best.refined(sheet, (step_q, step_k)))
     }
 
     /// The top of the peak, by parabolas through the logarithm of the power.

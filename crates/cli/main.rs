@@ -49,6 +49,7 @@ fn main() -> ExitCode {
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Continue(arguments) => commands::continuation::follow(arguments),
         Command::Sweep(arguments) => commands::sweep::sweep(arguments),
+        Command::Raster(arguments) => commands::raster::raster(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),
@@ -68,8 +69,8 @@ fn main() -> ExitCode {
 impl Command {
     /// Whether it has something to keep when a signal comes, and listens for signals itself.
     fn keeps_what_it_has(&self) -> bool {
-        use Command::{Continue, Run, Sweep, Verify};
-        matches!(self, Run(_) | Verify(_) | Continue(_) | Sweep(_))
+        use Command::{Continue, Raster, Run, Sweep, Verify};
+        matches!(self, Run(_) | Verify(_) | Continue(_) | Sweep(_) | Raster(_))
     }
 }
 

@@ -211,7 +211,7 @@ mod tests {
             let x = from + (to - from) * f64::from(i) / 40.0;
             let nodes = nodes_and_weights().0;
             let displacement = std::array::from_fn(|j| (to - from) / 40.0 * nodes[j]);
-            Step { t, h, extension: t - x, displacement }
+            Step { t, h, extension: t - x, displacement, height: None }
         };
         Line::new(plan.track(n), 1.0, (0..40).map(step).collect(), Work::default())
     }

@@ -105,6 +105,7 @@ struct Jacobian {
 
 impl<'a> StageEquations<'a> {
     /// For the step that begins so.
+    #[inline]
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
         (surface, stretch): (&'a InitialSurface, &'a Stretch),

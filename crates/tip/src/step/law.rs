@@ -65,6 +65,7 @@ pub struct Equations<'a> {
 impl<'a> Equations<'a> {
     /// Of a step of length h under this pull.
     #[must_use]
+    #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
         Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
     }

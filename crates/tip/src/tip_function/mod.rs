@@ -6,12 +6,14 @@ mod cosine;
 mod error;
 mod fading;
 mod gaussian;
+mod scale;
 pub(crate) mod table;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
 pub use error::TipFunctionError;
 pub use gaussian::{Gaussian, GaussianSum};
+pub use scale::{BAND_OF_A_GAUSSIAN, widths};
 
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]

@@ -47,7 +47,7 @@ pub(super) fn small(
     let condition = Condition { free: settings.over, fixed: Direction::L };
     let (alpha, r) = (model.alpha(), model.r());
     close(equation, guess, condition, settings.tolerance)
-        .map_err(|_| CycleError::NotConverged { alpha, r })
+        .map_err(|error| error.told(settings.tolerance, CycleError::NotConverged { alpha, r }))
 }
 
 /// Of a cycle whose halves are nearly the same, the one of half the period.

@@ -49,6 +49,7 @@ fn main() -> ExitCode {
         Command::Cycle(arguments) => commands::cycle::cycle(arguments),
         Command::Continue(arguments) => commands::continuation::follow(arguments),
         Command::Sweep(arguments) => commands::sweep::sweep(arguments),
+        Command::Raster(arguments) => commands::raster::raster(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),

@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 8] = [
+const OTHERS: [(&str, &str); 10] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
@@ -71,6 +71,8 @@ const OTHERS: [(&str, &str); 8] = [
     ("cycle", "cycle --alpha 1.2 --r 1"),
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
+    ("raster", "raster --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
+    ("raster-stability", "stability --r 1 --pitch 1 --alpha 0.5"),
     (
         "units",
         "units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1",
@@ -90,7 +92,7 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let offered = said.split("possible values: ").nth(1).unwrap().split(']').next().unwrap();
     // Judged in files of their own: lines and checkpoints, figures, verifications.
     let runs = ["run", "run-lines", "checkpoint", "surface"];
-    let figures = ["figure", "reproduction"];
+    let figures = ["figure", "reproduction", "raster-surface"];
     let others = OTHERS.map(|o| o.0);
     let mut tested: Vec<&str> =
         runs.into_iter().chain(others).chain(figures).chain(["verify"]).collect();
@@ -123,7 +125,8 @@ fn unexplained(schema: &Value, path: &str) -> Vec<String> {
 fn every_field_of_every_document_is_explained() {
     let folder = Folder::new("explained");
     let runs = ["run", "run-lines", "checkpoint", "surface", "verify", "figure", "reproduction"];
-    for name in runs.into_iter().chain(OTHERS.map(|o| o.0)) {
+    let runs = runs.into_iter().chain(["raster-surface"]);
+    for name in runs.chain(OTHERS.map(|o| o.0)) {
         let schema = folder.prints_json(&format!("schema {name}"));
         let silent = unexplained(&schema, name);
         assert!(silent.is_empty(), "{silent:#?}");

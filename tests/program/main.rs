@@ -25,6 +25,7 @@ mod interrupts;
 mod outcomes;
 mod people;
 mod pictures;
+mod raster_commands;
 mod refusals;
 mod resume;
 mod stability_commands;

@@ -142,6 +142,7 @@ fn help_fits_a_terminal_and_names_what_is_required() {
         ("run", "--alpha-above <D>) --r <R> --until <T>"),
         ("stability", "--r <R>"),
         ("sweep", "--r <RANGE>"),
+        ("raster", "--pitch <D> --lines <N> --length <X>"),
         ("continue", "--over alpha --r <R>"),
         ("compare", "--until <T>"),
         ("units", "--damping"),

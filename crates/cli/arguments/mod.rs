@@ -12,6 +12,7 @@ mod model;
 mod named;
 mod outlet;
 mod plot;
+mod raster;
 mod response;
 mod run;
 mod sampling;
@@ -32,6 +33,7 @@ pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, TipName};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
+pub(crate) use raster::RasterArguments;
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
@@ -74,6 +76,7 @@ const EXAMPLES: &str = "Examples:
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
+  stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
@@ -93,6 +96,7 @@ pub(crate) enum Command {
     Cycle(CycleArguments),
     Continue(ContinueArguments),
     Sweep(SweepArguments),
+    Raster(RasterArguments),
     Units(UnitsArguments),
     Plot(PlotArguments),
     Figures(FiguresArguments),

@@ -5,11 +5,11 @@ use super::{FieldArguments, Format, Interval};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Reconstruct the surface u(x,t) from a run.
+/// Reconstruct the surface u(x,t) from a run, or u(x,y) from a raster.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct SurfaceArguments {
-    /// Document that `stickslip run` wrote; `-` is standard input.
+    /// Document that `stickslip run` or `stickslip raster` wrote; `-` is standard input.
     #[arg(value_name = "RUN.json")]
     pub(crate) run: PathBuf,
 
@@ -38,6 +38,17 @@ pub(crate) struct SurfaceArguments {
         help_heading = "Three dimensions"
     )]
     pub(crate) y_range: Option<Interval>,
+
+    /// Positions across the lines of a raster, in σ [default: those of the lines].
+    #[arg(
+        long,
+        value_name = "Y1,Y2,…",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "y_range",
+        help_heading = "Three dimensions"
+    )]
+    pub(crate) y: Option<Vec<f64>>,
 
     /// Distance of the positions across the path [default: that of --spacing].
     #[arg(
@@ -92,5 +103,8 @@ const EXAMPLES: &str = "Examples:
   stickslip surface run.json --at 100,200,457 --plot surface.png
   An image for Gwyddion, and a height map of the same:
     stickslip surface run.json --range 400:450 --y-range -2:2 --spacing 0.025 -o image.gsf --plot map.png
+  Profiles of a raster along two lines, and an image of it:
+    stickslip surface raster.json --range 0:60 --spacing 0.1 --y 10,10.25 -o profiles.csv
+    stickslip surface raster.json --range 0:60 --y-range 0:128 --spacing 0.25 -o image.gsf
   Piped:
     stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 80 | stickslip surface - --x 60,60.5,61";

@@ -8,6 +8,7 @@ pub(crate) mod figures;
 pub(crate) mod model;
 mod noise;
 pub(crate) mod plot;
+pub(crate) mod raster;
 pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod schema;
@@ -19,6 +20,8 @@ pub(crate) mod verify;
 
 mod fields;
 mod figure;
+mod finished;
+mod footprint;
 mod job;
 mod progress;
 mod roots;

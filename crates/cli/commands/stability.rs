@@ -1,5 +1,7 @@
 //! `stickslip stability`.
 
+mod raster;
+
 use super::job::{Job, judge_places};
 use super::model::{model, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
@@ -20,6 +22,13 @@ const DEFAULT_ROOTS: usize = 10;
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    if arguments.pitch.is_some() || arguments.path.is_some() {
+        return raster::stability(arguments);
+    }
+    if let Some(width) = arguments.width_y {
+        let message = "is of a raster: give --pitch D too, or leave the option out";
+        return Err(Failure::input(format!("--width-y {}", Typed(width)), message));
+    }
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
     let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;

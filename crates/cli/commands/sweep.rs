@@ -1,10 +1,10 @@
 //! `stickslip sweep`.
 
-mod finished;
 mod grid;
 pub(crate) mod merge;
 mod point;
 
+use super::finished::Finished;
 use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
@@ -12,7 +12,6 @@ use crate::arithmetic::arithmetic;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
-use finished::Finished;
 use grid::Grid;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashSet;
@@ -37,7 +36,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let grid = Grid::asked(arguments)?;
     let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters)?;
     let finished = match job.file() {
-        Some(file) => Finished::beside(file, &grid.parameters)?,
+        Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
@@ -101,7 +100,7 @@ fn threads(arguments: &SweepArguments) -> Result<usize, Failure> {
 
 /// What the threads share.
 struct State {
-    finished: Finished,
+    finished: Finished<SweepPoint>,
     progress: Progress,
     /// Points in all.
     count: usize,
@@ -113,7 +112,7 @@ impl State {
     /// `None` once a point could not be kept: the others need not be found.
     fn keep(&mut self, point: SweepPoint) -> Option<()> {
         self.kept = self.finished.add(point);
-        let done = self.finished.points().len();
+        let done = self.finished.parts().len();
         self.progress.counted(done as f64, || format!("{done} of {} points", self.count));
         self.kept.is_ok().then_some(())
     }
@@ -122,11 +121,11 @@ impl State {
 /// All points that are not finished yet, or as many as there is time for before a signal.
 fn compute(
     grid: &Grid,
-    finished: Finished,
+    finished: Finished<SweepPoint>,
     threads: usize,
     interrupt: &Interrupt,
-) -> Result<Finished, Failure> {
-    let done: HashSet<usize> = finished.points().iter().map(|point| point.index).collect();
+) -> Result<Finished<SweepPoint>, Failure> {
+    let done: HashSet<usize> = finished.parts().iter().map(|point| point.index).collect();
     let missing: Vec<usize> = grid.indices().filter(|index| !done.contains(index)).collect();
     let count = done.len() + missing.len();
     if let (Some(path), false) = (finished.path(), done.is_empty()) {
@@ -186,8 +185,8 @@ fn judged(index: usize, grid: &Grid) -> SweepPoint {
     })
 }
 
-fn left_unfinished(grid: &Grid, finished: &Finished, signal: u8) -> Failure {
-    unfinished(finished.points().len(), grid.indices().count(), finished.path(), signal)
+fn left_unfinished(grid: &Grid, finished: &Finished<SweepPoint>, signal: u8) -> Failure {
+    unfinished(finished.parts().len(), grid.indices().count(), finished.path(), signal)
 }
 
 fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {

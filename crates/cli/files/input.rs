@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
-use stickslip_documents::{self as documents, RunDocument};
+use stickslip_documents::{self as documents, RasterDocument, RunDocument, Unusable};
 
 /// Two columns read from a CSV file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
@@ -170,12 +170,26 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
     Ok(TipFile::Gaussians(tip.gaussians))
 }
 
-/// A document that `stickslip run` wrote.
-pub(crate) fn read_run(path: &Path) -> Result<RunDocument, Failure> {
-    read_document("RUN.json", path, RunDocument::FORMAT)
+/// What `stickslip run` or `stickslip raster` wrote.
+pub(crate) enum RunOrRaster {
+    Run(Box<RunDocument>),
+    Raster(Box<RasterDocument>),
 }
 
-/// The same, from a file that is open.
+/// A document that `stickslip run` or `stickslip raster` wrote.
+pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
+    let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
+    let (kind, source) =
+        documents::told(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
+    if kind.format.as_deref() == Some(RasterDocument::FORMAT) {
+        let raster = documents::read_from(source, RasterDocument::FORMAT).map_err(refused)?;
+        return Ok(RunOrRaster::Raster(Box::new(raster)));
+    }
+    let run = documents::read_from(source, RunDocument::FORMAT).map_err(refused)?;
+    Ok(RunOrRaster::Run(Box::new(run)))
+}
+
+/// A document that `stickslip run` wrote, from a file that is open.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
     documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)
         .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))

@@ -32,6 +32,13 @@ impl Field {
         Self { window, lattice, cells: Vec::new(), first: 0, margin: 0.0 }
     }
 
+    /// On these cells from `first` on, right wherever it can be read.
+    pub(crate) fn of_cells(spacing: f64, first: i64, cells: Vec<f64>) -> Self {
+        let (window, lattice) = (Window::shared(), Lattice::new(spacing));
+        let margin = (WIDTH / 2) as f64 * spacing;
+        Self { window, lattice, cells, first, margin }
+    }
+
     /// The targets at which the sum is right: those at least [`Plan::margin`] inside the window.
     pub fn range(&self) -> RangeInclusive<f64> {
         let position = |cell: i64| cell as f64 * self.lattice.spacing;

@@ -47,6 +47,7 @@ mod field;
 mod kernel;
 mod lattice;
 mod plan;
+mod spectra;
 mod sum;
 mod window;
 
@@ -55,5 +56,6 @@ pub use density::Density;
 pub use field::Field;
 pub use kernel::Kernel;
 pub use plan::{Plan, Taper};
+pub use spectra::Spectra;
 pub use sum::{direct_sum, sum};
 pub use window::Window;

@@ -7,7 +7,7 @@ use crate::lattice::dyadic_at_most;
 use crate::window::WIDTH;
 
 /// Lattice points per period of the band edge are twice what the sampling theorem asks.
-const UPSAMPLING: f64 = 2.0;
+pub(crate) const UPSAMPLING: f64 = 2.0;
 
 /// Widths between the ends of a taper and its centre: erfc(5.95)/2 = 2e-17.
 const TAPER_HALF_WIDTHS: f64 = 5.95;
@@ -98,7 +98,7 @@ impl Plan {
 }
 
 /// The least even product of 2, 3 and 5 that is not below `least`.
-fn fast_length(least: usize) -> usize {
+pub(crate) fn fast_length(least: usize) -> usize {
     let mut length = least.next_multiple_of(2);
     while !is_smooth(length) {
         length += 2;

@@ -31,6 +31,8 @@ mod figure;
 mod history;
 mod model;
 mod outcome;
+mod raster;
+mod raster_stability;
 mod read;
 mod reproduction;
 mod response;
@@ -68,6 +70,14 @@ pub use history::{FARTHEST, History};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
+};
+pub use raster::{
+    HeightMap, KeptLine, LineHistory, LineRegimeName, PathName, PatternDocument, RasterDocument,
+    RasterHistory, RasterLine, RasterParameters, RasterRegimeName, RasterSamples,
+    RasterSurfaceDocument, RasterWork,
+};
+pub use raster_stability::{
+    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
 };
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};

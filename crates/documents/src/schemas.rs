@@ -2,8 +2,9 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
-    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    FigureDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
+    ReproductionDocument, ResponseDocument, RunDocument, RunLine, StabilityDocument,
+    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -11,7 +12,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 15] = [
+pub const SCHEMAS: [NamedSchema; 18] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -23,6 +24,9 @@ pub const SCHEMAS: [NamedSchema; 15] = [
     ("response", || schema_for!(ResponseDocument)),
     ("cycle", || schema_for!(CycleDocument)),
     ("continue", || schema_for!(ContinueDocument)),
+    ("raster", || schema_for!(RasterDocument)),
+    ("raster-surface", || schema_for!(RasterSurfaceDocument)),
+    ("raster-stability", || schema_for!(RasterStabilityDocument)),
     ("sweep", || schema_for!(SweepDocument)),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),

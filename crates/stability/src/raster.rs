@@ -12,6 +12,8 @@
 //! oblique to the scan lines. On the way back of a zigzag q changes its sign: D becomes D* on every other line.
 //! `docs/stability.md` derives it.
 
+mod growth;
+
 use super::transform::CurvatureTransform;
 use super::{StabilityError, critical};
 use num_complex::Complex64;
@@ -120,45 +122,6 @@ impl Raster {
         Ok(self.threshold(path, alpha, q, phase))
     }
 
-    /// By how much another pass over the same line changes a ripple e^{iqx} of the groove at a given α: 1 + C/D. It
-    /// grows from pass to pass where this is larger than 1 in modulus.
-    #[must_use]
-    pub fn repeat_gain(&self, alpha: f64, q: f64) -> Complex64 {
-        let ratio = alpha / self.r;
-        let d = self.denominator(q, ratio);
-        let own = q * q * self.footprint.path().fourier(q);
-        1.0 + ratio * own / d
-    }
-
-    /// The z with A_n ∝ zⁿ at a given α and q of a one-way raster that is largest in modulus, by the first lines of
-    /// the recurrence until it settles; the growth from line to line.
-    #[must_use]
-    pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
-        let ratio = alpha / self.r;
-        let d = self.denominator(q, ratio);
-        let most = self.heights.iter().map(Vec::len).max().unwrap_or(0);
-        let couplings: Vec<Complex64> =
-            (0..most).map(|j| ratio * self.coupling(q, j) / d).collect();
-        let mut tracks = vec![Complex64::new(1.0, 0.0)];
-        let mut z = Complex64::new(0.0, 0.0);
-        for _ in 0..MOST_PASSES {
-            let earlier = tracks.iter().rev().zip(&couplings);
-            let next: Complex64 = earlier.map(|(a, c)| a * c).sum();
-            let before = z;
-            z = next / tracks.last().copied().unwrap_or(next);
-            tracks.push(next);
-            if tracks.len() > 2 * most {
-                tracks.drain(..tracks.len() - most.max(1));
-                let size = next.norm();
-                tracks.iter_mut().for_each(|a| *a /= size);
-            }
-            if (z - before).norm() < 1e-15 * z.norm() {
-                break;
-            }
-        }
-        z
-    }
-
     fn threshold(&self, path: RasterPath, alpha: f64, q: f64, phase: f64) -> RasterCritical {
         let kappa = (path == RasterPath::OneWay).then_some(phase / self.pitch);
         RasterCritical {
@@ -219,9 +182,6 @@ impl Raster {
         (1..=SAMPLES).map(|i| step * f64::from(i)).collect()
     }
 }
-
-/// Lines after which a growth from line to line has settled.
-const MOST_PASSES: usize = 100_000;
 
 /// What one q and one φ say of a one-way raster: with K = G - q² Σ ĝ L(φ), D = C L asks that (1 + irq) + (α/r)K = 0,
 /// so that K(1 - irq) is real and negative.
@@ -291,15 +251,29 @@ impl Raster {
         let phased = self.phased(0.0);
         let alpha = |q: f64| self.zigzag_alpha(q, &phased);
         let q = self.wave_numbers();
-        let sampled: Vec<f64> = q.iter().map(|q| alpha(*q).unwrap_or(f64::INFINITY)).collect();
-        let least = (0..q.len()).min_by(|a, b| sampled[*a].total_cmp(&sampled[*b]))?;
+        let seen = |q: &f64| alpha(*q).map(|alpha| (alpha, *q));
+        let first = q.iter().filter_map(seen).min_by(|a, b| a.0.total_cmp(&b.0));
         let step = q[1] - q[0];
+        // Lines that hardly feel each other grow beside the q of a single line alone, on a stretch between samples.
+        let (near, step) = match first.map(|(_, q)| q) {
+            Some(q) => (q, 0.5 * step),
+            None => self.beside_single_line(&phased)?,
+        };
         let slope = |q: f64| difference(step, q, |q| alpha(q).unwrap_or(f64::NAN));
-        let q = least_near(slope, q[least], 0.5 * step);
+        let q = least_near(slope, near, step);
         let alpha = alpha(q)?;
         let (d, c) = (self.denominator(q, alpha / self.r), alpha / self.r);
         let [odd, even] = self.summed(q, &phased);
         Some((alpha, q, ((d - c * even) / (c * odd)).arg()))
+    }
+
+    /// The q of a single line, and how far beside it a weak coupling may move it: |D| = |C| there, and D changes by more
+    /// than r in a unit of q.
+    fn beside_single_line(&self, phased: &[[Complex64; 2]]) -> Option<(f64, f64)> {
+        let alone = critical(self.footprint.path(), self.r).ok()?;
+        let q = 2.0 * PI / alone.wavelength;
+        let coupling = self.summed(q, phased).map(|sum| alone.alpha / self.r * sum.norm());
+        Some((q, 0.1 * coupling[0].max(coupling[1]) / self.r))
     }
 
     /// q² Σ_k ĝ_k L_k over odd and even lines.

@@ -40,6 +40,24 @@ fn lines_far_apart_are_single_lines() {
     }
 }
 
+/// Between them they are nearly single lines: the thresholds rise to that of one, a zigzag's above the other's. (Lines of a
+/// zigzag that hardly felt each other once had none.)
+#[test]
+fn lines_that_hardly_feel_each_other_are_nearly_single_lines() {
+    let alone = critical(&TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
+    let mut before = 0.0;
+    for pitch in [2.2, 2.6, 3.0, 3.5, 4.0, 4.5, 5.0] {
+        let raster = gaussian(pitch);
+        let [one_way, zigzag] =
+            [RasterPath::OneWay, RasterPath::Zigzag].map(|path| raster.critical(path).unwrap());
+        let felt = (-0.5 * pitch * pitch).exp();
+        assert!(zigzag.alpha > before && zigzag.alpha < alone.alpha, "{pitch}: {zigzag:?}");
+        assert!((alone.alpha - zigzag.alpha) < 4.0 * felt, "{pitch}: {zigzag:?}");
+        assert!((zigzag.alpha - one_way.alpha) > -1e-9, "{pitch}: {zigzag:?} {one_way:?}");
+        before = zigzag.alpha;
+    }
+}
+
 /// d → 0: rq = erfi(|κ|/√2) and αc/d = r/(π max q² e^{-(q²+κ²)/2}); the difference falls with d.
 #[test]
 fn a_small_pitch_tends_to_its_limit() {

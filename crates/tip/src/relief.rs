@@ -1,10 +1,14 @@
 //! One thing that the surface held before the run: a profile of height, with two derivatives.
 
+mod on_lattice;
+
 use crate::series::{SeriesError, checked};
 use crate::spline::CubicSpline;
 use crate::{Model, TipFunction};
+use on_lattice::OnLattice;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use stickslip_convolution::Field;
 
 /// A height as a function of x, smooth but for breaks at known places.
 #[derive(Debug, Clone)]
@@ -26,6 +30,7 @@ enum Shape {
     SteadyPast(SteadyPast),
     /// 0 outside of it.
     Spline(CubicSpline),
+    OnLattice(OnLattice),
 }
 
 /// The profile (24) of a tip that has always moved steadily and is now at `position`.
@@ -96,6 +101,13 @@ impl Relief {
         Self(Shape::Spline(CubicSpline::through(x, u)))
     }
 
+    /// A height and its slope given as fields of one lattice, 0 beyond their ends, where both must have vanished: what
+    /// other passes of a tip left. With `mirrored_about` X it is that of X - x.
+    #[must_use]
+    pub fn on_lattice(heights: Field, slopes: Field, mirrored_about: Option<f64>) -> Self {
+        Self(Shape::OnLattice(OnLattice::new(heights, slopes, mirrored_about)))
+    }
+
     /// Its height at x.
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
@@ -103,6 +115,7 @@ impl Relief {
             Shape::SteadyPast(past) => -past.depth * past.tip.tail(x - past.position),
             Shape::Spline(spline) if is_inside(spline, x) => spline.value(x),
             Shape::Spline(_) => 0.0,
+            Shape::OnLattice(relief) => relief.height(x),
         }
     }
 
@@ -121,6 +134,7 @@ impl Relief {
                 (slope, curvature)
             }
             (Shape::Spline(_), None) => (0.0, 0.0),
+            (Shape::OnLattice(relief), _) => relief.slope_and_curvature(x),
         }
     }
 
@@ -129,14 +143,14 @@ impl Relief {
     pub fn steady_position(&self) -> Option<f64> {
         match &self.0 {
             Shape::SteadyPast(past) => Some(past.position),
-            Shape::Spline(_) => None,
+            Shape::Spline(_) | Shape::OnLattice(_) => None,
         }
     }
 
     /// Where it ends, if it is one with breaks.
     pub(crate) fn end(&self) -> Option<f64> {
         match &self.0 {
-            Shape::SteadyPast(_) => None,
+            Shape::SteadyPast(_) | Shape::OnLattice(_) => None,
             Shape::Spline(spline) => Some(spline.last()),
         }
     }
@@ -146,6 +160,7 @@ impl Relief {
         match &self.0 {
             Shape::SteadyPast(past) => past.covers(x),
             Shape::Spline(spline) => is_inside(spline, x),
+            Shape::OnLattice(relief) => relief.covers(x),
         }
     }
 

@@ -7,16 +7,17 @@ use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 
 /// What is read by the lines.
-pub(super) const PREPARED: [&str; 5] = [
+pub(super) const PREPARED: [&str; 6] = [
     "run --alpha 1.2 --r 1 --kick 0.1 --until 40 -o run.json",
     "cycle --alpha 1.2 --r 1 -o cycle.json",
+    "raster --alpha 1.2 --r 1 --pitch 1 --lines 3 --length 20 -o raster.json",
     "boundary --r-range 0.5:2:5 -o boundary.json",
     "sweep --r 1 --alpha 0.9:1.2:3 --threads 1 -o sweep.json",
     "units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1 -o units.json",
 ];
 
 /// Every command with what it cannot do without.
-const LINES: [&str; 17] = [
+const LINES: [&str; 19] = [
     "run --alpha 1.2 --r 1 --until 30",
     "verify run.json",
     "surface run.json",
@@ -34,6 +35,8 @@ const LINES: [&str; 17] = [
     "plot boundary.json --output p.png",
     "figures --only fig6 --out-dir figures",
     "raster --alpha 1.2 --r 1 --pitch 1 --lines 3 --length 20",
+    "stability --r 1 --pitch 1",
+    "surface raster.json --range 5:15 --y-range 0:2 --spacing 0.5",
 ];
 /// Has no numbers.
 const WITHOUT: [&str; 2] = ["schema", "help"];

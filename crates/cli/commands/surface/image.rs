@@ -2,11 +2,12 @@
 
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
-use crate::failure::{Failure, Typed};
+use crate::commands::footprint::footprint;
+use crate::failure::Failure;
 use crate::message::remark;
 use stickslip_documents::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_tip::{Footprint, Model};
 
 /// Images asked for, and the footprint that carves them.
 #[derive(Debug)]
@@ -83,36 +84,4 @@ impl Images {
         };
         t.iter().map(at).collect()
     }
-}
-
-/// The f(x,y) of the tip; for one that has none, f(x)h(y) with h a Gaussian of the width asked for, or of
-/// the width that all Gaussians of f have.
-fn footprint(asked: Option<f64>, tip: &TipFunction) -> Result<(Footprint, Option<f64>), Failure> {
-    let named = || asked.map_or("--width-y".into(), |v| format!("--width-y {}", Typed(v)));
-    match (tip.footprint(), asked.or_else(|| common_width(tip))) {
-        (Some(_), _) if asked.is_some() => Err(Failure::input(
-            named(),
-            "the run was made with a tip file that has its own f(x,y): leave the option out",
-        )),
-        (Some(own), _) => Ok((own.clone(), None)),
-        (None, Some(width)) => match Footprint::separable(tip.clone(), width) {
-            Ok(footprint) => Ok((footprint, Some(width))),
-            Err(_) => Err(Failure::input(named(), "must be a finite number above 0")),
-        },
-        (None, None) => Err(Failure::input(
-            "--width-y",
-            "the tip of this run has no single width of its own: give the width V in f(x,y) = \
-             f(x) exp(-y²/(2 V²))",
-        )),
-    }
-}
-
-/// The width of all Gaussians of the tip, if it is the same.
-fn common_width(tip: &TipFunction) -> Option<f64> {
-    let TipFunction::Gaussians(sum) = tip else { return None };
-    let width = sum.terms().first()?.width;
-    // A table is made of narrow Gaussians whose width says nothing of the tip.
-    let alike = sum.terms().len() <= 3;
-    let same = |w: f64| (w - width).abs() <= 1e-12 * width;
-    (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
 }

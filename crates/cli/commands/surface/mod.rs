@@ -1,6 +1,7 @@
 //! `stickslip surface`.
 
 mod image;
+mod of_raster;
 mod places;
 mod units;
 mod write;
@@ -10,7 +11,7 @@ pub(crate) use places::evenly;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use crate::files::input::read_run;
+use crate::files::input::{RunOrRaster, read_scanned};
 use image::Images;
 use places::Places;
 use stickslip_documents::{
@@ -26,7 +27,11 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
     let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
     distinct(&written, &read)?;
-    let document = read_run(&arguments.run)?;
+    let document = match read_scanned(&arguments.run)? {
+        RunOrRaster::Run(document) => document,
+        RunOrRaster::Raster(raster) => return of_raster::surface(arguments, &raster, format),
+    };
+    format.judge_of_run(arguments)?;
     let damaged = |message: String| {
         Failure::input(
             format!("RUN.json {}", arguments.run.display()),

@@ -36,7 +36,15 @@ impl Places {
         arguments: &SurfaceArguments,
         trajectory: &Trajectory,
     ) -> Result<Self, Failure> {
-        let t = times(arguments, trajectory)?;
+        Self::over(arguments, times(arguments, trajectory)?, default_range(trajectory))
+    }
+
+    /// At these times; by default over this range.
+    pub(super) fn over(
+        arguments: &SurfaceArguments,
+        t: Vec<f64>,
+        (low, high): (f64, f64),
+    ) -> Result<Self, Failure> {
         let spacing = spacing("--spacing", arguments.spacing, DEFAULT_SPACING)?;
         let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
         let across = match &arguments.y_range {
@@ -59,10 +67,7 @@ impl Places {
             return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
         }
         let along = match &arguments.range {
-            None => {
-                let (low, high) = default_range(trajectory);
-                Range { low, high, spacing }
-            }
+            None => Range { low, high, spacing },
             Some(typed) => range(["--range", "--spacing"], typed, arguments.spacing, spacing)?,
         };
         let spacing = along.spacing;

@@ -4,7 +4,7 @@ use super::places::Places;
 use super::units::Scale;
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::job::{Job, format};
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::gsf::{Field, gsf};
 use stickslip_documents::SurfaceDocument;
 
@@ -17,6 +17,20 @@ pub(super) enum SurfaceFormat {
 }
 
 impl SurfaceFormat {
+    /// A .gsf file of a run holds an image.
+    pub(super) fn judge_of_run(self, arguments: &SurfaceArguments) -> Result<(), Failure> {
+        if let Some(y) = arguments.y.as_ref().and_then(|y| y.first()) {
+            let advice = "is for rasters: a run has --y-range LO:HI";
+            return Err(Failure::input(format!("--y {}", Typed(*y)), advice));
+        }
+        if self == Self::Gsf && arguments.y_range.is_none() {
+            let named = format!("--output {}", arguments.output.display());
+            let advice = "a .gsf file holds an image: give --y-range LO:HI too";
+            return Err(Failure::input(named, advice));
+        }
+        Ok(())
+    }
+
     /// By the extension of the output, refused where that does not go with the other options.
     pub(super) fn of(arguments: &SurfaceArguments) -> Result<Self, Failure> {
         let path = &arguments.output;
@@ -32,8 +46,8 @@ impl SurfaceFormat {
             return format(arguments.format, path, ", .gsf").map(Self::Document);
         }
         let named = format!("--output {}", path.display());
-        if arguments.y_range.is_none() {
-            return refused(named, "a .gsf file holds an image: give --y-range LO:HI too");
+        if arguments.y.is_some() {
+            return refused(named, "a .gsf image has evenly spaced rows: give --y-range, not --y");
         }
         if arguments.x.is_some() {
             let advice =

@@ -3,6 +3,7 @@
 mod cycles;
 mod linear;
 mod others;
+mod raster;
 mod run;
 mod verify;
 

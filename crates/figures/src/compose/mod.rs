@@ -7,6 +7,8 @@ mod cycle;
 mod dense;
 mod drawn;
 mod labels;
+mod raster;
+mod raster_stability;
 mod response;
 mod run;
 mod stability;
@@ -19,8 +21,9 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Unusable, read_from, told,
+    PanelDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
+    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable,
+    read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -70,7 +73,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 10] = [
+pub const FORMATS: [&str; 13] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -80,6 +83,9 @@ pub const FORMATS: [&str; 10] = [
     SweepDocument::FORMAT,
     ResponseDocument::FORMAT,
     CompareDocument::FORMAT,
+    RasterDocument::FORMAT,
+    RasterSurfaceDocument::FORMAT,
+    RasterStabilityDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -101,6 +107,9 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
         ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
         CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
+        RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),
+        RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
+        RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
         FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
         _ => Err(Unusable::new(format_args!(
             "format is {}; a picture is there for {}",

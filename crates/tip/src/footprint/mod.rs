@@ -16,7 +16,7 @@ mod layers;
 mod table;
 
 use crate::{TipFunction, TipFunctionError};
-use std::f64::consts::SQRT_2;
+use std::f64::consts::{PI, SQRT_2};
 
 /// One term a exp(-(x-c)²/(2w²)) exp(-(y-d)²/(2v²)). Lengths in units of σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,6 +76,12 @@ impl Across {
     pub fn curvature_at_0(&self) -> f64 {
         let term = |z: f64| (z * z - 1.0) * (-0.5 * z * z).exp();
         self.offsets(0.0).map(term).sum::<f64>() / (self.width * self.width)
+    }
+
+    /// ∫ h dy
+    #[must_use]
+    pub fn integral(&self) -> f64 {
+        self.offsets(0.0).count() as f64 * self.width * (2.0 * PI).sqrt()
     }
 
     /// Distances of y from the centers, in widths.
@@ -153,6 +159,12 @@ impl Footprint {
     #[must_use]
     pub fn value(&self, x: f64, y: f64) -> f64 {
         self.layers.iter().map(|layer| layer.along.value(x) * layer.across.value(y)).sum()
+    }
+
+    /// ∫∫ f dx dy: the volume of the surface that indentation takes away, per α and time.
+    #[must_use]
+    pub fn integral(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.along.integral() * layer.across.integral()).sum()
     }
 
     /// `f_yy(x,0)`: where it is positive, the groove may push the tip off its line.

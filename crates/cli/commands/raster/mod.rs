@@ -1,0 +1,102 @@
+//! `stickslip raster`.
+
+mod heights;
+mod scan;
+
+pub(in crate::commands) use heights::field;
+
+use super::footprint::footprint;
+use super::job::{Job, format};
+use super::model::model;
+use super::run::samples::times;
+use crate::arguments::{Format, RasterArguments, SamplingArguments};
+use crate::failure::{Failure, Typed};
+use crate::files::distinct::distinct;
+use crate::interrupt::Interrupt;
+use stickslip_documents::{ModelParameters, PathName, RasterDocument, RasterParameters};
+use stickslip_raster::{Path, Plan, RasterError};
+use stickslip_tip::{RunError, Scenario};
+
+/// One sample in so much of the way of the support, by default, in widths of the tip.
+const SAMPLE: f64 = 0.25;
+
+pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
+    let RasterArguments { output, plot, .. } = arguments;
+    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
+    let is_gsf = arguments.format.is_none()
+        && output.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf"));
+    let format = if is_gsf { Format::Json } else { format(arguments.format, output, ", .gsf")? };
+    let (plan, parameters) = plan(arguments)?;
+    let times = sample_times(&arguments.sampling, &plan)?;
+    let job = Job::of_format::<RasterDocument>(format, output, &arguments.fields, plot.as_deref())?;
+    let interrupt = Interrupt::listen()?;
+    let (lines, finished) = scan::scan(&plan, &parameters, job.file(), &interrupt)?;
+    let document = RasterDocument::new(parameters, &plan, &lines, &times);
+    if is_gsf {
+        let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
+        let bytes = field(&document.parameters, &map, (1.0, 1.0, ""));
+        job.finish_bytes(&bytes, &document)?;
+    } else {
+        job.finish(&document)?;
+    }
+    finished.remove();
+    Ok(())
+}
+
+/// What is to be scanned, and the document's word for it.
+fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
+    let model = model(&arguments.model)?;
+    let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
+    let path = Path::from(arguments.path);
+    let pitch = match (arguments.path, arguments.pitch) {
+        (PathName::Repeat, None) => 0.0,
+        (PathName::Repeat, Some(pitch)) => {
+            let message = "has no meaning with --path repeat, whose lines are all the same: leave one of them out";
+            return Err(Failure::input(format!("--pitch {}", Typed(pitch)), message));
+        }
+        (_, Some(pitch)) => pitch,
+        (_, None) => {
+            return Err(Failure::input("--pitch", "give the distance of the lines, --pitch D"));
+        }
+    };
+    let parameters = ModelParameters::of(&model, arguments.model.alpha_above);
+    let (lines, length) = (arguments.lines, arguments.length);
+    let mut plan = Plan::new(footprint, model, path, pitch, lines, length);
+    let (tolerance, memory) = (arguments.tolerance, arguments.memory.into());
+    plan.law = Scenario { tolerance, memory, ..plan.law };
+    plan.validate().map_err(|error| refused(&plan, error))?;
+    let parameters = RasterParameters::of(&plan, parameters, width_y);
+    Ok((plan, parameters))
+}
+
+fn refused(plan: &Plan, error: RasterError) -> Failure {
+    let option = match &error {
+        RasterError::Pitch { pitch, .. } => format!("--pitch {}", Typed(*pitch)),
+        RasterError::Length { length, .. } => format!("--length {}", Typed(*length)),
+        RasterError::Lines(lines) => format!("--lines {lines}"),
+        RasterError::NeverFades | RasterError::Section => "--tip".into(),
+        RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
+            return Failure::input(
+                format!("--tolerance {}", Typed(*tolerance)),
+                RunError::Tolerance(*tolerance),
+            );
+        }
+        RasterError::Line { error: RunError::Modes(error), .. } => {
+            return Failure::input("--memory modes", error);
+        }
+        RasterError::Line { .. } => format!("--length {}", Typed(plan.length)),
+    };
+    Failure::input(option, error)
+}
+
+/// Times since the start of each line.
+fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
+    let duration = plan.duration();
+    if sampling.sample_at.is_some() || sampling.sample_every.is_some() {
+        return times(sampling, (0.0, duration), "each line");
+    }
+    let width = 8.7 / plan.footprint.path().band();
+    let count = (plan.length / (SAMPLE * width)).ceil().clamp(2.0, 2000.0);
+    Ok((0..=count as usize).map(|i| duration * i as f64 / count).collect())
+}

@@ -1,0 +1,65 @@
+//! Heights of a raster: points, profiles and images.
+
+use super::places::{Places, evenly};
+use super::units::Scale;
+use super::write::SurfaceFormat;
+use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::job::Job;
+use crate::commands::raster::field;
+use crate::failure::Failure;
+use stickslip_documents::{RasterDocument, RasterSurfaceDocument, Unusable};
+
+pub(super) fn surface(
+    arguments: &SurfaceArguments,
+    raster: &RasterDocument,
+    format: SurfaceFormat,
+) -> Result<(), Failure> {
+    refuse_of_runs(arguments)?;
+    let damaged = |error: Unusable| {
+        Failure::input(
+            format!("RASTER.json {}", arguments.run.display()),
+            format!("damaged: {error}"),
+        )
+    };
+    let (plan, _) = raster.scanned().map_err(damaged)?;
+    let (from, to) = (-plan.reach_across(), plan.length + plan.reach_across());
+    let places = Places::over(arguments, vec![0.0], (from, to))?;
+    let y = match (&arguments.y, places.y.is_empty()) {
+        (Some(y), _) => y.clone(),
+        (None, false) => places.y.clone(),
+        (None, true) => {
+            let last = plan.track(plan.lines - 1).y;
+            if last > 0.0 { evenly(0.0, last, plan.lines) } else { vec![0.0] }
+        }
+    };
+    let scale = Scale::asked(arguments, &plan.law.model)?;
+    let (is_gsf, written) = match format {
+        SurfaceFormat::Document(format) => (false, format),
+        SurfaceFormat::Gsf => (true, Format::Json),
+    };
+    let (output, plot) = (&arguments.output, arguments.plot.as_deref());
+    let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;
+    let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
+    if !is_gsf {
+        return job.finish(&document);
+    }
+    let unit = (scale.length, scale.height, scale.unit);
+    let bytes = field(&document.parameters, &document.surfaces[0], unit);
+    job.finish_bytes(&bytes, &document)
+}
+
+/// What has no meaning after the last line.
+fn refuse_of_runs(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let given = [
+        ("--at", arguments.at.is_some()),
+        ("--far-behind", arguments.far_behind),
+        ("--width-y", arguments.width_y.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::input(
+            *option,
+            "a raster is shown as its last line left it, by its own footprint: leave the option out",
+        )),
+    }
+}

@@ -1,0 +1,72 @@
+//! What is told of rasters.
+
+use super::{Told, again, digits};
+use crate::commands::job::Product;
+use stickslip_documents::{
+    HeightMap, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
+};
+
+impl Product for RasterDocument {
+    fn told(&self) -> Told {
+        let (count, regime) = (self.lines.len(), self.regime);
+        let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));
+        let pattern = self.pattern.as_ref();
+        let ripple = pattern.map_or(String::new(), |p| {
+            format!(
+                ", wavelength {} σ, crests at {}° to the scan axis",
+                digits(p.wavelength, 4),
+                digits(p.crest_angle, 3)
+            )
+        });
+        let told = Told::new(format!("{count} lines: {regime}{ripple}"));
+        told.maybe("q along the lines", pattern.map(|p| of(p.q, "1/σ")))
+            .maybe("κ across them", pattern.map(|p| of(p.kappa, "1/σ")))
+            .maybe("wavelength", pattern.map(|p| of(p.wavelength, "σ")))
+            .maybe("crests to scan axis", pattern.map(|p| of(p.crest_angle, "°")))
+            .maybe("coherence", pattern.map(|p| digits(p.coherence, 4)))
+            .maybe("amplitude of u", pattern.map(|p| of(p.amplitude, "kσ²/a")))
+            .maybe("defects", pattern.map(|p| p.defects.to_string()))
+            .row("volume", format!("{} kσ⁴/a", digits(self.volume, 10)))
+            .row("steps", self.work.steps.to_string())
+            .remarks(&self.remarks)
+            .next(again("-o raster.json --plot raster.png"))
+    }
+}
+
+impl Product for RasterStabilityDocument {
+    fn told(&self) -> Told {
+        let at = self.critical.as_ref();
+        let number = |value: f64| digits(value, 10);
+        let stable = match self.stable {
+            Some(true) => ": every ripple fades",
+            Some(false) => ": ripples grow",
+            None => "",
+        };
+        let headline = match at {
+            Some(at) => format!("ripples grow from line to line above α = {}", number(at.alpha)),
+            None => "every α makes some ripple of a repeated line grow".into(),
+        };
+        let alpha = (!self.parameters.at_critical_point).then_some(self.parameters.model.alpha);
+        let here = alpha.map(|alpha| format!("; α = {}{stable}", digits(alpha, 10)));
+        let angle = at.and_then(|at| at.crest_angle).map(|angle| format!("{} °", digits(angle, 6)));
+        Told::new(headline + &here.unwrap_or_default())
+            .maybe("critical α", at.map(|at| number(at.alpha)))
+            .maybe("q along the lines", at.map(|at| format!("{} 1/σ", number(at.q))))
+            .maybe("wavelength along them", at.map(|at| format!("{} σ", number(at.wavelength_x))))
+            .maybe("phase per line", at.map(|at| number(at.phase_per_line)))
+            .maybe("crests to scan axis", angle)
+            .remarks(&self.remarks)
+            .next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
+    }
+}
+
+impl Product for RasterSurfaceDocument {
+    fn told(&self) -> Told {
+        let all = |map: &HeightMap| map.u.concat();
+        let heights: Vec<f64> = self.surfaces.iter().flat_map(all).collect();
+        let low = digits(heights.iter().copied().fold(f64::INFINITY, f64::min), 4);
+        let high = digits(heights.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
+        Told::new(format!("{} heights from {low} to {high} kσ²/a", heights.len()))
+            .next(again("-o surface.npz --plot surface.png"))
+    }
+}

@@ -1,0 +1,209 @@
+//! The lines of a raster.
+
+use crate::table::Array;
+use crate::{History, Unusable};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Line, LineRegime, Plan, line_regime};
+use stickslip_tip::{STEP_NUMBERS, Step, Trajectory, Work, nodes_and_weights};
+
+/// One line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterLine {
+    /// Where it lies, in σ.
+    pub y: f64,
+    /// The motion at the times asked for.
+    pub samples: RasterSamples,
+    /// The kind of motion.
+    pub regime: LineRegimeName,
+}
+
+/// Kinds of motion along a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineRegimeName {
+    /// The lag changes by less than 2 % between a fifth of the line and 85 % of it.
+    Steady,
+    /// It changes by more.
+    StickSlip,
+    /// The tip did not come out of the pit at the beginning.
+    StuckAtTheEdge,
+}
+
+/// Columns of equal length, on the surface: x0 falls and lags are negative where a line goes towards smaller x.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterSamples {
+    /// Times since the start of the line, in Γ/k.
+    pub t: Vec<f64>,
+    /// Position of the tip, in σ.
+    pub x0: Vec<f64>,
+    /// R - x0, by which the support is ahead in x, in σ; as a force, in kσ.
+    pub lag: Vec<f64>,
+    /// x0', in kσ/Γ: one order less accurate than x0.
+    pub velocity: Vec<f64>,
+}
+
+/// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and goes to
+/// larger x. On the way back of a zigzag the tip is at X - x0 on the surface.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterHistory {
+    /// Collocation nodes (Radau IIA), as parts of a step.
+    pub nodes: Vec<f64>,
+    /// Quadrature weights of the nodes, as parts of a step.
+    pub weights: Vec<f64>,
+    /// Each as in the history of a run.
+    pub lines: Vec<LineHistory>,
+}
+
+/// The steps of one line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LineHistory {
+    /// Start of each step, and the end of the last, in Γ/k.
+    pub t: Vec<f64>,
+    /// rt - x0 at the start of each step, in σ.
+    pub extension: Vec<f64>,
+    /// x0 less its value at the start of the step, at the nodes, in σ.
+    pub displacement: Vec<Vec<f64>>,
+}
+
+/// A finished line of a raster under way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptLine {
+    /// Counted from 0.
+    pub index: usize,
+    /// The numbers of each step, all of them: what follows is the same to the last bit.
+    pub steps: Vec<[f64; STEP_NUMBERS]>,
+    /// Accepted steps, rejected ones, and Newton iterations.
+    pub work: [u64; 3],
+}
+
+impl RasterLine {
+    /// Sampled at these times.
+    pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
+        let column = |value: &dyn Fn(f64) -> f64| times.iter().map(|t| value(*t)).collect();
+        let samples = RasterSamples {
+            t: times.to_vec(),
+            x0: column(&|t| line.x0(t)),
+            lag: column(&|t| line.lag(t)),
+            velocity: column(&|t| line.velocity(t)),
+        };
+        Self { y: line.track().y, samples, regime: line_regime(plan, line).into() }
+    }
+}
+
+impl LineHistory {
+    fn of(trajectory: &Trajectory) -> Self {
+        let History { t, extension, displacement, .. } = trajectory.into();
+        Self { t, extension, displacement }
+    }
+
+    fn trajectory(
+        &self,
+        (nodes, weights): (&[f64], &[f64]),
+        r: f64,
+    ) -> Result<Trajectory, Unusable> {
+        let Self { t, extension, displacement } = self.clone();
+        let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
+        History { nodes, weights, t, extension, displacement }.trajectory(r)
+    }
+
+    /// Line `n` of a plan.
+    fn line(
+        &self,
+        (nodes, weights): (&[f64], &[f64]),
+        plan: &Plan,
+        n: usize,
+        work: Work,
+    ) -> Result<Line, Unusable> {
+        let r = plan.law.model.r();
+        let found = self.trajectory((nodes, weights), r);
+        let found = found.map_err(|error| Unusable::new(format!("line {}: {error}", n + 1)))?;
+        let (start, end, duration) = (found.start(), found.end(), plan.duration());
+        if n >= plan.lines || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
+            return Err(Unusable::new(format!("line {} is none of this raster", n + 1)));
+        }
+        Ok(Line::new(plan.track(n), r, found.steps().to_vec(), work))
+    }
+}
+
+impl RasterHistory {
+    pub(super) fn of(lines: &[Line]) -> Self {
+        let (nodes, weights) = nodes_and_weights();
+        let lines = lines.iter().map(|line| LineHistory::of(line.trajectory())).collect();
+        Self { nodes: nodes.to_vec(), weights: weights.to_vec(), lines }
+    }
+
+    /// The lines of a plan that it tells of; their counts are not known.
+    ///
+    /// # Errors
+    /// There are not as many as planned, or one was damaged.
+    pub(super) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
+        let (found, wanted) = (self.lines.len(), plan.lines);
+        if found != wanted {
+            return Err(Unusable::new(format!("history: {found} lines, {wanted} are needed")));
+        }
+        let rule = (&*self.nodes, &*self.weights);
+        let line = |(n, line): (usize, &LineHistory)| line.line(rule, plan, n, Work::default());
+        self.lines.iter().enumerate().map(line).collect()
+    }
+
+    pub(super) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let lines = || self.lines.iter();
+        let t: Vec<f64> = lines().flat_map(|line| &line.t).copied().collect();
+        let extension: Vec<f64> = lines().flat_map(|line| &line.extension).copied().collect();
+        let displacement: Vec<Vec<f64>> =
+            lines().flat_map(|line| line.displacement.clone()).collect();
+        let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();
+        vec![
+            ("history_nodes", Array::vector(&self.nodes)),
+            ("history_weights", Array::vector(&self.weights)),
+            ("history_steps", Array::vector(steps)),
+            ("history_t", Array::vector(t)),
+            ("history_extension", Array::vector(extension)),
+            ("history_displacement", Array::matrix(&displacement)),
+        ]
+    }
+}
+
+impl KeptLine {
+    /// Line `index`, counted from 0.
+    #[must_use]
+    pub fn of(index: usize, line: &Line) -> Self {
+        let Work { steps, rejected, newton_iterations } = line.work();
+        let work = [steps, rejected, newton_iterations];
+        Self { index, steps: line.trajectory().steps().iter().map(Step::numbers).collect(), work }
+    }
+
+    /// The line again.
+    ///
+    /// # Errors
+    /// It is none of this plan.
+    pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
+        if self.steps.is_empty() {
+            return Err(Unusable::new(format!("line {} has no steps", self.index + 1)));
+        }
+        let steps: Vec<Step> = self.steps.iter().map(|step| Step::from_numbers(*step)).collect();
+        let [done, rejected, newton_iterations] = self.work;
+        let work = Work { steps: done, rejected, newton_iterations };
+        let r = plan.law.model.r();
+        let (nodes, weights) = nodes_and_weights();
+        let history = LineHistory::of(&Trajectory::new(r, steps.clone()));
+        history.line((&nodes, &weights), plan, self.index, work)?;
+        Ok(Line::new(plan.track(self.index), r, steps, work))
+    }
+}
+
+impl From<LineRegime> for LineRegimeName {
+    fn from(regime: LineRegime) -> Self {
+        match regime {
+            LineRegime::Steady => Self::Steady,
+            LineRegime::StickSlip => Self::StickSlip,
+            LineRegime::StuckAtTheEdge => Self::StuckAtTheEdge,
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! `stickslip/raster`.
+
+mod heights;
+mod lines;
+mod parameters;
+mod pattern;
+
+pub use heights::{HeightMap, RasterSurfaceDocument};
+pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
+pub use parameters::{PathName, RasterParameters};
+pub use pattern::{PatternDocument, RasterRegimeName};
+
+use crate::table::{Array, Column, Named, Tabular};
+use crate::{FORMAT_VERSION, Software, Unusable};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Line, Plan, pattern, volume};
+
+/// Scan lines beside each other on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times are
+/// counted from the start of each line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterDocument {
+    /// "stickslip/raster"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// Everything that defines the raster.
+    pub parameters: RasterParameters,
+    /// The lines in the order in which they were scanned.
+    pub lines: Vec<RasterLine>,
+    /// What they have written.
+    pub regime: RasterRegimeName,
+    /// The ripple; null where there is none.
+    pub pattern: Option<PatternDocument>,
+    /// ∫∫ u dx dy, in kσ⁴/a: -α (X/r) ∫∫f for each line.
+    pub volume: f64,
+    /// The dense history of all lines: what `surface` works from.
+    pub history: RasterHistory,
+    /// What a reader should know; empty if there is nothing.
+    pub remarks: Vec<String>,
+    /// What it took.
+    pub work: RasterWork,
+}
+
+/// Counts over all lines, which depend on the input alone.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterWork {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated with a smaller length.
+    pub rejected: u64,
+    /// Newton iterations in all steps.
+    pub newton_iterations: u64,
+}
+
+impl RasterDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/raster";
+
+    /// That of these lines of a plan, sampled at these times since the start of each line.
+    #[must_use]
+    pub fn new(parameters: RasterParameters, plan: &Plan, lines: &[Line], times: &[f64]) -> Self {
+        let (regime, found) = pattern(plan, lines);
+        let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
+        let lines_told: Vec<RasterLine> =
+            lines.iter().map(|line| RasterLine::of(plan, line, times)).collect();
+        let stuck =
+            lines_told.iter().filter(|l| l.regime == LineRegimeName::StuckAtTheEdge).count();
+        let remark = format!(
+            "on {stuck} of {} lines the tip did not come out of the pit at their beginning",
+            lines.len()
+        );
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            parameters,
+            lines: lines_told,
+            regime: regime.into(),
+            pattern: found.map(Into::into),
+            volume: volume(plan, lines),
+            history: RasterHistory::of(lines),
+            remarks: if stuck > 0 { vec![remark] } else { vec![] },
+            work: RasterWork {
+                steps: total(|line| line.work().steps),
+                rejected: total(|line| line.work().rejected),
+                newton_iterations: total(|line| line.work().newton_iterations),
+            },
+        }
+    }
+
+    /// The plan, and the lines as their dense history tells them.
+    ///
+    /// # Errors
+    /// The document is damaged.
+    pub fn scanned(&self) -> Result<(Plan, Vec<Line>), Unusable> {
+        let plan = self.parameters.plan()?;
+        let lines = self.history.lines(&plan)?;
+        Ok((plan, lines))
+    }
+}
+
+impl Tabular for RasterDocument {
+    /// A row for each sample, line after line.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let each = self.lines.first().map_or(1, |line| line.samples.t.len()).max(1);
+        let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
+            self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
+        };
+        let numbers: Vec<f64> = (1..=self.lines.len()).map(|n| n as f64).collect();
+        let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
+        vec![
+            ("line", Column::Repeated { values: numbers.into(), each }),
+            ("y", Column::Repeated { values: y.into(), each }),
+            ("t", joined(|samples| &samples.t)),
+            ("x0", joined(|samples| &samples.x0)),
+            ("lag", joined(|samples| &samples.lag)),
+            ("velocity", joined(|samples| &samples.velocity)),
+        ]
+    }
+
+    /// `x0`, `lag` and `velocity` have a row for each line; `u` is the height map, a row for each of `u_y`, a column for
+    /// each of `u_x`; the history is that of all lines one after the other, `history_steps` of them for each.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let rows = |of: fn(&RasterSamples) -> &Vec<f64>| {
+            let rows: Vec<Vec<f64>> =
+                self.lines.iter().map(|line| of(&line.samples).clone()).collect();
+            Array::matrix(&rows)
+        };
+        let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
+        let t = self.lines.first().map(|line| line.samples.t.clone()).unwrap_or_default();
+        let mut arrays = vec![
+            ("y", Array::vector(y)),
+            ("t", Array::vector(t)),
+            ("x0", rows(|samples| &samples.x0)),
+            ("lag", rows(|samples| &samples.lag)),
+            ("velocity", rows(|samples| &samples.velocity)),
+        ];
+        if let Ok(map) = self.height_map() {
+            let u = Array { shape: vec![map.y.len(), map.x.len()], values: map.u.concat().into() };
+            arrays.extend([("u_x", Array::vector(map.x)), ("u_y", Array::vector(map.y)), ("u", u)]);
+        }
+        arrays.extend(self.history.arrays());
+        arrays
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ModelParameters, read};
+    use stickslip_raster::{Path, Scanned, Scanning};
+    use stickslip_tip::{Footprint, Model, TipFunction};
+
+    fn plan(path: Path) -> Plan {
+        let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
+        let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
+        Plan::new(footprint, Model::new(tip, 0.6, 0.9).unwrap(), path, 0.7, 5, 20.0)
+    }
+
+    fn document(path: Path) -> (Plan, Vec<Line>, RasterDocument) {
+        let plan = plan(path);
+        let mut scanning = Scanning::new(&plan).unwrap();
+        while scanning.next_line().unwrap().is_some() {}
+        let lines = scanning.into_lines();
+        let model = ModelParameters::of(&plan.law.model, None);
+        let parameters = RasterParameters::of(&plan, model, Some(1.3));
+        let document = RasterDocument::new(parameters, &plan, &lines, &[0.0, 10.0, 20.0]);
+        (plan, lines, document)
+    }
+
+    /// A document is the raster: plan and lines come back from its text to the last bit.
+    #[test]
+    fn a_raster_comes_back_from_its_document() {
+        for path in [Path::OneWay, Path::Zigzag, Path::Repeat] {
+            let (plan, lines, document) = document(path);
+            let text = serde_json::to_string(&document).unwrap();
+            let back: RasterDocument = read(&text, RasterDocument::FORMAT).unwrap();
+            let (again, found) = back.scanned().unwrap();
+            assert_eq!((again.path, again.lines), (plan.path, plan.lines));
+            for (a, b) in found.iter().zip(&lines) {
+                assert_eq!((a.track(), a.trajectory()), (b.track(), b.trajectory()));
+            }
+            let at = ([3.0, 9.5], [0.0, 1.9]);
+            let heights = |plan, lines| Scanned::new(plan, lines).heights(&at.0, &at.1);
+            assert_eq!(heights(&again, &found), heights(&plan, &lines));
+        }
+    }
+
+    /// What was scanned, and no other, is what the rest of a raster goes on from.
+    #[test]
+    fn a_line_kept_is_the_line() {
+        let (plan, lines, _) = document(Path::Zigzag);
+        for (n, line) in lines.iter().enumerate() {
+            let text = serde_json::to_string(&KeptLine::of(n, line)).unwrap();
+            let kept: KeptLine = serde_json::from_str(&text).unwrap();
+            let again = kept.line(&plan).unwrap();
+            assert_eq!((again.track(), again.work()), (line.track(), line.work()));
+            assert_eq!(again.trajectory(), line.trajectory());
+        }
+        let other = KeptLine { index: 7, ..KeptLine::of(0, &lines[0]) };
+        assert!(other.line(&plan).is_err());
+    }
+
+    #[test]
+    fn a_damaged_history_is_refused() {
+        let (_, _, mut document) = document(Path::OneWay);
+        document.history.lines[2].extension[1] += 1e-3;
+        let said = document.scanned().unwrap_err().to_string();
+        assert!(said.contains("line 3"), "{said}");
+        document.history.lines.truncate(2);
+        assert!(document.scanned().is_err());
+    }
+}

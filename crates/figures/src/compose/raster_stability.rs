@@ -1,0 +1,37 @@
+//! Growth of ripples from line to line.
+
+use super::drawn::{Drawn, View};
+use super::tip::model_name;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    CurveDocument, FigureDocument, PanelDocument, RasterStabilityDocument, StyleName,
+};
+
+impl Drawn for RasterStabilityDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let model = &self.parameters.model;
+        let Some(growth) = &self.growth else {
+            let message =
+                "there is no growth over wave numbers to draw: give --alpha, and no zigzag";
+            return Err(FigureError::Nothing(message.into()));
+        };
+        let lines = match self.parameters.pitch {
+            Some(pitch) => format!("lines {} σ apart", short(pitch)),
+            None => "one line repeated".into(),
+        };
+        let title = format!("{}, {lines}", model_name(model));
+        let mut figure = FigureDocument::new("raster-stability", &title, vec![model.clone()]);
+        let q = &growth.q;
+        let ends = [0.0, q.last().copied().unwrap_or(1.0)];
+        let mut factor = PanelDocument::new("", ("q (1/σ)", "growth from line to line"));
+        factor.curves = vec![
+            CurveDocument::new(StyleName::Thin, "", &ends, &[1.0, 1.0]),
+            CurveDocument::new(StyleName::Line, "", q, &growth.factor),
+        ];
+        let mut phase = PanelDocument::new("", ("q (1/σ)", "phase from line to line"));
+        phase.curves = vec![CurveDocument::new(StyleName::Line, "", q, &growth.phase)];
+        figure.panels = vec![factor, phase];
+        Ok(figure)
+    }
+}

@@ -1,0 +1,269 @@
+//! What the lines left, and what of it lies under the next: few numbers a line, and few lines.
+//!
+//! With f(x,y) = Σ_l g_l(x) h_l(y), the surface at y is, in Fourier space along x,
+//!
+//! ```text
+//!     Û(k) = -α Σ_l ĝ_l(k) Σ_m h_l(y - y_m) ρ̂_m(k)
+//! ```
+//!
+//! with ρ_m the residence density of line m, how long the tip was where. Of it ρ̂_m is kept, up to the band of f: some
+//! three complex numbers for each width of length.
+
+use crate::line::Line;
+use crate::plan::Plan;
+use num_complex::Complex64;
+use std::collections::VecDeque;
+use stickslip_convolution::{Density, Spectra};
+use stickslip_tip::{Footprint, Layer, Relief};
+
+/// ρ̂ of the lines at one y: all of them, however many.
+struct Row {
+    y: f64,
+    spectrum: Vec<Complex64>,
+}
+
+/// A stretch of x, and what is known of the footprint in its wave numbers.
+struct Stretch {
+    spectra: Spectra,
+    wave_numbers: Vec<f64>,
+    /// ĝ_l(k)
+    layers: Vec<Vec<f64>>,
+}
+
+/// ρ̂ of the lines that can still be felt.
+pub(crate) struct Grooves {
+    footprint: Footprint,
+    alpha: f64,
+    reach_across: f64,
+    /// Along x: how far a groove goes beyond where the tip was.
+    reach_along: f64,
+    band: f64,
+    /// Where the supports go, and how far outside of that tips may be.
+    supports: (f64, f64),
+    spare: f64,
+    /// Whether rows beyond reach are dropped.
+    forgets: bool,
+    stretch: Stretch,
+    rows: VecDeque<Row>,
+}
+
+impl Stretch {
+    fn new(footprint: &Footprint, band: f64, (from, to): (f64, f64), beyond: f64) -> Self {
+        let spectra = Spectra::new(band, from - beyond, to + beyond);
+        let wave_numbers: Vec<f64> = spectra.wave_numbers().collect();
+        let transform =
+            |layer: &Layer| wave_numbers.iter().map(|k| layer.along.fourier(*k)).collect();
+        let layers = footprint.layers().iter().map(transform).collect();
+        Self { spectra, wave_numbers, layers }
+    }
+}
+
+impl Grooves {
+    /// Of no line yet; lines out of reach of the last one are dropped.
+    pub(crate) fn new(plan: &Plan) -> Self {
+        Self::with(plan, true)
+    }
+
+    /// Of all these lines, none dropped.
+    pub(crate) fn of_all(plan: &Plan, lines: &[Line]) -> Self {
+        let mut grooves = Self::with(plan, false);
+        for n in 1..=lines.len() {
+            grooves.add(&lines[..n]);
+        }
+        grooves
+    }
+
+    fn with(plan: &Plan, forgets: bool) -> Self {
+        let (reach_along, band, supports) = (plan.reach_along(), plan.band(), (0.0, plan.length));
+        Self {
+            alpha: plan.law.model.alpha(),
+            reach_across: plan.reach_across(),
+            reach_along,
+            band,
+            supports,
+            spare: reach_along,
+            forgets,
+            stretch: Stretch::new(&plan.footprint, band, supports, 2.0 * reach_along),
+            footprint: plan.footprint.clone(),
+            rows: VecDeque::new(),
+        }
+    }
+
+    /// Takes note of the last of these lines; those before it are known.
+    pub(crate) fn add(&mut self, lines: &[Line]) {
+        let Some(line) = lines.last() else { return };
+        let (positions, weights) = line.residence();
+        let outside = |x: &f64| (self.supports.0 - x).max(x - self.supports.1);
+        let farthest = positions.iter().map(outside).fold(0.0, f64::max);
+        if farthest > self.spare {
+            self.widen(farthest, lines);
+            return;
+        }
+        self.put(line.track().y, &positions, &weights);
+    }
+
+    fn put(&mut self, y: f64, positions: &[f64], weights: &[f64]) {
+        let mut density = Density::new(self.stretch.spectra.spacing());
+        positions.iter().zip(weights).for_each(|(x, weight)| density.add(*x, *weight));
+        let spectrum = self.stretch.spectra.of(&density);
+        match self.rows.back_mut().filter(|row| same(row.y, y)) {
+            Some(row) => row.spectrum.iter_mut().zip(&spectrum).for_each(|(all, new)| *all += new),
+            None => self.rows.push_back(Row { y, spectrum }),
+        }
+        if self.forgets {
+            while self.rows.front().is_some_and(|row| (row.y - y).abs() > self.reach_across) {
+                self.rows.pop_front();
+            }
+        }
+    }
+
+    /// A longer stretch, for a tip that was found so far outside: all that is known is made anew from the lines, so
+    /// that it depends on them alone and not on when the stretch grew.
+    fn widen(&mut self, farthest: f64, lines: &[Line]) {
+        while self.spare < farthest {
+            self.spare *= 2.0;
+        }
+        let beyond = self.spare + self.reach_along;
+        self.stretch = Stretch::new(&self.footprint, self.band, self.supports, beyond);
+        self.rows.clear();
+        for line in lines {
+            let (positions, weights) = line.residence();
+            self.put(line.track().y, &positions, &weights);
+        }
+    }
+
+    /// Û at y; `None` where no line is within reach.
+    fn surface(&self, y: f64) -> Option<Vec<Complex64>> {
+        let within = |row: &&Row| (row.y - y).abs() <= self.reach_across;
+        self.rows.iter().find(within)?;
+        let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
+        self.rows.iter().filter(within).for_each(|row| self.add_groove(row, y, &mut sum));
+        Some(sum)
+    }
+
+    /// Adds what the lines of a row left at y.
+    fn add_groove(&self, row: &Row, y: f64, sum: &mut [Complex64]) {
+        for (layer, transform) in self.footprint.layers().iter().zip(&self.stretch.layers) {
+            let height = -self.alpha * layer.across.value(y - row.y);
+            let terms = row.spectrum.iter().zip(transform);
+            sum.iter_mut().zip(terms).for_each(|(sum, (rho, g))| *sum += rho * (height * g));
+        }
+    }
+
+    /// What a tip on the line y finds; with `mirrored_about` X in the frame X - x. `None` where no line is within reach.
+    pub(crate) fn relief(&mut self, y: f64, mirrored_about: Option<f64>) -> Option<Relief> {
+        let heights = self.surface(y)?;
+        let slope = |(height, k): (&Complex64, &f64)| Complex64::new(0.0, *k) * height;
+        let slopes: Vec<Complex64> =
+            heights.iter().zip(&self.stretch.wave_numbers).map(slope).collect();
+        let fields = (self.stretch.spectra.field(&heights), self.stretch.spectra.field(&slopes));
+        Some(Relief::on_lattice(fields.0, fields.1, mirrored_about))
+    }
+
+    /// The heights on the line y, at every x.
+    pub(crate) fn heights(&mut self, y: f64, x: &[f64]) -> Vec<f64> {
+        match self.surface(y) {
+            Some(heights) => self.read(&heights, x),
+            None => vec![0.0; x.len()],
+        }
+    }
+
+    /// What each line alone left below it, at every x.
+    pub(crate) fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
+        let own = |row: &Row| {
+            let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
+            self.add_groove(row, row.y, &mut sum);
+            sum
+        };
+        let spectra: Vec<Vec<Complex64>> = self.rows.iter().map(own).collect();
+        spectra.iter().map(|heights| self.read(heights, x)).collect()
+    }
+
+    fn read(&mut self, heights: &[Complex64], x: &[f64]) -> Vec<f64> {
+        let field = self.stretch.spectra.field(heights);
+        let range = field.range();
+        x.iter().map(|x| if range.contains(x) { field.value(*x) } else { 0.0 }).collect()
+    }
+}
+
+/// Lines at the same y differ by nothing: theirs are the same products.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::Path;
+    use stickslip_tip::{Model, Step, TipFunction, Work, nodes_and_weights};
+
+    fn plan() -> Plan {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
+        Plan::new(footprint, Model::new(tip, 0.7, 1.0).unwrap(), Path::OneWay, 0.8, 20, 15.0)
+    }
+
+    /// Line n of a tip that goes evenly from `from` to `to`.
+    fn line(plan: &Plan, n: usize, (from, to): (f64, f64)) -> Line {
+        let h = 15.0 / 40.0;
+        let step = |i: u32| {
+            let t = h * f64::from(i);
+            let x = from + (to - from) * f64::from(i) / 40.0;
+            let nodes = nodes_and_weights().0;
+            let displacement = std::array::from_fn(|j| (to - from) / 40.0 * nodes[j]);
+            Step { t, h, extension: t - x, displacement }
+        };
+        Line::new(plan.track(n), 1.0, (0..40).map(step).collect(), Work::default())
+    }
+
+    /// Σ over all lines and all visits.
+    fn direct(plan: &Plan, lines: &[Line], x: f64, y: f64) -> f64 {
+        let of = |line: &Line| -> f64 {
+            let (positions, weights) = line.residence();
+            let visits = positions.iter().zip(&weights);
+            visits.map(|(p, w)| w * plan.footprint.value(x - p, y - line.track().y)).sum()
+        };
+        -0.7 * lines.iter().map(of).sum::<f64>()
+    }
+
+    /// Tips far outside of where the support goes make the stretch longer, and nothing else: what is known does not
+    /// depend on when that was.
+    #[test]
+    fn a_tip_far_outside_is_held_too() {
+        let plan = plan();
+        let ends = [(0.0, 14.0), (-31.0, 12.0), (1.0, 14.0), (0.0, 60.0), (2.0, 13.0)];
+        let lines: Vec<Line> = (0..5).map(|n| line(&plan, n, ends[n])).collect();
+        let mut grooves = Grooves::new(&plan);
+        for n in 1..=lines.len() {
+            grooves.add(&lines[..n]);
+        }
+        let mut again = Grooves::of_all(&plan, &lines);
+        for y in [0.0, 2.1, 4.0] {
+            let relief = grooves.relief(y, None).unwrap();
+            let x: Vec<f64> = (0..220).map(|i| 0.5 * f64::from(i) - 40.0).collect();
+            let whole = again.heights(y, &x);
+            for (x, whole) in x.iter().zip(whole) {
+                let wanted = direct(&plan, &lines, *x, y);
+                assert!((relief.height(*x) - wanted).abs() < 1e-12, "{x} {y}");
+                assert_eq!(relief.height(*x).to_bits(), whole.to_bits(), "{x} {y}");
+            }
+        }
+    }
+
+    /// Lines out of reach of the last one are dropped: as many are held as are felt, and the sum is the same.
+    #[test]
+    fn no_more_lines_are_held_than_are_felt() {
+        let plan = plan();
+        let lines: Vec<Line> = (0..60).map(|n| line(&plan, n, (0.0, 14.0))).collect();
+        let mut grooves = Grooves::new(&plan);
+        for n in 1..=lines.len() {
+            grooves.add(&lines[..n]);
+            assert!(grooves.rows.len() <= 1 + (plan.reach_across() / plan.pitch) as usize);
+        }
+        let y = plan.track(60).y;
+        let relief = grooves.relief(y, None).unwrap();
+        for x in [-2.0, 3.3, 9.0, 15.5] {
+            assert!((relief.height(x) - direct(&plan, &lines, x, y)).abs() < 1e-13);
+        }
+    }
+}

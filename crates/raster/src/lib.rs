@@ -1,0 +1,44 @@
+//! Scan lines beside each other on one surface.
+//!
+//! A tip scans an area line by line. On line n, at y_n, it feels beside its own groove what the lines before it have
+//! left there,
+//!
+//! ```text
+//!     U_n(x) = -α Σ_{m<n} ∫ f(x - x0_m(t), y_n - y_m) dt
+//! ```
+//!
+//! so that a line is an ordinary run over U_n as its initial surface, and what must be kept of it is where the tip was
+//! and for how long: its residence density ρ_m, or ρ̂_m(k) up to the band of f. Cost and memory of a line do not depend
+//! on how many lines there were: those out of reach across are dropped. `docs/raster.md` says what comes of it.
+//!
+//! ```
+//! use stickslip_raster::{Path, Plan, Scanned, Scanning};
+//! use stickslip_tip::{Footprint, Model, TipFunction};
+//!
+//! let footprint = Footprint::separable(TipFunction::gaussian(1.0)?, 1.0)?; // exp(-(x² + y²)/2)
+//! let model = Model::new(footprint.path().clone(), 0.5, 1.0)?; // α = 0.5, r = 1
+//! let plan = Plan::new(footprint, model, Path::OneWay, 0.5, 8, 30.0); // 8 lines of length 30, 0.5 apart
+//! let mut scanning = Scanning::new(&plan)?;
+//! while let Some(line) = scanning.next_line()? {
+//!     assert!(line.lag(30.0) > 0.0);
+//! }
+//! let lines = scanning.into_lines();
+//! let u = Scanned::new(&plan, &lines).heights(&[10.0, 10.5], &[0.0, 1.75]);
+//! assert!(u.iter().all(|u| *u < 0.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod grooves;
+mod line;
+mod path;
+mod pattern;
+mod plan;
+mod scan;
+mod surface;
+
+pub use line::Line;
+pub use path::{Path, Track};
+pub use pattern::{LineRegime, Pattern, Regime, line_regime, pattern};
+pub use plan::{MOST_LINES, Plan, RasterError};
+pub use scan::Scanning;
+pub use surface::{Scanned, volume};

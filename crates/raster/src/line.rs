@@ -1,0 +1,77 @@
+//! One line that has been scanned.
+
+use crate::path::Track;
+use stickslip_tip::{Step, Trajectory, Work};
+
+/// The motion of the tip along one line. Time is counted from the start of the line.
+#[derive(Debug, Clone)]
+pub struct Line {
+    track: Track,
+    /// In the frame of the line: the support starts at 0 and goes to larger x.
+    trajectory: Trajectory,
+    work: Work,
+}
+
+impl Line {
+    /// From its steps, in the frame of the line.
+    ///
+    /// # Panics
+    /// Without any step.
+    #[must_use]
+    pub fn new(track: Track, r: f64, steps: Vec<Step>, work: Work) -> Self {
+        Self { track, trajectory: Trajectory::new(r, steps), work }
+    }
+
+    /// Where the support goes.
+    #[must_use]
+    pub fn track(&self) -> Track {
+        self.track
+    }
+
+    /// The motion in the frame of the line, in which the support starts at 0 and goes to larger x.
+    #[must_use]
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    /// Counts of the integrator.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// x0 on the surface.
+    #[must_use]
+    pub fn x0(&self, t: f64) -> f64 {
+        self.track.x(self.trajectory.x0(t))
+    }
+
+    /// R - x0 on the surface, by which the support is ahead in x: the lateral force. Below 0 where a tip lags behind
+    /// on its way back.
+    #[must_use]
+    pub fn lag(&self, t: f64) -> f64 {
+        self.track.sign() * (self.trajectory.l(t) + self.trajectory.r())
+    }
+
+    /// x0' on the surface.
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> f64 {
+        self.track.sign() * self.trajectory.velocity(t)
+    }
+
+    /// x0 on the surface at the end.
+    pub(crate) fn x0_at_end(&self) -> f64 {
+        let (r, steps) = (self.trajectory.r(), self.trajectory.steps());
+        let last = steps[steps.len() - 1];
+        self.track.x(r * last.end() - last.extension_at_end(r))
+    }
+
+    /// Where the tip was on the surface, and for how long: positions and weights such that
+    /// ∫ g(x0(t))dt = Σ w g(x).
+    #[must_use]
+    pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
+        let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());
+        positions.iter_mut().for_each(|x| *x = self.track.x(*x));
+        (positions, weights)
+    }
+}

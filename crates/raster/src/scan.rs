@@ -1,0 +1,92 @@
+//! Lines one after the other, to be stopped and taken up again between any two.
+
+use crate::grooves::Grooves;
+use crate::line::Line;
+use crate::plan::{Plan, RasterError};
+use stickslip_tip::{InitialSurface, Running, Step, stop};
+
+/// A raster under way.
+pub struct Scanning<'a> {
+    plan: &'a Plan,
+    grooves: Grooves,
+    lines: Vec<Line>,
+}
+
+impl<'a> Scanning<'a> {
+    /// Before the first line.
+    ///
+    /// # Errors
+    /// A parameter out of range.
+    pub fn new(plan: &'a Plan) -> Result<Self, RasterError> {
+        plan.validate()?;
+        Ok(Self { plan, grooves: Grooves::new(plan), lines: vec![] })
+    }
+
+    /// After these lines of the same plan: all that follows is the same to the last bit as without the interruption.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn resumed(plan: &'a Plan, lines: Vec<Line>) -> Result<Self, RasterError> {
+        let mut scanning = Self::new(plan)?;
+        for n in 1..=lines.len() {
+            scanning.grooves.add(&lines[..n]);
+        }
+        Ok(Self { lines, ..scanning })
+    }
+
+    /// The lines so far.
+    #[must_use]
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    /// What the tip will find on the next line, in the frame of that line: what earlier lines left within reach.
+    #[must_use]
+    pub fn surface_ahead(&mut self) -> InitialSurface {
+        let track = self.plan.track(self.lines.len());
+        let mirrored_about = track.backward.then_some(track.start);
+        let relief = self.grooves.relief(track.y, mirrored_about);
+        relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
+    }
+
+    /// Scans the next line; `None` after the last one, or where the work was asked to [`stop`]: then the line under way
+    /// is lost.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met.
+    pub fn next_line(&mut self) -> Result<Option<&Line>, RasterError> {
+        let n = self.lines.len();
+        if n == self.plan.lines {
+            return Ok(None);
+        }
+        let track = self.plan.track(n);
+        let surface = self.surface_ahead();
+        // On a way back the tip stands where it was, ahead of the support that has turned.
+        let ahead = if track.backward || (n > 0 && self.plan.track(n - 1).backward) {
+            self.lines.last().map_or(0.0, |last| track.along(last.x0_at_end()))
+        } else {
+            0.0
+        };
+        let scenario = self.plan.line(ahead, n == 0);
+        let failed = |error| RasterError::Line { line: n + 1, error };
+        let mut running = Running::new(&scenario, &surface).map_err(failed)?;
+        let mut steps: Vec<Step> = vec![];
+        while let Some(step) = running.step().map_err(failed)? {
+            steps.push(step);
+            if stop::is_asked() {
+                return Ok(None);
+            }
+        }
+        let line = Line::new(track, scenario.model.r(), steps, running.work());
+        drop(running);
+        self.lines.push(line);
+        self.grooves.add(&self.lines);
+        Ok(self.lines.last())
+    }
+
+    /// What has been scanned.
+    #[must_use]
+    pub fn into_lines(self) -> Vec<Line> {
+        self.lines
+    }
+}

@@ -1,0 +1,269 @@
+//! Rasters against the definition: the full equations (10) and (11) on rows of points, one row for each line, with
+//! Runge-Kutta steps of fixed length. It shares nothing with the library but the formula of the footprint, written out
+//! here, and the path of the support.
+//!
+//! u is limited in band, so that points 0.4 apart hold it and the sum of sines over all of them gives its slope
+//! anywhere, to 4e-14 for a Gaussian of width 1.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use stickslip_raster::{Line, Path, Plan, Scanned, Scanning, volume};
+use stickslip_tip::{Footprint, Gaussian2d, InitialSurface, Model, Relief, Running, TipFunction};
+
+type Formula = fn(f64, f64) -> f64;
+
+const SPACING: f64 = 0.4;
+const BEYOND: f64 = 12.0;
+/// Of a Runge-Kutta step; its error is its fourth power.
+const STEP: f64 = 0.002;
+
+/// Position of the tip, and heights on every row.
+#[derive(Clone)]
+struct State {
+    x0: f64,
+    u: Vec<Vec<f64>>,
+}
+
+struct Definition {
+    f: Formula,
+    alpha: f64,
+    r: f64,
+    length: f64,
+    pitch: f64,
+    x: Vec<f64>,
+    state: State,
+}
+
+impl Definition {
+    fn new(f: Formula, alpha: f64, r: f64, (pitch, lines, length): (f64, usize, f64)) -> Self {
+        let points = ((length + 2.0 * BEYOND) / SPACING) as usize;
+        let x: Vec<f64> = (0..points).map(|i| SPACING * i as f64 - BEYOND).collect();
+        let state = State { x0: 0.0, u: vec![vec![0.0; points]; lines] };
+        Self { f, alpha, r, length, pitch, x, state }
+    }
+
+    /// u_x on a row.
+    fn slope(&self, u: &[f64], at: f64) -> f64 {
+        let pi = std::f64::consts::PI;
+        let term = |(x, u): (&f64, &f64)| {
+            let z = (at - x) / SPACING;
+            let sinc = if z.abs() < 1e-4 {
+                -pi * pi * z / 3.0
+            } else {
+                (pi * z).cos() / z - (pi * z).sin() / (pi * z * z)
+            };
+            u * sinc / SPACING
+        };
+        self.x.iter().zip(u).map(term).sum()
+    }
+
+    fn rate(&self, state: &State, row: usize, support: f64) -> State {
+        let carve = |n: usize| {
+            let y = self.pitch * (n as f64 - row as f64);
+            self.x.iter().map(|x| -self.alpha * (self.f)(x - state.x0, y)).collect()
+        };
+        let x0 = support - state.x0 - self.slope(&state.u[row], state.x0);
+        State { x0, u: (0..state.u.len()).map(carve).collect() }
+    }
+
+    /// One line; x0 at the end of every hundredth step.
+    fn line(&mut self, n: usize, row: usize, path: Path) -> Vec<(f64, f64)> {
+        let track = path.track(n, self.pitch, self.length);
+        if path != Path::Zigzag {
+            self.state.x0 = 0.0;
+        }
+        let steps = (self.length / self.r / STEP).round() as usize;
+        let mut told = vec![];
+        for i in 0..steps {
+            let support = |c: f64| track.x(self.r * STEP * (i as f64 + c));
+            let s = &self.state;
+            let a = self.rate(s, row, support(0.0));
+            let b = self.rate(&s.moved(&a, 0.5 * STEP), row, support(0.5));
+            let c = self.rate(&s.moved(&b, 0.5 * STEP), row, support(0.5));
+            let d = self.rate(&s.moved(&c, STEP), row, support(1.0));
+            let s = s.moved(&a, STEP / 6.0).moved(&b, STEP / 3.0);
+            self.state = s.moved(&c, STEP / 3.0).moved(&d, STEP / 6.0);
+            if (i + 1) % 100 == 0 {
+                told.push((STEP * (i as f64 + 1.0), self.state.x0));
+            }
+        }
+        told
+    }
+}
+
+impl State {
+    fn moved(&self, rate: &Self, by: f64) -> Self {
+        let row = |(u, v): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+            u.iter().zip(v).map(|(u, v)| u + by * v).collect()
+        };
+        Self { x0: self.x0 + by * rate.x0, u: self.u.iter().zip(&rate.u).map(row).collect() }
+    }
+}
+
+fn scanned(plan: &Plan) -> Vec<Line> {
+    let mut scanning = Scanning::new(plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    scanning.into_lines()
+}
+
+fn plan(footprint: Footprint, (alpha, r): (f64, f64), path: Path, size: (f64, usize, f64)) -> Plan {
+    let model = Model::new(footprint.path().clone(), alpha, r).unwrap();
+    let mut plan = Plan::new(footprint, model, path, size.0, size.1, size.2);
+    plan.law.tolerance = 1e-11;
+    plan
+}
+
+/// Largest differences of x0 on any line and of u on any row.
+fn differences(plan: &Plan, f: Formula) -> (f64, f64) {
+    let (alpha, r) = (plan.law.model.alpha(), plan.law.model.r());
+    let rows = if plan.path == Path::Repeat { 1 } else { plan.lines };
+    let mut slow = Definition::new(f, alpha, r, (plan.pitch, rows, plan.length));
+    let lines = scanned(plan);
+    let mut worst_x0 = 0.0_f64;
+    for (n, line) in lines.iter().enumerate() {
+        for (t, x0) in slow.line(n, n.min(rows - 1), plan.path) {
+            worst_x0 = worst_x0.max((line.x0(t) - x0).abs());
+        }
+    }
+    let y: Vec<f64> = (0..rows).map(|n| plan.track(n).y).collect();
+    let u = Scanned::new(plan, &lines).heights(&slow.x, &y);
+    let miss = |((n, i), u): ((usize, usize), &f64)| (u - slow.state.u[n][i]).abs();
+    (worst_x0, u.indexed_iter().map(miss).fold(0.0, f64::max))
+}
+
+fn judge(name: &str, plan: &Plan, f: Formula) {
+    let (x0, u) = differences(plan, f);
+    println!("{name}: x0 {x0:.1e}, u {u:.1e}");
+    assert!(x0 < 1e-8 && u < 1e-8, "{name}: x0 {x0:e}, u {u:e}");
+}
+
+fn gaussian(x: f64, y: f64) -> f64 {
+    (-0.5 * (x * x + y * y)).exp()
+}
+
+fn triple(x: f64, y: f64) -> f64 {
+    let along = (-0.5 * x * x).exp()
+        - 0.5 * ((-0.5 * (x + 2.0) * (x + 2.0)).exp() + (-0.5 * (x - 2.0) * (x - 2.0)).exp());
+    along * (-0.5 * (y / 1.6) * (y / 1.6)).exp()
+}
+
+/// No product: a broad part and a ring of side lobes in y.
+fn lobed(x: f64, y: f64) -> f64 {
+    let z = x / 1.2;
+    let lobe = |c: f64| (-0.5 * (y - c) * (y - c) / 0.49).exp();
+    gaussian(x, y) + 0.3 * (-0.5 * z * z).exp() * (lobe(1.1) + lobe(-1.1))
+}
+
+fn lobed_footprint() -> Footprint {
+    let term = |amplitude, width, center_y, width_y| Gaussian2d {
+        amplitude,
+        center: 0.0,
+        width,
+        center_y,
+        width_y,
+    };
+    let terms = [term(1.0, 1.0, 0.0, 1.0), term(0.3, 1.2, 1.1, 0.7), term(0.3, 1.2, -1.1, 0.7)];
+    Footprint::gaussian_sum(&terms).unwrap()
+}
+
+fn round() -> Footprint {
+    Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap()
+}
+
+#[test]
+fn one_way_lines_are_those_of_the_full_equations() {
+    judge("gaussian", &plan(round(), (0.9, 1.0), Path::OneWay, (0.5, 6, 16.0)), gaussian);
+    let wide = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+    let wide = Footprint::separable(wide, 1.6).unwrap();
+    judge("triple", &plan(wide, (0.7, 0.8), Path::OneWay, (1.0, 4, 16.0)), triple);
+    judge("lobed", &plan(lobed_footprint(), (0.6, 1.0), Path::OneWay, (0.7, 4, 16.0)), lobed);
+}
+
+#[test]
+fn zigzag_lines_are_those_of_the_full_equations() {
+    judge("gaussian", &plan(round(), (0.9, 1.0), Path::Zigzag, (0.5, 6, 16.0)), gaussian);
+    judge("lobed", &plan(lobed_footprint(), (0.6, 1.0), Path::Zigzag, (0.7, 5, 16.0)), lobed);
+}
+
+#[test]
+fn repeated_lines_are_those_of_the_full_equations() {
+    judge("gaussian", &plan(round(), (0.6, 1.0), Path::Repeat, (0.0, 5, 16.0)), gaussian);
+}
+
+/// Negative control: lines that do not feel each other differ by far more than is allowed above.
+#[test]
+fn lines_that_did_not_feel_each_other_would_be_found_out() {
+    let with = plan(round(), (0.9, 1.0), Path::OneWay, (0.5, 2, 16.0));
+    let lines = scanned(&with);
+    let apart =
+        (0..50).map(|i| (lines[1].x0(0.3 * f64::from(i)) - lines[0].x0(0.3 * f64::from(i))).abs());
+    assert!(apart.fold(0.0, f64::max) > 0.1);
+}
+
+/// A second scan of the same line is one run with that groove, as a profile, for initial surface. The spline through
+/// points 0.004 apart errs by 1e-9 in slope.
+#[test]
+fn a_second_scan_is_a_run_over_the_groove_of_the_first() {
+    let plan = plan(round(), (0.8, 1.0), Path::Repeat, (0.0, 2, 12.0));
+    let lines = scanned(&plan);
+    let (positions, weights) = lines[0].residence();
+    let height = |x: f64| -> f64 {
+        -0.8 * positions.iter().zip(&weights).map(|(p, w)| w * gaussian(x - p, 0.0)).sum::<f64>()
+    };
+    let x: Vec<f64> = (0..8000).map(|i| 0.004 * f64::from(i) - 10.0).collect();
+    let u = x.iter().map(|x| height(*x)).collect();
+    let surface = InitialSurface::flat().with(Relief::profile(x, u).unwrap());
+    let start = stickslip_tip::Start::Flat;
+    let scenario = stickslip_tip::Scenario {
+        start,
+        start_position: 0.0,
+        tolerance: 1e-10,
+        ..stickslip_tip::Scenario::new(plan.law.model.clone(), 12.0)
+    };
+    let mut running = Running::new(&scenario, &surface).unwrap();
+    let mut worst = 0.0_f64;
+    while let Some(step) = running.step().unwrap() {
+        worst = worst.max((step.x0(1.0, step.end()) - lines[1].x0(step.end())).abs());
+    }
+    assert!(worst < 1e-8, "{worst:e}");
+    // Negative control.
+    assert!((lines[1].x0(6.0) - lines[0].x0(6.0)).abs() > 0.05);
+}
+
+/// The volume by adding up the surface, on points so dense that the sum is exact, and by the law.
+#[test]
+fn every_line_takes_away_the_same_volume() {
+    for (footprint, alpha, path) in [
+        (round(), 0.9, Path::OneWay),
+        (round(), 0.9, Path::Zigzag),
+        (lobed_footprint(), 0.6, Path::OneWay),
+    ] {
+        let plan = plan(footprint, (alpha, 0.8), path, (0.6, 3, 14.0));
+        let lines = scanned(&plan);
+        for n in 1..=lines.len() {
+            let x: Vec<f64> = (0..140).map(|i| 0.3 * f64::from(i) - 14.0).collect();
+            let y: Vec<f64> = (0..80).map(|i| 0.3 * f64::from(i) - 12.0).collect();
+            let added = 0.09 * Scanned::new(&plan, &lines[..n]).heights(&x, &y).sum();
+            let by_law = -alpha * 14.0 / 0.8 * plan.footprint.integral() * n as f64;
+            assert!((added - by_law).abs() < 1e-10, "{n}: {added} for {by_law}");
+            assert!((volume(&plan, &lines[..n]) - by_law).abs() < 1e-10);
+        }
+    }
+    assert!((round().integral() - 2.0 * std::f64::consts::PI).abs() < 1e-14);
+}
+
+/// Taken up after any line, all lines are the same to the last bit; and what no tip has done, a stretch made longer, too.
+#[test]
+fn a_raster_taken_up_again_is_the_same() {
+    for path in [Path::OneWay, Path::Zigzag, Path::Repeat] {
+        let plan = plan(round(), (0.9, 1.0), path, (0.5, 7, 12.0));
+        let whole = scanned(&plan);
+        for n in [0, 1, 4, 7] {
+            let mut again = Scanning::resumed(&plan, whole[..n].to_vec()).unwrap();
+            while again.next_line().unwrap().is_some() {}
+            for (a, b) in again.lines().iter().zip(&whole) {
+                assert_eq!(a.trajectory(), b.trajectory(), "{path:?} {n}");
+            }
+        }
+    }
+}

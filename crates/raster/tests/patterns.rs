@@ -1,0 +1,59 @@
+//! What rasters of a round Gaussian write, from below the threshold to lines that stay in their pit.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use stickslip_raster::{LineRegime, Path, Pattern, Plan, Regime, Scanning, line_regime, pattern};
+use stickslip_stability::{Raster, RasterPath};
+use stickslip_tip::{Footprint, Model, TipFunction};
+
+fn round() -> Footprint {
+    Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap()
+}
+
+fn written(alpha: f64, path: Path, pitch: f64) -> (Regime, Option<Pattern>, Vec<LineRegime>) {
+    let model = Model::new(round().path().clone(), alpha, 1.0).unwrap();
+    let mut plan = Plan::new(round(), model, path, pitch, 160, 100.0);
+    plan.law.tolerance = 1e-6;
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let lines = scanning.into_lines();
+    let (regime, found) = pattern(&plan, &lines);
+    let each = lines.iter().map(|line| line_regime(&plan, line)).collect();
+    (regime, found, each)
+}
+
+/// A little above the threshold the crests are those of linear theory, which knows nothing of runs.
+#[test]
+fn ripples_are_those_that_grow() {
+    let critical = Raster::new(&round(), 1.0, 1.0).unwrap().critical(RasterPath::OneWay).unwrap();
+    let (regime, found, lines) = written(1.1 * critical.alpha, Path::OneWay, 1.0);
+    let found = found.unwrap();
+    println!("{regime:?} {found:?}");
+    assert_eq!(regime, Regime::Ripples);
+    assert!((found.crest_angle - critical.crest_angle.unwrap()).abs() < 5.0);
+    assert!((found.q / critical.q - 1.0).abs() < 0.15);
+    // From line to line they move the way that theory has it.
+    assert!(found.kappa * critical.kappa.unwrap() > 0.0);
+    assert!(found.coherence > 0.99 && found.defects == 0);
+    assert!(lines[100..].iter().all(|line| *line == LineRegime::StickSlip));
+}
+
+#[test]
+fn what_is_no_ripple_is_called_otherwise() {
+    let (regime, found, lines) = written(0.2, Path::OneWay, 0.5);
+    assert_eq!((regime, found), (Regime::Steady, None));
+    assert!(lines.iter().all(|line| *line == LineRegime::Steady));
+    let (regime, found, _) = written(0.58, Path::OneWay, 0.5);
+    assert_eq!(regime, Regime::Pits, "{found:?}");
+    let (regime, found, lines) = written(0.9, Path::OneWay, 0.5);
+    assert_eq!((regime, found), (Regime::StuckAtTheEdge, None));
+    assert_eq!(lines[159], LineRegime::StuckAtTheEdge);
+    // Every other line is shifted the other way.
+    let (regime, found, _) = written(0.5, Path::Zigzag, 0.5);
+    assert_eq!(regime, Regime::Disordered);
+    assert!(found.unwrap().coherence < 0.6);
+    // Pass after pass the pit at the beginning deepens.
+    let (regime, found, lines) = written(0.4, Path::Repeat, 0.0);
+    assert_eq!((regime, found), (Regime::StuckAtTheEdge, None));
+    assert_ne!(lines[0], LineRegime::StuckAtTheEdge);
+}

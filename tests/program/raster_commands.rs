@@ -1,0 +1,211 @@
+//! `raster`, `stability --pitch` and `surface` of a raster as a user meets them. What the numbers are worth is judged in
+//! crates/raster/tests and crates/stability/tests.
+
+use crate::folder::Folder;
+use serde_json::Value;
+use std::process::Stdio;
+use std::time::Duration;
+use stickslip_raster::{Path, Plan, Scanned, Scanning};
+use stickslip_stability::{Raster, RasterPath};
+use stickslip_tip::{Footprint, Model, TipFunction};
+
+const GAUSSIAN: &str = "raster --tip gaussian --alpha 0.6 --r 1 --pitch 0.5";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+fn round() -> Footprint {
+    Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap()
+}
+
+/// Samples, volume and heights are those of the library, in every format the same.
+#[test]
+fn a_raster_is_that_of_the_library() {
+    let folder = Folder::new("raster_library");
+    let line = format!("{GAUSSIAN} --path zigzag --lines 4 --length 20 --sample-at 0,7.5,20");
+    let document = folder.prints_json(&line);
+    let model = Model::new(round().path().clone(), 0.6, 1.0).unwrap();
+    let plan = Plan::new(round(), model, Path::Zigzag, 0.5, 4, 20.0);
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let lines = scanning.into_lines();
+    for (n, line) in lines.iter().enumerate() {
+        let found = &document["lines"][n];
+        assert!((number(&found["y"]) - 0.5 * n as f64).abs() < 1e-15);
+        for (i, t) in [0.0, 7.5, 20.0].into_iter().enumerate() {
+            assert!((number(&found["samples"]["x0"][i]) - line.x0(t)).abs() < 1e-15);
+            assert!((number(&found["samples"]["lag"][i]) - line.lag(t)).abs() < 1e-15);
+        }
+    }
+    // On the way back the support is behind in x, and starts where the tip was.
+    assert!(number(&document["lines"][1]["samples"]["lag"][2]) < 0.0);
+    let ends =
+        [&document["lines"][0]["samples"]["x0"][2], &document["lines"][1]["samples"]["x0"][0]];
+    assert!((number(ends[0]) - number(ends[1])).abs() < 1e-12);
+    let volume = -0.6 * 20.0 * 2.0 * std::f64::consts::PI * 4.0;
+    assert!((number(&document["volume"]) - volume).abs() < 1e-9);
+    folder.write("raster.json", document.to_string());
+    let surface = folder.prints_json("surface raster.json --x 3,8.25 --y 0.1,1.5");
+    let wanted = Scanned::new(&plan, &lines).heights(&[3.0, 8.25], &[0.1, 1.5]);
+    for ((row, column), u) in wanted.indexed_iter() {
+        assert!((number(&surface["surfaces"][0]["u"][row][column]) - u).abs() < 1e-12);
+    }
+    let schema = folder.prints_json("schema raster-surface");
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    assert!(validator.is_valid(&surface));
+}
+
+#[test]
+fn every_format_and_every_picture_is_written() {
+    let folder = Folder::new("raster_formats");
+    let line = format!("{GAUSSIAN} --lines 30 --length 30 --tolerance 1e-6");
+    for name in ["a.json", "a.csv", "a.npz", "a.gsf"] {
+        folder.prints(&format!("{line} -o {name} --plot {name}.svg"));
+        assert!(folder.read(&format!("{name}.svg")).len() > 10_000, "{name}");
+    }
+    let csv = String::from_utf8(folder.read("a.csv")).unwrap();
+    assert_eq!(csv.lines().next(), Some("line,y,t,x0,lag,velocity"));
+    assert_eq!(csv.lines().count(), 1 + 30 * 121);
+    assert!(csv.lines().last().unwrap().starts_with("30,14.5,30,"));
+    let gsf = folder.read("a.gsf");
+    assert!(gsf.starts_with(b"Gwyddion Simple Field 1.0\nXRes = 121\nYRes = 30\n"));
+    for options in ["--x 1,2 --y 3", "--range 0:30:61 --y-range 0:15:31", "--range 2:9:8"] {
+        folder.prints(&format!("surface a.json {options} -o s.csv --plot s.svg"));
+        folder.prints(&format!("surface a.json {options} -o s.npz"));
+    }
+    folder.prints("surface a.json --range 0:30:61 --y-range 0:15:31 -o s.gsf");
+    folder.prints("plot a.json -o again.svg");
+    assert_eq!(folder.read("again.svg"), folder.read("a.json.svg"));
+    folder.prints(
+        "raster --alpha 0.4 --r 1 --path repeat --lines 3 --length 20 -o r.gsf --plot r.svg",
+    );
+    folder.prints("stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 -o g.csv --plot g.svg");
+    folder
+        .prints("stability --tip gaussian --r 1 --path repeat --alpha 0.45 -o g.json --plot g.svg");
+    assert!(!folder.names().iter().any(|name| name.contains("partial")));
+}
+
+/// Killed at whatever moment, it goes on from its last line and writes the same bytes.
+#[cfg(unix)]
+#[test]
+fn a_raster_that_is_killed_goes_on_from_its_last_line() {
+    let folder = Folder::new("raster_killed");
+    let line = format!("{GAUSSIAN} --lines 150 --length 60 --tolerance 1e-7");
+    folder.prints(&format!("{line} -o whole.json"));
+    let mut kills = 0;
+    for wait in [30, 60, 90, 120] {
+        let mut child = folder.command(&format!("{line} -o killed.json"));
+        let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(wait));
+        kills += usize::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+        if folder.names().contains(&"killed.json".into()) {
+            break;
+        }
+    }
+    assert!(kills > 0, "nothing was killed");
+    folder.prints(&format!("{line} -o killed.json"));
+    assert_eq!(folder.read("killed.json"), folder.read("whole.json"));
+    assert_eq!(folder.names(), ["killed.json", "whole.json"]);
+}
+
+/// A line that was damaged is scanned again, and so is what follows it; those of another raster are refused.
+#[test]
+fn lines_kept_are_taken_up_where_they_are_whole_and_of_this_raster() {
+    let folder = Folder::new("raster_damaged");
+    let line = format!("{GAUSSIAN} --lines 6 --length 15");
+    folder.prints(&format!("{line} -o a.json"));
+    let whole = folder.read("a.json");
+    // What a kill would leave: the file of the lines, by a command that cannot write its result.
+    let signal =
+        folder.command(&format!("{GAUSSIAN} --lines 100000 --length 15 -o b.json")).spawn();
+    let mut child = signal.unwrap();
+    std::thread::sleep(Duration::from_millis(400));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let kept = String::from_utf8(folder.read("b.json.partial")).unwrap();
+    let mut lines: Vec<String> = kept.lines().take(5).map(str::to_owned).collect();
+    assert_eq!(lines.len(), 5, "too few lines in the time");
+    lines[0] = lines[0].replace("\"lines\":100000", "\"lines\":6");
+    lines[3] = lines[3].replacen('1', "2", 1);
+    folder.write("a.json.partial", lines.join("\n") + "\n");
+    let said = folder.stickslip(&format!("{line} -o a.json"));
+    let words = String::from_utf8(said.stderr).unwrap();
+    assert!(words.contains("1 lines of") && words.contains("2 of 6 lines are in"), "{words}");
+    assert_eq!(folder.read("a.json"), whole);
+    folder.refuses(&format!("{line} -o b.json"), &["--output", "another raster"]);
+}
+
+/// PHYSICS table: thresholds and angles, in the document as in the library.
+#[test]
+fn thresholds_of_a_raster_are_those_of_the_library() {
+    let folder = Folder::new("raster_stability");
+    for (pitch, alpha, angle) in [(0.5, 0.418_787, 46.0), (1.0, 0.805_167, 48.3)] {
+        let line = format!("stability --tip gaussian --r 1 --pitch {pitch}");
+        let found = folder.prints_json(&line);
+        let critical = &found["critical"];
+        let wanted =
+            Raster::new(&round(), 1.0, pitch).unwrap().critical(RasterPath::OneWay).unwrap();
+        assert!((number(&critical["alpha"]) - wanted.alpha).abs() < 1e-15);
+        assert!((number(&critical["alpha"]) - alpha).abs() < 5e-7);
+        assert!((number(&critical["crest_angle"]) - angle).abs() < 0.05);
+        let kappa = number(&critical["phase_per_line"]) / pitch;
+        assert!((number(&critical["kappa"]) - kappa).abs() < 1e-14);
+        assert_eq!(found["growth"], Value::Null);
+    }
+    let zigzag = folder.prints_json("stability --tip gaussian --r 1 --pitch 0.5 --path zigzag");
+    assert!((number(&zigzag["critical"]["alpha"]) - 0.457_309).abs() < 5e-7);
+    assert_eq!(zigzag["critical"]["kappa"], Value::Null);
+    for (alpha, stable) in [(0.4, true), (0.44, false)] {
+        let line = format!("stability --tip gaussian --r 1 --pitch 0.5 --alpha {alpha}");
+        let found = folder.prints_json(&line);
+        assert_eq!(found["stable"], stable);
+        let factors = found["growth"]["factor"].as_array().unwrap();
+        let largest = factors.iter().map(number).fold(0.0, f64::max);
+        assert_eq!(largest < 1.0, stable, "{largest}");
+    }
+}
+
+#[test]
+fn what_no_raster_can_be_made_of_is_refused_with_advice() {
+    let folder = Folder::new("raster_refused");
+    for (line, words) in [
+        ("raster --alpha 1 --r 1 --lines 3 --length 10", ["--pitch", "required"]),
+        ("raster --alpha 1 --r 1 --pitch 0 --lines 3 --length 10", ["--pitch 0", "above 0"]),
+        ("raster --alpha 1 --r 1 --pitch 1 --lines 0 --length 10", ["--lines 0", "between 1"]),
+        ("raster --alpha 1 --r 1 --pitch 1 --lines 3 --length -10", ["--length -10", "above 0"]),
+        (
+            "raster --tip bessel --alpha 1 --r 1 --pitch 1 --lines 3 --length 10",
+            ["--width-y", "give"],
+        ),
+        (
+            "raster --tip bessel --width-y 1 --alpha 1 --r 1 --pitch 1 --lines 3 --length 10",
+            ["--tip", "fades"],
+        ),
+        (
+            "raster --alpha 1 --r 1 --path repeat --pitch 1 --lines 3 --length 10",
+            ["--pitch 1", "leave one"],
+        ),
+        (
+            "raster --alpha 1 --r 1 --pitch 1 --lines 3 --length 10 --tolerance 1",
+            ["--tolerance 1", "between"],
+        ),
+        (
+            "raster --alpha 1 --r 1 --pitch 1 --lines 3 --length 10 --sample-at 11",
+            ["--sample-at 11", "each line"],
+        ),
+        ("stability --r 1 --pitch -1", ["--pitch -1", "above 0"]),
+        ("stability --r 1 --path zigzag", ["--pitch", "distance"]),
+        ("stability --r 1 --path repeat", ["--alpha", "growth"]),
+        ("stability --r 1 --width-y 1", ["--width-y 1", "--pitch"]),
+    ] {
+        folder.refuses(line, &words);
+    }
+    folder.prints("raster --alpha 0.5 --r 1 --pitch 1 --lines 2 --length 8 -o a.json");
+    folder.refuses("surface a.json --at 3", &["--at", "last line"]);
+    folder.refuses("surface a.json --y 1 -o a.gsf", &["--output a.gsf", "--y-range"]);
+    folder.prints("run --alpha 1 --r 1 --until 20 -o run.json");
+    folder.refuses("surface run.json --y 1", &["--y 1", "raster"]);
+}

@@ -37,7 +37,9 @@ fn main() -> ExitCode {
         say(format_args!("stickslip: cannot listen for signals: {error}"));
         return ExitCode::FAILURE;
     }
-    sign_of_life::begin();
+    if !cli.quiet {
+        sign_of_life::begin();
+    }
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
         Command::Verify(arguments) => commands::verify::verify(arguments),

@@ -1,6 +1,5 @@
 //! That something is at work, on a terminal, for how long, where a command shows no progress of its own or not yet.
 
-use crate::message::is_quiet;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -27,7 +26,7 @@ fn sign() -> MutexGuard<'static, Sign> {
 
 /// The work begins.
 pub(crate) fn begin() {
-    if is_quiet() || !stderr().is_terminal() {
+    if !stderr().is_terminal() {
         return;
     }
     let started = Instant::now();

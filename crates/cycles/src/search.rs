@@ -55,18 +55,21 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let (alpha, r) = (model.alpha(), model.r());
     let critical = critical(model.tip(), r)?;
     if alpha > critical.alpha {
-        let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
+        let found = Search::above_onset(model, critical, tolerance)?;
+        let Search { stable, unstable, ended, coarse } = found;
         if let Some(found) = stable {
             return Ok(found);
         }
         let ended = ended.map(|run| run.ended());
         let is_stuck = ended == Some(Ended::Stuck);
         let followed = || followed_from_onset(&equation, model, critical, tolerance);
-        let found = match (if is_stuck { None } else { followed() }, unstable) {
+        let followed = if is_stuck || coarse.is_some() { None } else { followed() };
+        let found = match (followed, unstable) {
             (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
             (_, other) => other,
         };
-        return unless_stopped(found)?.ok_or(CycleError::NoCycleReached { alpha, r, ended });
+        let none = coarse.unwrap_or(CycleError::NoCycleReached { alpha, r, ended });
+        return unless_stopped(found)?.ok_or(none);
     }
     let none = CycleError::NoSmallCycle { alpha, r, critical: critical.alpha };
     let Some(guess) = born(&equation, model, critical) else { return Err(none) };
@@ -133,12 +136,17 @@ fn judge(tolerance: f64) -> Result<(), CycleError> {
     if usable { Ok(()) } else { Err(CycleError::Tolerance(tolerance)) }
 }
 
+/// Guesses that close, but not to the residual asked for.
+const MOST_COARSE: usize = 3;
+
 /// What was found above αc.
 struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
     /// The longest run, if one was needed.
     ended: Option<Tried>,
+    /// There is a cycle, but none to the residual asked for.
+    coarse: Option<CycleError>,
 }
 
 impl Search {
@@ -148,17 +156,18 @@ impl Search {
             Err(CycleError::NeverFades) => None,
             other => Some(other?),
         };
-        let mut found = Self { stable: None, unstable: None, ended: None };
-        let mut coarse = None;
+        let mut found = Self { stable: None, unstable: None, ended: None, coarse: None };
+        let (mut coarse, mut times) = (None, 0);
         let mut take = |guess: Orbit| {
             let Some(equation) = &equation else { return false };
             let cycle = match solve(equation, guess, tolerance) {
                 Ok(cycle) => cycle,
                 Err(NotClosed::Lost) => return false,
-                // What is searched for is there, and no other guess brings it nearer.
+                // Another guess may have a better mesh; after some of them it is not that.
                 Err(NotClosed::Coarse(reached)) => {
                     coarse = Some(CycleError::Rough { allowed: tolerance, reached });
-                    return true;
+                    times += 1;
+                    return times == MOST_COARSE;
                 }
             };
             let is_stable = cycle.is_stable();
@@ -171,7 +180,7 @@ impl Search {
             let width = equation.as_ref().map_or(8.7 / model.tip().band(), Embedding::width);
             found.ended = from_runs(model, (width, critical.period), take)?;
         }
-        unless_stopped(coarse.filter(|_| found.stable.is_none()).map_or(Ok(found), Err))?
+        unless_stopped(Self { coarse, ..found })
     }
 }
 

@@ -46,7 +46,9 @@ pub(super) enum NotClosed {
 }
 
 const MOST_ITERATIONS: usize = 15;
-const MOST_STEPS: usize = 4000;
+pub(super) const MOST_STEPS: usize = 4000;
+/// A guess may have more, which its mesh does not keep.
+const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 const MOST_MESHES: usize = 8;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
@@ -72,6 +74,9 @@ pub(super) fn close(
     condition: Condition,
     allowed: f64,
 ) -> Result<Closed, NotClosed> {
+    if orbit.stages.len() > MOST_STEPS_OF_GUESS {
+        return Err(NotClosed::Lost);
+    }
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
     let state = 2.0 * equation.short.terms().len() as f64 + 1.0;

@@ -37,7 +37,7 @@ impl Observer {
     /// Before the first step.
     #[must_use]
     pub fn new(model: &Model, tolerance: f64) -> Self {
-        let most = STEADY_AT_MOST * 8.7 / model.tip().band();
+        let most = model.tip().widths(STEADY_AT_MOST);
         Self {
             r: model.r(),
             steady_l: model.steady_l(),

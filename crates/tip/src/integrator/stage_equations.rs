@@ -49,6 +49,7 @@ struct Look {
 
 impl<'a> StageEquations<'a> {
     /// For the step (t, h) that begins with the spring extended by the third number, rt - x0.
+    #[inline]
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
         (surface, stretch): (&'a InitialSurface, &'a Stretch),

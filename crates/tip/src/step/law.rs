@@ -57,6 +57,7 @@ pub struct Equations {
 impl Equations {
     /// Of a step of length h under this pull.
     #[must_use]
+    #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
         Self { law, h, pull, carving: carving(h) }
     }

@@ -3,11 +3,13 @@
 mod apex;
 mod bessel;
 mod gaussian;
+mod scale;
 pub(crate) mod table;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
 pub use gaussian::{Gaussian, GaussianSum};
+pub use scale::{BAND_OF_A_GAUSSIAN, widths};
 use thiserror::Error;
 
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.

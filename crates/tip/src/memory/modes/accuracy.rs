@@ -20,7 +20,7 @@ const WIDTHS: f64 = 2.0;
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
-    let width = 8.7 / model.tip().band();
+    let width = model.tip().widths(1.0);
     let moving = WIDTHS * width * model.alpha() / model.r();
     let stuck = if curvature > 0.0 { 1.0 / curvature } else { 0.0 };
     let largest = SHARE * tolerance / moving.max(stuck);

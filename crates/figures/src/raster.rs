@@ -26,7 +26,8 @@ pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
     draw_images(tree.root(), scale, &mut picture);
     resvg::render(&tree, scale, &mut picture.as_mut());
     let size = (picture.width() as usize, picture.height() as usize);
-    let pixels: Vec<u8> = picture.data().chunks(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let mut pixels = Vec::with_capacity(3 * size.0 * size.1);
+    picture.data().chunks_exact(4).for_each(|pixel| pixels.extend_from_slice(&pixel[..3]));
     png_file(size, png::ColorType::Rgb, &pixels, Some(dots_per_inch))
 }
 

@@ -1,4 +1,4 @@
-//! What is read back of a raster: all of it, to the last bit.
+//! A document of a raster is the raster: plan and lines come back from its text.
 
 use stickslip_documents::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};

@@ -44,8 +44,11 @@ impl Creep {
 /// All rates of creep at the α and r of the model, found and counted as [`super::roots`] are.
 ///
 /// # Errors
-/// As [`super::roots`].
+/// As [`super::roots`]; a wider law.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
+    if !model.wider().is_papers() || *model.tip() == TipFunction::Cosine {
+        return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));
+    }
     let Spectrum { roots, certificate } = match model.tip() {
         TipFunction::Bessel => bessel(model.alpha() / model.r()),
         TipFunction::Gaussians(_) | TipFunction::Cosine => {

@@ -12,6 +12,7 @@
 //! [`trapping_alpha`] is the threshold of motion that never returns to stick-slip, [`creep`] lists all rates at
 //! which it may creep. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either can judge the other.
 
+mod analytic;
 mod axis;
 mod bessel_roots;
 mod boundary;
@@ -33,6 +34,7 @@ mod scaled_erfc;
 mod spectrum;
 mod transform;
 mod trapping;
+mod wider;
 mod winding;
 
 #[cfg(test)]
@@ -51,3 +53,4 @@ pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
+pub use wider::{OnsetKind, WiderCritical, critical_under};

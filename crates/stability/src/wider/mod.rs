@@ -1,0 +1,26 @@
+//! Linear theory under the wider law: a depth limit (61), healing, inertia, and walking without a spring.
+
+mod bounds;
+mod characteristic;
+mod law;
+mod onset;
+mod transforms;
+
+pub(super) use characteristic::WiderCharacteristic;
+pub use onset::{OnsetKind, WiderCritical, critical_under};
+
+use super::StabilityError;
+use law::Law;
+use stickslip_tip::Model;
+
+/// That of small deviations from steady motion behind the support.
+pub(super) fn characteristic(model: &Model) -> Result<WiderCharacteristic, StabilityError> {
+    if !model.wider().spring {
+        return Err(StabilityError::NoSupport);
+    }
+    let law = Law::of(model);
+    if Law::has_corner(model.wider(), model.tip(), &law.steady) {
+        return Err(StabilityError::Corner);
+    }
+    Ok(WiderCharacteristic::new(law))
+}

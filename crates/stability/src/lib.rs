@@ -53,4 +53,7 @@ pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
-pub use wider::{OnsetKind, WiderCritical, critical_under};
+pub use wider::{
+    OnsetKind, Walk, WiderCritical, critical_under, least_depth_limit, memory_length, walk,
+    walking_alpha, walking_speeds,
+};

@@ -3,11 +3,15 @@
 mod bounds;
 mod characteristic;
 mod law;
+mod limits;
 mod onset;
 mod transforms;
+mod walking;
 
 pub(super) use characteristic::WiderCharacteristic;
+pub use limits::{least_depth_limit, memory_length};
 pub use onset::{OnsetKind, WiderCritical, critical_under};
+pub use walking::{Walk, walk, walking_alpha, walking_speeds};
 
 use super::StabilityError;
 use law::Law;

@@ -1,7 +1,7 @@
 //! A certificate that a list of roots is complete.
 
-use super::cell::Cell;
 use super::analytic::Analytic;
+use super::cell::Cell;
 use num_complex::Complex64;
 
 /// A residual above this, relative to the terms of h, is no root.

@@ -91,7 +91,6 @@ impl Characteristic {
         }
         error
     }
-
 }
 
 impl Analytic for Characteristic {

@@ -92,6 +92,14 @@ pub enum StabilityError {
         "steady motion leaves the height under this tip at 0, where the depth limit (61) has the corner of |h|: small deviations obey no linear law there, and have no roots"
     )]
     Corner,
+    /// The harmonics of |h| did not settle.
+    #[error(
+        "at the depth limit {limit:?} the harmonics of |h| are too large a part of the oscillation for its onset to be found by balancing them: take a larger b"
+    )]
+    Unsettled {
+        /// b
+        limit: f64,
+    },
     /// J0, whose transforms have branch points on the edge of what can be counted.
     #[error(
         "for J0 under this law roots are counted right of its branch points only, on Re λ ≥ {least:?}, not from {bound:?}"
@@ -106,7 +114,9 @@ pub enum StabilityError {
     #[error(transparent)]
     Wider(#[from] stickslip_tip::WiderError),
     /// Something that is had under the paper's law only.
-    #[error("{0} is not had under a depth limit, healing or inertia, but under the paper's law only")]
+    #[error(
+        "{0} is not had under a depth limit, healing or inertia, but under the paper's law only"
+    )]
     PapersLawOnly(&'static str),
     /// A limit asked for where there is none.
     #[error("{0}")]

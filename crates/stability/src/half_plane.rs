@@ -1,9 +1,9 @@
 //! The half-plane right of a line: how many zeros of h it has, and where they are.
 
 use super::StabilityError;
+use super::analytic::Analytic;
 use super::cell::Cell;
 use super::certificate::{Certificate, ROUNDOFF, Region};
-use super::analytic::Analytic;
 use super::newton::{another, pair, polish};
 use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
@@ -79,7 +79,9 @@ impl HalfPlane {
             if total(&upper) >= self.count {
                 break;
             }
-            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length()) else { continue };
+            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length()) else {
+                continue;
+            };
             let is_new = |zero: &Complex64| {
                 let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
                 let apart = 1e-8 * zero.norm().min(1.0 / h.length());

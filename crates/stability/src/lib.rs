@@ -54,6 +54,6 @@ pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
 pub use wider::{
-    OnsetKind, Walk, WiderCritical, critical_under, least_depth_limit, memory_length, walk,
-    walking_alpha, walking_speeds,
+    OnsetKind, Walk, WiderCritical, boundary_under, critical_under, least_depth_limit,
+    memory_length, walk, walking_alpha, walking_speeds,
 };

@@ -1,7 +1,7 @@
 //! All roots λ right of a line, with a certificate that none is missing: of (30), or for J0 of (44).
 
-use super::certificate::Certificate;
 use super::analytic::Analytic;
+use super::certificate::Certificate;
 use super::characteristic::Characteristic;
 use super::half_plane::{HalfPlane, leading};
 use super::spectrum::Spectrum;

@@ -1,11 +1,11 @@
 //! Linear theory under the wider law against runs that know nothing of it: growth exponents and the response to
 //! a pulse. Runs from kicks or pulses of either sign have a half difference free of even orders.
 
-use stickslip_stability::{critical_under, leading_roots, response};
+use stickslip_stability::{critical, critical_under, leading_roots, response};
 use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, Wider, run};
 
 fn triple(beta: f64) -> TipFunction {
-    TipFunction::triple_gaussian(beta, 1.0).unwrap()
+    TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip")
 }
 
 /// Each extension by itself and all of them, with the tip and r.
@@ -44,7 +44,8 @@ fn fitted_exponent(y: &[f64], dt: f64) -> (f64, f64) {
 fn moved(model: &Model, kick: f64, force: Force, span: f64) -> Trajectory {
     let base = Scenario::new(model.clone(), 0.0);
     let until = base.start_time() + span;
-    run(&Scenario { kick, force, until, tolerance: 1e-12, ..base }).unwrap().trajectory
+    let scenario = Scenario { kick, force, until, tolerance: 1e-12, ..base };
+    run(&scenario).expect("a run").trajectory
 }
 
 #[test]
@@ -110,5 +111,52 @@ fn the_response_is_what_a_weak_pulse_does_to_runs() {
         }
         println!("{wider:?}: {:.1e} in all, {:.1e} by modes", during / largest, after / largest);
         assert!(during < 2e-7 * largest && after < 2e-7 * largest);
+    }
+}
+
+/// Half the difference of neighbouring extremes of l, one a period.
+fn amplitudes(motion: &Trajectory, from: f64, period: f64, steady: f64) -> Vec<f64> {
+    let count = ((motion.end() - from) / period).floor();
+    let swing = |n: f64| {
+        let at = |i: i32| motion.l(from + period * (n + f64::from(i) / 400.0)) - steady;
+        let values = (0..400).map(at);
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(a, b), v| (v.min(a), v.max(b)));
+        0.5 * (high - low)
+    };
+    #[expect(clippy::cast_possible_truncation, reason = "a count")]
+    (0..count as i32).map(|n| swing(f64::from(n))).collect()
+}
+
+/// On the corner of |h| an oscillation of any small amplitude grows above the α that the balance of harmonics gives
+/// and fades below, and that is not the paper's.
+#[test]
+fn small_oscillations_on_the_corner_keep_their_size_where_the_harmonics_balance() {
+    let (tip, r) = (triple(1.0), 1.0);
+    for b in [5.0, 2.0] {
+        let wider = Wider { depth_limit: Some(b), ..Wider::default() };
+        let onset = critical_under(&wider, &tip, r).unwrap().critical;
+        let growth = |kick: f64, part: f64| {
+            let model = Model::under(wider, tip.clone(), part * onset.alpha, r).unwrap();
+            let span = 140.0 + 12.0 * onset.period;
+            let base = Scenario::new(model.clone(), 0.0);
+            let until = base.start_time() + span;
+            let run = run(&Scenario { kick, until, tolerance: 1e-11, ..base }).unwrap().trajectory;
+            let from = run.start() + 140.0;
+            let swings = amplitudes(&run, from, onset.period, model.steady_l());
+            let last = swings.len() - 1;
+            (swings[last] / swings[0]).ln() / (last as f64 * onset.period)
+        };
+        let zero = |kick: f64| {
+            let (below, above) = (growth(kick, 0.999), growth(kick, 1.001));
+            assert!(below < 0.0 && above > 0.0);
+            0.999 + 0.002 * below / (below - above)
+        };
+        // A finite amplitude moves it, in proportion.
+        let (small, twice) = (zero(1e-4), zero(2e-4));
+        let none = 2.0 * small - twice;
+        let paper = critical(&tip, r).unwrap().alpha / onset.alpha;
+        println!("b {b}: {small:.8} {twice:.8}, {none:.8} at none; the paper's {paper:.5}");
+        assert!((none - 1.0).abs() < 3e-6, "{none}");
+        assert!((paper - 1.0).abs() > 1e-3, "negative control");
     }
 }

@@ -53,12 +53,7 @@ impl Bounds {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
         };
         let terms = sum.terms().iter().map(term).collect();
-        Self {
-            area: area.map(|f| MARGIN * f),
-            decay: decay.map(|f| MARGIN * f),
-            from: 0.0,
-            terms,
-        }
+        Self { area: area.map(|f| MARGIN * f), decay: decay.map(|f| MARGIN * f), from: 0.0, terms }
     }
 
     /// Of φ, φ1, G where |p| ≥ `distance`, Re p ≥ 0.

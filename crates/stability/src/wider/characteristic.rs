@@ -81,7 +81,8 @@ impl Analytic for WiderCharacteristic {
 
     fn left_of_all(&self) -> Option<f64> {
         let Law { speed, spring, inertia, .. } = self.law;
-        let zeros = if inertia > 0.0 { bare_zeros(&self.law) } else { vec![(-spring / speed).into()] };
+        let zeros =
+            if inertia > 0.0 { bare_zeros(&self.law) } else { vec![(-spring / speed).into()] };
         let leftmost = zeros.iter().map(|z| z.re).fold(0.0, f64::min);
         (self.law.density.abs() <= 0.0 && !self.is_cut()).then_some(2.0 * leftmost)
     }

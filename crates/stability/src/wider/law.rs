@@ -38,6 +38,13 @@ pub(super) struct Law {
     pub(super) steady: Steady,
 }
 
+/// A and Ω where a root is on the imaginary axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    pub(super) density: f64,
+    pub(super) wave_number: f64,
+}
+
 /// Heights below this part of ∫_0^∞|f| e^{-sy}dy are round-off of none.
 const NO_HEIGHT: f64 = 1e-13;
 

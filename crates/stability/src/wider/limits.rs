@@ -51,7 +51,8 @@ pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64
         if value[1].is_finite() != value[2].is_finite() {
             let is_real = |q: f64| if inverse_limit(&law, q).is_finite() { 1.0 } else { -1.0 };
             let end = halved_between(is_real, q[1], q[2]);
-            let beside = [1.0 - 1e-14, 1.0, 1.0 + 1e-14].map(|part| inverse_limit(&law, end * part));
+            let beside =
+                [1.0 - 1e-14, 1.0, 1.0 + 1e-14].map(|part| inverse_limit(&law, end * part));
             largest = beside.into_iter().fold(largest, f64::max);
         }
     }
@@ -68,11 +69,8 @@ fn inverse_limit(law: &Law, wave_number: f64) -> f64 {
     let [_, with, second] = law.by_density(lambda);
     let first = with - groove;
     let cross = |a: Complex64, b: Complex64| (a * b.conj()).im;
-    let coefficients = [
-        cross(groove, second),
-        cross(bare, second) + cross(groove, first),
-        cross(bare, first),
-    ];
+    let coefficients =
+        [cross(groove, second), cross(bare, second) + cross(groove, first), cross(bare, first)];
     let of = |density: f64| {
         let x = bare + groove * density;
         let y = (first + second * density) * density;
@@ -120,7 +118,9 @@ pub fn memory_length(tip: &TipFunction) -> Result<f64, StabilityError> {
     let most = BANDS * tip.band();
     let ladder = std::iter::successors(Some(most), |s| Some(s / FACTOR));
     let mut ladder = ladder.take_while(|s| *s > LEAST * most);
-    let none = StabilityError::NoLimit("steady motion over this footprint is stable at every memory length");
+    let none = StabilityError::NoLimit(
+        "steady motion over this footprint is stable at every memory length",
+    );
     let below = ladder.find(|s| lowest(*s) < 0.0).ok_or(none)?;
-    Ok(halved_between(|s| lowest(s), below, below * FACTOR).recip())
+    Ok(halved_between(lowest, below, below * FACTOR).recip())
 }

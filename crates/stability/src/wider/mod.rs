@@ -2,6 +2,7 @@
 
 mod bounds;
 mod characteristic;
+mod corner;
 mod law;
 mod limits;
 mod onset;
@@ -10,7 +11,7 @@ mod walking;
 
 pub(super) use characteristic::WiderCharacteristic;
 pub use limits::{least_depth_limit, memory_length};
-pub use onset::{OnsetKind, WiderCritical, critical_under};
+pub use onset::{OnsetKind, WiderCritical, boundary_under, critical_under};
 pub use walking::{Walk, walk, walking_alpha, walking_speeds};
 
 use super::StabilityError;

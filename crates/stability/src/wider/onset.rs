@@ -6,7 +6,8 @@
 //! that of the smallest A.
 
 use super::super::{Critical, StabilityError};
-use super::law::Law;
+use super::corner;
+use super::law::{Crossing, Law};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 use stickslip_tip::roots::zero_between;
@@ -20,8 +21,12 @@ const WAVES: f64 = 30.0;
 const PER_DECADE: u32 = 40;
 const DECADES_BELOW: u32 = 6;
 const DECADES_ABOVE: u32 = 3;
-/// The least |N| that makes a crossing, relative to its terms.
+/// The largest |N| that makes a crossing, relative to its terms.
 const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Round-off in G, of closed forms and of tables; a crossing at an A so large that it weighs more than this part of
+/// Mv²Λ² + vΛ + κ is none.
+const ROUNDOFF: (f64, f64) = (1e-15, 1e-11);
+const LARGEST_NOISE: f64 = 1e-3;
 
 /// What small deviations obey at the onset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,11 +53,12 @@ pub struct WiderCritical {
 /// αc(r) under a wider law.
 ///
 /// Where the steady tip has the surface at height 0 under it and the depth limit its corner (β = 1 without
-/// healing), there is no linear law, and this is αc without a depth limit, marked [`OnsetKind::NonSmooth`].
+/// healing), small deviations obey no linear law, but a homogeneous one: this is the α at which a small oscillation
+/// keeps its amplitude, whatever it is, and marked [`OnsetKind::NonSmooth`]. There are no roots there.
 ///
 /// # Errors
-/// r not a positive finite number, a parameter of the wider law out of range, no spring, or
-/// [`StabilityError::NoCrossing`].
+/// r not a positive finite number, a parameter of the wider law out of range, no spring,
+/// [`StabilityError::NoCrossing`], also where αc is no finite number any more, or [`StabilityError::Unsettled`].
 pub fn critical_under(
     wider: &Wider,
     tip: &TipFunction,
@@ -65,27 +71,39 @@ pub fn critical_under(
         return Err(StabilityError::NoSupport);
     }
     wider.validate()?;
-    let law = Law::with_density(wider, tip, r, 1.0);
-    let corner = Law::has_corner(wider, tip, &law.steady);
-    let crossings = crossings(&law);
-    let first = crossings.into_iter().min_by(|a, b| a.density.total_cmp(&b.density));
-    let Crossing { density, wave_number } = first.ok_or(StabilityError::NoCrossing { r })?;
-    let mut law = law;
+    let mut law = Law::with_density(wider, tip, r, 1.0);
+    let first = crossings(&law).into_iter().min_by(|a, b| a.density.total_cmp(&b.density));
+    let mut first = first.ok_or(StabilityError::NoCrossing { r })?;
+    let mut kind = OnsetKind::Smooth;
+    if let Some(limit) = wider.depth_limit.filter(|_| Law::has_corner(wider, tip, &law.steady)) {
+        first = corner::onset(&law, limit, first).ok_or(StabilityError::Unsettled { limit })?;
+        kind = OnsetKind::NonSmooth;
+    }
+    let Crossing { density, wave_number } = first;
     law.set_density(density);
     let alpha = law.alpha();
-    Ok(WiderCritical {
-        critical: Critical::new(alpha, r, wave_number),
-        kind: if corner { OnsetKind::NonSmooth } else { OnsetKind::Smooth },
-        density,
-        weight: r * density / alpha,
-    })
+    if !alpha.is_finite() {
+        return Err(StabilityError::NoCrossing { r });
+    }
+    let critical = Critical::new(alpha, r, wave_number);
+    Ok(WiderCritical { critical, kind, density, weight: r * density / alpha })
 }
 
-/// A and Ω where a root is on the imaginary axis.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Crossing {
-    pub(super) density: f64,
-    pub(super) wave_number: f64,
+/// αc of each r in turn, `None` where nothing is unstable.
+///
+/// # Errors
+/// As [`critical_under`], but for no crossing.
+pub fn boundary_under(
+    wider: &Wider,
+    tip: &TipFunction,
+    velocities: &[f64],
+) -> Result<Vec<Option<WiderCritical>>, StabilityError> {
+    let at = |r: &f64| match critical_under(wider, tip, *r) {
+        Ok(critical) => Ok(Some(critical)),
+        Err(StabilityError::NoCrossing { .. }) => Ok(None),
+        Err(error) => Err(error),
+    };
+    velocities.iter().map(at).collect()
 }
 
 /// All of them with A > 0.
@@ -177,8 +195,18 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
     law.set_density(density);
     let lambda = Complex64::new(0.0, q);
     let residual = law.at(lambda).1.0.norm() / law.size(lambda);
-    let near = (q / start.wave_number - 1.0).abs() < 1e-3 && (density / start.density - 1.0).abs() < 1e-2;
-    (near && residual < LARGEST_RESIDUAL).then_some(Crossing { density, wave_number: q })
+    let near =
+        (q / start.wave_number - 1.0).abs() < 1e-3 && (density / start.density - 1.0).abs() < 1e-2;
+    (near && residual < LARGEST_RESIDUAL && is_told(&law, lambda))
+        .then_some(Crossing { density, wave_number: q })
+}
+
+/// Whether what balances there is more than round-off.
+fn is_told(law: &Law, lambda: Complex64) -> bool {
+    let t = law.footprint.at(lambda + law.fading);
+    let curvature = (t.curvature.0 / t.unit.0).norm() + law.steady.curvature.abs();
+    let roundoff = if law.footprint.is_closed_form() { ROUNDOFF.0 } else { ROUNDOFF.1 };
+    law.density * curvature * roundoff < LARGEST_NOISE * law.bare(lambda).0.norm()
 }
 
 /// Zeros of g between samples: by its sign, and where |g| is least among neighbours, in case it dips across 0.

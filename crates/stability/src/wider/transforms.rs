@@ -156,15 +156,17 @@ mod tests {
             for (re, im) in points.into_iter().filter(|p| reach < 20.0 || p.0 > 0.4) {
                 let p = Complex64::new(re, im);
                 let at = footprint.at(p);
-                let told = [at.height, at.slope, at.curvature]
-                    .map(|f| f.0 / at.unit.0);
+                let told = [at.height, at.slope, at.curvature].map(|f| f.0 / at.unit.0);
                 let sums = [
                     by_simpson(|y| tip.value(y), p, reach),
                     by_simpson(|y| tip.slope(y), p, reach),
                     by_simpson(|y| tip.slope_and_curvature(y).1, p, reach),
                 ];
                 for (told, sum) in told.iter().zip(sums) {
-                    assert!((told - sum).norm() < 2e-10 * (1.0 + sum.norm()), "{tip:?} {p} {told} {sum}");
+                    assert!(
+                        (told - sum).norm() < 2e-10 * (1.0 + sum.norm()),
+                        "{tip:?} {p} {told} {sum}"
+                    );
                 }
             }
         }
@@ -172,15 +174,21 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_differences() {
-        let tips = [TipFunction::triple_gaussian(0.7, 1.0).unwrap(), TipFunction::Bessel, TipFunction::Cosine];
-        let parts: [fn(&Transforms) -> Jet; 4] = [|t| t.unit, |t| t.height, |t| t.slope, |t| t.curvature];
+        let tips = [
+            TipFunction::triple_gaussian(0.7, 1.0).unwrap(),
+            TipFunction::Bessel,
+            TipFunction::Cosine,
+        ];
+        let parts: [fn(&Transforms) -> Jet; 4] =
+            [|t| t.unit, |t| t.height, |t| t.slope, |t| t.curvature];
         for tip in tips {
             let footprint = Footprint::new(&tip);
             for p in [(0.1, 0.2), (0.4, 1.9), (2.0, 0.1)].map(|(re, im)| Complex64::new(re, im)) {
                 for part in parts {
                     let at = |h: f64| part(&footprint.at(p + h)).0;
                     let h = 1e-3;
-                    let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
+                    let difference =
+                        ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
                     let error = (difference - part(&footprint.at(p)).1).norm();
                     assert!(error < 1e-8 * (1.0 + difference.norm()), "{tip:?} {p} {error:e}");
                 }

@@ -12,6 +12,7 @@ use super::half_plane::HalfPlane;
 use super::newton::polish;
 use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{CurvatureTransform, Scaled};
+use super::wider;
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction};
 
@@ -46,7 +47,7 @@ impl Creep {
 /// # Errors
 /// As [`super::roots`]; a wider law.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
-    if !model.wider().is_papers() || *model.tip() == TipFunction::Cosine {
+    if wider::applies(model) {
         return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));
     }
     let Spectrum { roots, certificate } = match model.tip() {

@@ -87,7 +87,7 @@ type Transfer<'a> = Box<dyn Fn(Complex64) -> Complex64 + 'a>;
 /// λ ↦ λ + 1 - K̃(λ) = h(Λ), right of the imaginary axis; D(Λ) under a wider law.
 fn characteristic(model: &Model) -> Result<Transfer<'_>, StabilityError> {
     let r = model.r();
-    if !model.wider().is_papers() {
+    if wider::applies(model) {
         let h = wider::characteristic(model)?;
         return Ok(Box::new(move |z| h.response(z).0));
     }
@@ -119,7 +119,7 @@ fn driven(pulse: &Pulse, lambda: Complex64, t: f64) -> Complex64 {
 /// λ ↦ d/dλ (λ + 1 - K̃(λ)) = h'(Λ)/r.
 fn slope_of_characteristic(model: &Model) -> Result<Transfer<'_>, StabilityError> {
     let r = model.r();
-    if !model.wider().is_papers() {
+    if wider::applies(model) {
         let h = wider::characteristic(model)?;
         return Ok(Box::new(move |z| h.response(z).1));
     }

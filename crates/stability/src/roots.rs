@@ -101,8 +101,7 @@ pub fn certify(
 
 /// The characteristic function of anything but the paper's law.
 fn wider_law(model: &Model) -> Result<Option<WiderCharacteristic>, StabilityError> {
-    let papers = model.wider().is_papers() && *model.tip() != TipFunction::Cosine;
-    if papers { Ok(None) } else { wider::characteristic(model).map(Some) }
+    wider::applies(model).then(|| wider::characteristic(model)).transpose()
 }
 
 fn counted(h: &WiderCharacteristic, left: f64) -> Result<HalfPlane, StabilityError> {

@@ -308,3 +308,28 @@ fn a_table_has_the_onset_and_the_roots_of_what_it_tabulates() {
     let short = critical_under(&healing(0.5), &table, 1.0);
     assert!(matches!(short, Err(StabilityError::NoCrossing { .. })), "{short:?}");
 }
+
+#[test]
+fn roots_are_complete_far_from_onset_too() {
+    let mut refused = 0;
+    for tip in [triple(0.0), triple(0.9), TipFunction::Bessel] {
+        for wider in laws().into_iter().filter(|w| !w.is_papers()) {
+            for r in [0.03, 1.0, 30.0] {
+                for alpha in [0.0, 1e-3, 1.1, 31.0, 1e3] {
+                    let found = leading_roots(&model(wider, &tip, alpha * r, r), 6);
+                    // Over J0 that does not heal a root may lie beside the branch point at the line's very edge.
+                    let edge = tip == TipFunction::Bessel && wider.healing_time.is_none();
+                    if edge && matches!(found, Err(StabilityError::RootOnContour { .. })) {
+                        refused += 1;
+                        continue;
+                    }
+                    let found =
+                        found.unwrap_or_else(|e| panic!("{wider:?} {tip:?} {r} {alpha} {e}"));
+                    assert!(found.certificate.is_complete(), "{wider:?} {tip:?} {r} {alpha}");
+                }
+            }
+        }
+    }
+    println!("{refused} refused");
+    assert!(refused < 10, "{refused}");
+}

@@ -14,6 +14,9 @@ const WIDENINGS: f64 = 60.0;
 /// Round-off of 1e-16 in f, 1e-11 in f'' of a dense table, is no longer small times e to this.
 const ROUNDOFF_EXPONENT: f64 = 24.0;
 
+/// Leading roots are counted so far to the right of the branch points of J0, in parts of s.
+const BESIDE_BRANCH_POINTS: f64 = 0.02;
+
 /// N, with where it cannot vanish.
 #[derive(Debug, Clone)]
 pub(in super::super) struct WiderCharacteristic {
@@ -66,7 +69,8 @@ impl Analytic for WiderCharacteristic {
 
     fn leftmost(&self) -> f64 {
         let within = match self.law.footprint.tip() {
-            TipFunction::Bessel => 0.0,
+            // Roots come as close to its branch points as A is small.
+            TipFunction::Bessel => BESIDE_BRANCH_POINTS * self.law.fading,
             TipFunction::Gaussians(_) if !self.law.footprint.is_closed_form() => {
                 -ROUNDOFF_EXPONENT / (9.0 * self.length)
             }
@@ -76,7 +80,11 @@ impl Analytic for WiderCharacteristic {
     }
 
     fn analytic_from(&self) -> f64 {
-        if self.is_cut() { -self.law.fading } else { f64::NEG_INFINITY }
+        if self.is_cut() && self.law.density.abs() > 0.0 {
+            -self.law.fading
+        } else {
+            f64::NEG_INFINITY
+        }
     }
 
     fn left_of_all(&self) -> Option<f64> {
@@ -84,7 +92,7 @@ impl Analytic for WiderCharacteristic {
         let zeros =
             if inertia > 0.0 { bare_zeros(&self.law) } else { vec![(-spring / speed).into()] };
         let leftmost = zeros.iter().map(|z| z.re).fold(0.0, f64::min);
-        (self.law.density.abs() <= 0.0 && !self.is_cut()).then_some(2.0 * leftmost)
+        (self.law.density.abs() <= 0.0).then_some(2.0 * leftmost)
     }
 
     fn right_bound(&self) -> f64 {

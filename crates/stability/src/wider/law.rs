@@ -93,9 +93,15 @@ impl Law {
         (lambda * inner + self.spring, inner + lambda * self.inertia)
     }
 
+    /// At p; of nothing at all where nothing is indented, as far left as anyone looks.
+    fn transforms(&self, lambda: Complex64) -> Transforms {
+        let nothing = self.density.abs() <= 0.0;
+        if nothing { Transforms::NONE } else { self.footprint.at(lambda + self.fading) }
+    }
+
     /// N times the unit of the transforms, and its derivative.
     pub(super) fn at(&self, lambda: Complex64) -> (Transforms, Jet) {
-        let t = self.footprint.at(lambda + self.fading);
+        let t = self.transforms(lambda);
         let (a, b) = (self.density, self.limit());
         let (bare, bare_slope) = self.bare(lambda);
         let base = bare - a * self.steady.curvature;
@@ -110,8 +116,10 @@ impl Law {
     /// Σ|terms| of N times the unit.
     pub(super) fn size(&self, lambda: Complex64) -> f64 {
         let p = lambda + self.fading;
-        let t = self.footprint.at(p);
-        let [height, slope, curvature] = self.footprint.sizes(p, &t);
+        let t = self.transforms(lambda);
+        let nothing = self.density.abs() <= 0.0;
+        let sizes = if nothing { [0.0; 3] } else { self.footprint.sizes(p, &t) };
+        let [height, slope, curvature] = sizes;
         let (a, b, distance) = (self.density.abs(), self.limit().abs(), lambda.norm());
         let bare = distance * (distance * self.inertia + self.speed) + self.spring;
         let base = bare + a * self.steady.curvature.abs();

@@ -16,7 +16,12 @@ pub use walking::{Walk, walk, walking_alpha, walking_speeds};
 
 use super::StabilityError;
 use law::Law;
-use stickslip_tip::Model;
+use stickslip_tip::{Model, TipFunction};
+
+/// Whether it is this that a model needs: anything but the paper's law, and cos x, which no paper's law was made for.
+pub(super) fn applies(model: &Model) -> bool {
+    !model.wider().is_papers() || *model.tip() == TipFunction::Cosine
+}
 
 /// That of small deviations from steady motion behind the support.
 pub(super) fn characteristic(model: &Model) -> Result<WiderCharacteristic, StabilityError> {

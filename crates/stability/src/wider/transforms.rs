@@ -19,6 +19,15 @@ pub(super) struct Transforms {
     pub(super) log_scale: f64,
 }
 
+impl Transforms {
+    /// Of f = 0.
+    pub(super) const NONE: Self = {
+        let zero = (Complex64::ZERO, Complex64::ZERO);
+        let unit = (Complex64::ONE, Complex64::ZERO);
+        Self { unit, height: zero, slope: zero, curvature: zero, log_scale: 0.0 }
+    };
+}
+
 /// φ, φ1 and G at a real p.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steady {

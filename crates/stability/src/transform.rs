@@ -79,6 +79,17 @@ impl CurvatureTransform {
         }
     }
 
+    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), where Λ is so small that G(Λ) = Λ(Λφ - f(0)) does not tell it.
+    pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
+        match &self.kind {
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+                Some(transform_of_heights(terms, lambda))
+            }
+            Kind::Quadrature(panels, _) => panels.height_near_origin(lambda),
+            _ => None,
+        }
+    }
+
     /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
     ///
     /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
@@ -155,12 +166,7 @@ impl Origin {
     }
 
     fn at(&self, terms: &[Gaussian], lambda: Complex64) -> Scaled {
-        let (mut transform, mut slope) = (Complex64::ZERO, Complex64::ZERO);
-        for g in terms {
-            let (value, derivative) = laplace(g, lambda);
-            transform += value;
-            slope += derivative;
-        }
+        let (transform, slope) = transform_of_heights(terms, lambda);
         let bracket = lambda * transform - self.height;
         let derivative = bracket + lambda * (transform + lambda * slope);
         Scaled { value: lambda * bracket, derivative, log_scale: 0.0 }
@@ -170,6 +176,12 @@ impl Origin {
         let transform: f64 = terms.iter().map(|g| laplace(g, lambda).0.norm()).sum();
         lambda.norm() * (lambda.norm() * transform + self.size)
     }
+}
+
+/// Σ over Gaussians of f̃, and its derivative.
+fn transform_of_heights(terms: &[Gaussian], lambda: Complex64) -> (Complex64, Complex64) {
+    let each = terms.iter().map(|g| laplace(g, lambda));
+    each.fold((Complex64::ZERO, Complex64::ZERO), |sum, f| (sum.0 + f.0, sum.1 + f.1))
 }
 
 /// f̃ = a w √(π/2) e^{-c²/2w²} erfcx(z) of one Gaussian, and its derivative.
@@ -288,7 +300,7 @@ mod tests {
             let transform = CurvatureTransform::new(tip);
             for lambda in points.map(|(re, im)| Complex64::new(re, im)) {
                 let at = |h: f64| transform.at(lambda + h).value;
-                let h = 1e-3;
+                let h = 5e-4;
                 let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
                 let g = transform.at(lambda);
                 assert!(

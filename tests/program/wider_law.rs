@@ -129,3 +129,48 @@ fn what_makes_no_sense_is_refused_by_name() {
     folder.refuses("run --alpha 1 --r 1 --until 30 --start-velocity 2", &["--start-velocity"]);
     folder.refuses("cycle --alpha 1.2 --r 1 --depth-limit 5", &["--depth-limit", "cycle"]);
 }
+
+/// `stability` under the wider law: reference values found by two prototypes, a spectral PDE and direct
+/// sums.
+#[test]
+fn linear_theory_knows_the_wider_law() {
+    let folder = folder("wider_stability");
+    let stability = schema(&folder, "stability");
+    let critical = |line: &str| {
+        let document = folder.prints_json(&format!("stability --r 1 {line}"));
+        validate(&stability, &document);
+        let critical = document["critical"].clone();
+        (critical["alpha"].as_f64().unwrap(), critical["kind"].clone())
+    };
+    for (line, alpha, kind) in [
+        ("--beta 0 --depth-limit 20", 2.300_070, "smooth"),
+        ("--beta 0 --depth-limit 5", 5.197_881, "smooth"),
+        ("--healing-time 10", 1.340_504, "smooth"),
+        ("--beta 0 --healing-time 10", 2.403_020, "smooth"),
+        ("--depth-limit 5", 1.073_134, "non-smooth"),
+    ] {
+        let found = critical(line);
+        assert!((found.0 - alpha).abs() < 1e-6, "{line}: {}", found.0);
+        assert_eq!(found.1, kind, "{line}");
+    }
+    folder.refuses("stability --r 1 --beta 0 --depth-limit 1.6", &["--r 1"]);
+    folder.refuses("stability --alpha -1 --no-spring", &["--no-spring"]);
+    // --alpha-above counts from the onset of the law asked for.
+    let run = folder.prints_json(
+        "run --r 1 --beta 0 --depth-limit 20 --alpha-above 0.3 --kick 0.05 --until 600",
+    );
+    let alpha = run["parameters"]["alpha"].as_f64().unwrap();
+    assert!((alpha - 2.600_070).abs() < 1e-6, "{alpha}");
+    assert_eq!(run["regime"], "stick-slip", "{}", run["transient"]);
+    // A small response, against a run with the pulse and one without.
+    let pulse = "--alpha 2 --beta 0 --r 1 --depth-limit 20 --until 40 --sample-every 1";
+    let linear = folder.prints_json(&format!("response {pulse} --pulse 1e-4,20,0.5"));
+    let run = folder.prints_json(&format!("run {pulse} --pulse 1e-4,20,0.5 --tolerance 1e-12"));
+    let column = |of: &serde_json::Value| -> Vec<f64> {
+        of.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let (l, by_theory) = (column(&run["samples"]["l"]), column(&linear["samples"]["l"]));
+    for (l, by_theory) in l.iter().zip(&by_theory) {
+        assert!((l - by_theory).abs() < 1e-7, "{l} {by_theory}");
+    }
+}

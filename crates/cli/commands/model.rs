@@ -35,16 +35,35 @@ pub(crate) fn only_papers(arguments: &ModelArguments, command: &str) -> Result<(
         Some((option, _)) => Err(Failure::input(
             option,
             format!(
-                "`{command}` knows the paper's law only: leave it out (`run` and `compare` know the wider law)"
+                "`{command}` knows the paper's law only: leave it out (`run`, `compare`, `stability` and `response` know the wider law)"
             ),
         )),
     }
 }
 
+/// Refuses what has no steady motion: without a support, or with a past that has no end.
+pub(crate) fn refuse_endless(arguments: &ModelArguments) -> Result<(), Failure> {
+    if arguments.wider.no_spring {
+        let message = "nothing drags the tip: there is no steady motion behind a support";
+        return Err(Failure::input("--no-spring", message));
+    }
+    if arguments.tip.tip == Some(TipName::Cosine) && arguments.wider.healing_time.is_none() {
+        let message =
+            "goes on for ever, and so does what it left in steady motion: give --healing-time";
+        return Err(Failure::input("--tip cosine", message));
+    }
+    Ok(())
+}
+
+/// What the options ask for of the wider law.
+pub(crate) fn wider(arguments: &ModelArguments) -> Wider {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
+    Wider { depth_limit, healing_time, inertia, spring: !no_spring }
+}
+
 /// The model that the options ask for, under the wider law too.
 pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
-    let wider = Wider { depth_limit, healing_time, inertia, spring: !no_spring };
+    let (wider, no_spring) = (wider(arguments), arguments.wider.no_spring);
     let tip = tip(&arguments.tip)?;
     if wider.is_papers() && tip != TipFunction::Cosine {
         return model_of(tip, r(arguments)?, arguments.alpha, arguments.alpha_above);
@@ -62,7 +81,7 @@ pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
         ));
     }
     let r = if no_spring { 0.0 } else { r(arguments)? };
-    let alpha = alpha((arguments.alpha, arguments.alpha_above), &tip, r)?;
+    let alpha = alpha((arguments.alpha, arguments.alpha_above), (&wider, &tip), r)?;
     let named = |option: &str, value: f64| format!("{option} {}", Typed(value));
     Model::under(wider, tip, alpha, r).map_err(|error| {
         let option = match error {
@@ -88,7 +107,7 @@ pub(crate) fn model_of(
     given: Option<f64>,
     above: Option<f64>,
 ) -> Result<Model, Failure> {
-    let alpha = alpha((given, above), &tip, r)?;
+    let alpha = alpha((given, above), (&Wider::default(), &tip), r)?;
     Model::new(tip, alpha, r).map_err(|error| match error {
         ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
         ModelError::Alpha(_) => match above {
@@ -198,7 +217,11 @@ fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
 }
 
 /// The α that the options ask for at this r.
-fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result<f64, Failure> {
+fn alpha(
+    asked: (Option<f64>, Option<f64>),
+    (wider, tip): (&Wider, &TipFunction),
+    r: f64,
+) -> Result<f64, Failure> {
     match asked {
         (Some(alpha), None) => Ok(alpha),
         (None, Some(above)) => {
@@ -206,7 +229,12 @@ fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result
             if !(r.is_finite() && r > 0.0) {
                 return Ok(0.0);
             }
-            let critical = stability::critical(tip, r).map_err(|error| {
+            let found = if wider.is_papers() {
+                stability::critical(tip, r)
+            } else {
+                stability::critical_under(wider, tip, r).map(|found| found.critical)
+            };
+            let critical = found.map_err(|error| {
                 let advice = "give --alpha instead";
                 Failure::input(
                     format!("--alpha-above {}", Typed(above)),

@@ -93,7 +93,7 @@ pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};
 pub use stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
-    SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
+    OnsetKindName, SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
 };
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,

@@ -4,7 +4,8 @@
 use stickslip_outcome::Watched;
 use stickslip_tip::state::{Damaged, State};
 use stickslip_tip::{
-    Force, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Step, TipFunction,
+    Force, MemoryChoice, Model, Noise, Pulse, RunError, STEP_NUMBERS, Scenario, Start, Step,
+    TipFunction,
 };
 
 fn triple(alpha: f64) -> Model {
@@ -37,13 +38,13 @@ const MEMORIES: [MemoryChoice; 4] =
 
 /// All that a run gives: its steps, counts, what became of it and why its memory.
 #[derive(Debug, PartialEq)]
-struct Told(Vec<[u64; 9]>, String);
+struct Told(Vec<[u64; STEP_NUMBERS]>, String);
 
-fn bits(step: &Step) -> [u64; 9] {
+fn bits(step: &Step) -> [u64; STEP_NUMBERS] {
     step.numbers().map(f64::to_bits)
 }
 
-fn finish(mut running: Watched, mut steps: Vec<[u64; 9]>) -> Told {
+fn finish(mut running: Watched, mut steps: Vec<[u64; STEP_NUMBERS]>) -> Told {
     while let Some(step) = running.step().unwrap() {
         steps.push(bits(&step));
     }

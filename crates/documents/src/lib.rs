@@ -86,6 +86,7 @@ pub use run::{RunDocument, Samples};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
+    SupportPathParameters,
 };
 pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};

@@ -100,6 +100,12 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
+    /// u0 likewise.
+    pub(crate) fn height_on(&self, stretch: &Stretch, x: f64) -> f64 {
+        let told = self.reliefs.iter().zip(&stretch.pieces);
+        told.map(|(relief, piece)| relief.height_on(*piece, x)).sum()
+    }
+
     /// What the rounding of x may amount to in u0', per unit of curvature: 0 where u0 is flat.
     pub(crate) fn rounding(&self, x: f64) -> f64 {
         let textured = self.reliefs.iter().any(|relief| relief.covers(x));

@@ -37,8 +37,10 @@ enum Shape {
 #[derive(Debug, Clone)]
 struct SteadyPast {
     tip: TipFunction,
-    /// α/r
+    /// α/r, times w0 under a depth limit.
     depth: f64,
+    /// s = 1/(rT), 0 where nothing heals.
+    fading: f64,
     position: f64,
     reach: f64,
 }
@@ -68,13 +70,14 @@ impl Piece {
 }
 
 impl Relief {
-    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X.
+    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X; under the wider law
+    /// -(α w0/r) ∫_0^∞ f(x-X+y) e^{-sy}dy, s = 1/(rT).
     #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         let tip = model.tip().clone();
         let reach = tip.reach().unwrap_or(f64::INFINITY);
-        let depth = model.alpha() / model.r();
-        Self(Shape::SteadyPast(SteadyPast { tip, depth, position, reach }))
+        let (depth, fading) = (model.steady_density(), model.fading());
+        Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach }))
     }
 
     /// The cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
@@ -112,10 +115,19 @@ impl Relief {
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         match &self.0 {
-            Shape::SteadyPast(past) => -past.depth * past.tip.tail(x - past.position),
+            Shape::SteadyPast(past) => past.height(x),
             Shape::Spline(spline) if is_inside(spline, x) => spline.value(x),
             Shape::Spline(_) => 0.0,
             Shape::OnLattice(relief) => relief.height(x),
+        }
+    }
+
+    /// That of the function that it is on a piece, wherever x is.
+    pub(crate) fn height_on(&self, piece: Option<usize>, x: f64) -> f64 {
+        match (&self.0, piece) {
+            (Shape::SteadyPast(past), _) => past.height(x),
+            (Shape::Spline(spline), Some(piece)) => spline.jet_on(piece, x).0,
+            (Shape::Spline(_), None) => 0.0,
         }
     }
 
@@ -178,11 +190,23 @@ impl Relief {
 }
 
 impl SteadyPast {
+    /// Whether it has a slope at x: where it fades, everywhere behind too.
     fn covers(&self, x: f64) -> bool {
-        (x - self.position).abs() < self.reach
+        let ahead = x - self.position;
+        ahead < self.reach && (self.fading > 0.0 || -ahead < self.reach)
+    }
+
+    fn height(&self, x: f64) -> f64 {
+        -self.depth * self.tip.fading_tail(x - self.position, self.fading)
     }
 
     fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        if self.covers(x) && self.fading > 0.0 {
+            // φ' = sφ - f, of which the height is -depth φ.
+            let (x, s) = (x - self.position, self.fading);
+            let steep = self.tip.value(x) - s * self.tip.fading_tail(x, s);
+            return (self.depth * steep, self.depth * (self.tip.slope(x) + s * steep));
+        }
         if !self.covers(x) {
             return (0.0, 0.0);
         }

@@ -10,7 +10,9 @@ use crate::failure::Failure;
 use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
-use stickslip_documents::{Array, Named, Order, RunDocument, RunFormat, RunHead, Tabular};
+use stickslip_documents::{
+    Array, Named, Order, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
+};
 use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// What the run is written to.
@@ -25,7 +27,7 @@ pub(super) enum Target {
 pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
-            stream.line(&RunHead::new(order.parameters.clone(), (&scenario.model).into()))
+            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
         }
         Sink::Memory | Sink::Journal(..) => Ok(()),
     }
@@ -46,7 +48,8 @@ pub(super) fn all(
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
     let steps = integrated.record.steps.take();
-    let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
+    let (wider, support) = (*scenario.model.wider(), scenario.support());
+    let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
@@ -62,7 +65,7 @@ pub(super) fn all(
             let samples = &integrated.record.samples;
             let mut document = RunDocument::new(
                 order.parameters.clone(),
-                (&scenario.model).into(),
+                SteadyState::of(&scenario.model),
                 samples,
                 trajectory.as_ref().filter(|_| order.history).map(Into::into),
                 end.clone(),

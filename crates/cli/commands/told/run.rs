@@ -15,10 +15,10 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told 
         Some(found) => oscillation(told, found),
         None => told,
     };
-    let creep = end.creep.as_ref();
+    let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
     let told = told
         .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
-        .row("l of steady motion", format!("{} σ", digits(document.steady_state.l, 7)))
+        .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
         .remarks(&end.remarks);
     if end.regime != RegimeName::Transient {
         return told.next(again("-o run.json --plot run.svg"));

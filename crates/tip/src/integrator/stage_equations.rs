@@ -1,10 +1,12 @@
-//! The s equations for the tip's displacement at the nodes of one step, and their Newton iteration.
+//! The equations for the tip's displacement at the nodes of one step, and their Newton iteration; under a
+//! depth limit for the heights under the tip too.
 
-use super::linear_system::Factors;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Memory};
-use crate::step::{Equations, Law, OwnGroove};
+use crate::step::{
+    Depth, Equations, Factors, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove, OwnHeight,
+};
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 
@@ -17,6 +19,38 @@ pub(super) struct StageEquations<'a> {
     /// Position of the tip at the start of the step.
     x: f64,
     equations: Equations,
+    depth: Option<Depth>,
+    left: Option<Left>,
+}
+
+/// What a step begins with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Begin {
+    pub(super) t: f64,
+    pub(super) h: f64,
+    /// Position of the tip.
+    pub(super) x: f64,
+    /// R - x0
+    pub(super) extension: f64,
+    /// Of the tip, and of the support.
+    pub(super) velocities: (f64, f64),
+    /// Side of the corner of |h|.
+    pub(super) side: f64,
+    /// Time since the start of the run.
+    pub(super) age: f64,
+}
+
+/// What is left at the stages of what there was when the step, and when the run, began.
+struct Left {
+    past: Stages,
+    relief: Stages,
+}
+
+/// Displacements, and heights where there is a depth limit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unknowns {
+    pub(super) displacement: Stages,
+    pub(super) height: Stages,
 }
 
 /// How an iteration ended.
@@ -28,6 +62,10 @@ pub(super) struct Solved {
 
 pub(super) struct Solution {
     pub(super) displacement: Stages,
+    /// Heights at the nodes.
+    pub(super) height: Option<Stages>,
+    /// For how long, as it were, the tip indented at each node: what is left of it at the end of the step.
+    pub(super) spent: Stages,
     /// u_xx at the last node.
     pub(super) curvature_at_end: f64,
 }
@@ -40,30 +78,45 @@ const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 
 /// What one look at the groove tells.
 struct Look {
-    /// d - hAv
-    residual: Stages,
-    past_curvature: Stages,
-    u0_curvature: Stages,
+    known: Known,
     own: OwnGroove,
+    own_height: Option<OwnHeight>,
+    missed: Missed,
+}
+
+/// The Jacobian, factored.
+enum Jacobian {
+    Plain(Factors),
+    Limited(Box<LimitedFactors>),
 }
 
 impl<'a> StageEquations<'a> {
-    /// For the step (t, h) that begins with the spring extended by the third number, rt - x0.
+    /// For the step that begins so.
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
         (surface, stretch): (&'a InitialSurface, &'a Stretch),
         force: &Force,
-        (t, h, extension): (f64, f64, f64),
+        begin: Begin,
     ) -> Self {
-        let law = Law::of(model);
+        let Begin { t, h, x, extension, velocities, side, age } = begin;
+        let (law, wider) = (Law { r: velocities.1, ..Law::of(model) }, model.wider());
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
         let mut pull = law.pull(extension, h);
         for (pull, c) in pull.iter_mut().zip(RADAU.c) {
             *pull += force.value((t + h * c).min(last));
         }
-        let x = model.r() * t - extension;
-        Self { model, apex, surface, stretch, x, equations: Equations::new(law, h, pull) }
+        let mut equations = Equations::new(law, h, pull);
+        let left = wider.healing_time.map(|time| {
+            equations = equations.clone().with_healing(time);
+            let past = RADAU.c.map(|c| wider.left_after(h * c));
+            Left { past, relief: past.map(|left| left * wider.left_after(age)) }
+        });
+        if let Some(mass) = wider.inertia {
+            equations = equations.with_inertia(mass, velocities.0);
+        }
+        let depth = wider.depth_limit.map(|limit| Depth { limit, side });
+        Self { model, apex, surface, stretch, x, equations, depth, left }
     }
 
     /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
@@ -71,29 +124,31 @@ impl<'a> StageEquations<'a> {
     pub(super) fn solve(
         &self,
         memory: &mut impl Memory,
-        guess: Stages,
+        guess: Unknowns,
         enough: f64,
         most: f64,
     ) -> Solved {
-        let mut displacement = guess;
+        let Unknowns { mut displacement, mut height } = guess;
         let mut previous = f64::INFINITY;
         let mut ratio = 1.0;
-        let mut factors = None;
+        let mut jacobian = None;
         let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
         for iterations in 1..=MOST_ITERATIONS {
-            let look = self.look(memory, &displacement);
+            let look = self.look(memory, &displacement, &height);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
-                factors = Factors::of(self.equations.jacobian(
-                    &look.past_curvature,
-                    &look.u0_curvature,
-                    &look.own,
-                ));
+                jacobian = self.jacobian(&look, &height);
             }
-            let Some(factors) = &factors else { return Solved { iterations, solution: None } };
-            let correction = factors.solve(&look.residual);
-            let size = correction.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-            for (d, c) in displacement.iter_mut().zip(correction) {
+            let Some(jacobian) = &jacobian else { return Solved { iterations, solution: None } };
+            let correction = jacobian.corrections(&look.missed);
+            let mut size = largest(&correction.displacement);
+            for (d, c) in displacement.iter_mut().zip(correction.displacement) {
                 *d -= c;
+            }
+            if self.depth.is_some() {
+                for (height, c) in height.iter_mut().zip(correction.height) {
+                    *height -= c;
+                    size = size.max(c.abs() / height.abs().max(1.0));
+                }
             }
             let in_range = displacement.iter().all(|d| d.abs() <= most);
             // The next correction would be smaller by this ratio at least.
@@ -102,8 +157,7 @@ impl<'a> StageEquations<'a> {
                 return Solved { iterations, solution: None };
             }
             if ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
-                let curvature_at_end = look.curvature_at_end(self.model.alpha());
-                let solution = Some(Solution { displacement, curvature_at_end });
+                let solution = Some(self.solution(displacement, height, &look.known));
                 return Solved { iterations, solution };
             }
             previous = size;
@@ -111,24 +165,84 @@ impl<'a> StageEquations<'a> {
         Solved { iterations: MOST_ITERATIONS, solution: None }
     }
 
-    fn look(&self, memory: &mut impl Memory, d: &Stages) -> Look {
-        let (mut past_slope, mut past_curvature) = ([0.0; STAGES], [0.0; STAGES]);
-        memory.groove(d, &mut Groove::new(&mut past_slope, &mut past_curvature));
+    fn solution(&self, displacement: Stages, height: Stages, known: &Known) -> Solution {
+        let end = STAGES - 1;
+        let mut spent = self.equations.carving()[end];
+        if let Some(depth) = &self.depth {
+            let weights = depth.weights(&height);
+            spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= weight);
+        }
+        let past = self.model.alpha() * known.past_curvature[end];
+        let curvature_at_end = known.relief_curvature[end] - past;
+        let height = self.depth.map(|_| height);
+        Solution { displacement, height, spent, curvature_at_end }
+    }
+
+    fn jacobian(&self, look: &Look, height: &Stages) -> Option<Jacobian> {
+        let known = &look.known;
+        match (&self.depth, &look.own_height) {
+            (Some(depth), Some(own_height)) => depth
+                .factors(&self.equations, height, known, (&look.own, own_height))
+                .map(|factors| Jacobian::Limited(Box::new(factors))),
+            _ => {
+                let curvatures = (&known.past_curvature, &known.relief_curvature);
+                let matrix: Matrix = self.equations.jacobian(curvatures.0, curvatures.1, &look.own);
+                Factors::of(matrix).map(Jacobian::Plain)
+            }
+        }
+    }
+
+    #[inline]
+    fn look(&self, memory: &mut impl Memory, d: &Stages, height: &Stages) -> Look {
+        let known = self.known(memory, d);
         let own = OwnGroove::near(self.apex, self.model.tip(), d);
-        let (mut u0_slope, mut u0_curvature) = ([0.0; STAGES], [0.0; STAGES]);
+        if let Some(depth) = &self.depth {
+            let own_height = OwnHeight::near(self.apex, self.model.tip(), d);
+            let missed = depth.missed(&self.equations, (d, height), &known, (&own, &own_height));
+            return Look { known, own, own_height: Some(own_height), missed };
+        }
+        let velocity = self.equations.velocity(d, &known.past_slope, &known.relief_slope, &own);
+        let displacement = self.equations.residual(d, &velocity);
+        let missed = Missed { displacement, height: [0.0; STAGES] };
+        Look { known, own, own_height: None, missed }
+    }
+
+    /// What memory and surface tell at these displacements.
+    #[inline]
+    fn known(&self, memory: &mut impl Memory, d: &Stages) -> Known {
+        let mut known = Known::nothing();
+        let mut groove = Groove::new(&mut known.past_slope, &mut known.past_curvature);
+        if self.depth.is_some() {
+            groove = groove.with_height(&mut known.past_height);
+        }
+        memory.groove(d, &mut groove);
         for i in 0..STAGES {
-            (u0_slope[i], u0_curvature[i]) =
+            (known.relief_slope[i], known.relief_curvature[i]) =
                 self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
         }
-        let velocity = self.equations.velocity(d, &past_slope, &u0_slope, &own);
-        let residual = self.equations.residual(d, &velocity);
-        Look { residual, past_curvature, u0_curvature, own }
+        if self.depth.is_some() {
+            known.relief_height = d.map(|d| self.surface.height_on(self.stretch, self.x + d));
+        }
+        if let Some(left) = &self.left {
+            known.fade(&left.past, &left.relief);
+        }
+        known
     }
 }
 
-impl Look {
-    /// u_xx at the last node.
-    fn curvature_at_end(&self, alpha: f64) -> f64 {
-        self.u0_curvature[STAGES - 1] - alpha * self.past_curvature[STAGES - 1]
+impl Jacobian {
+    #[inline]
+    fn corrections(&self, missed: &Missed) -> Missed {
+        match self {
+            Self::Plain(factors) => {
+                let displacement = factors.solve(&missed.displacement);
+                Missed { displacement, height: [0.0; STAGES] }
+            }
+            Self::Limited(factors) => factors.corrections(missed),
+        }
     }
+}
+
+fn largest(values: &Stages) -> f64 {
+    values.iter().fold(0.0, |m: f64, value| m.max(value.abs()))
 }

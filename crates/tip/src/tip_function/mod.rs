@@ -2,6 +2,7 @@
 
 mod apex;
 mod bessel;
+mod fading;
 mod gaussian;
 pub(crate) mod table;
 
@@ -17,6 +18,8 @@ pub enum TipFunction {
     Gaussians(GaussianSum),
     /// J0(x), the analytically tractable example of section IV.C.
     Bessel,
+    /// cos x: a tip whose surface keeps one wave. Without a spring, and with α < 0, it is the Lorenz system.
+    Cosine,
 }
 
 /// Products of three numbers within this and their inverses are finite.
@@ -177,7 +180,7 @@ impl TipFunction {
     pub fn of_footprint(footprint: Footprint) -> Self {
         match footprint.path().clone() {
             Self::Gaussians(sum) => Self::Gaussians(sum.with_footprint(footprint)),
-            Self::Bessel => Self::Bessel,
+            other => other,
         }
     }
 
@@ -186,7 +189,7 @@ impl TipFunction {
     pub fn footprint(&self) -> Option<&Footprint> {
         match self {
             Self::Gaussians(sum) => sum.footprint(),
-            Self::Bessel => None,
+            Self::Bessel | Self::Cosine => None,
         }
     }
 
@@ -196,6 +199,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.value(x),
             Self::Bessel => libm::j0(x),
+            Self::Cosine => libm::cos(x),
         }
     }
 
@@ -211,6 +215,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.slope_and_curvature(x),
             Self::Bessel => bessel::slope_and_curvature(x),
+            Self::Cosine => (-libm::sin(x), -libm::cos(x)),
         }
     }
 
@@ -219,6 +224,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.taylor(degree),
             Self::Bessel => bessel::taylor(degree),
+            Self::Cosine => bessel::taylor_of_cosine(degree),
         }
     }
 
@@ -227,7 +233,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.derivative_bound(n),
             // J0 is the mean of cosines of wave numbers up to 1.
-            Self::Bessel => 1.0,
+            Self::Bessel | Self::Cosine => 1.0,
         }
     }
 
@@ -237,6 +243,21 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.tail(x),
             Self::Bessel => bessel::tail(x),
+            // Its mean value, as if it faded slowly.
+            Self::Cosine => -libm::sin(x),
+        }
+    }
+
+    /// ∫_0^∞ f(x+y) e^{-sy}dy, s ≥ 0: the profile of steady motion over a surface that heals, s = 1/(rT).
+    #[must_use]
+    pub fn fading_tail(&self, x: f64, s: f64) -> f64 {
+        if s <= 0.0 {
+            return self.tail(x);
+        }
+        match self {
+            Self::Gaussians(sum) => sum.terms().iter().map(|g| fading::gaussian(g, x, s)).sum(),
+            Self::Bessel => fading::bessel(x, s),
+            Self::Cosine => fading::cosine(x, s),
         }
     }
 
@@ -252,6 +273,8 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.fourier(q),
             Self::Bessel => bessel::fourier(q),
+            // Two lines, at ±1.
+            Self::Cosine => 0.0,
         }
     }
 
@@ -261,7 +284,7 @@ impl TipFunction {
     pub fn reach(&self) -> Option<f64> {
         match self {
             Self::Gaussians(sum) => Some(sum.reach()),
-            Self::Bessel => None,
+            Self::Bessel | Self::Cosine => None,
         }
     }
 
@@ -270,7 +293,7 @@ impl TipFunction {
     pub fn band(&self) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.band(),
-            Self::Bessel => 1.0,
+            Self::Bessel | Self::Cosine => 1.0,
         }
     }
 }
@@ -288,6 +311,7 @@ mod tests {
             TipFunction::gaussian(2.0).unwrap(),
             TipFunction::table(&x, &f).unwrap(),
             TipFunction::Bessel,
+            TipFunction::Cosine,
         ]
     }
 

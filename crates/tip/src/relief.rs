@@ -128,6 +128,7 @@ impl Relief {
             (Shape::SteadyPast(past), _) => past.height(x),
             (Shape::Spline(spline), Some(piece)) => spline.jet_on(piece, x).0,
             (Shape::Spline(_), None) => 0.0,
+            (Shape::OnLattice(relief), _) => relief.height(x),
         }
     }
 

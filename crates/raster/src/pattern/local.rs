@@ -89,7 +89,7 @@ mod tests {
         let sheet = sheet(|x, y| {
             0.7 * phase(x, y).cos() + 0.2 * (2.0 * phase(x, y)).cos() - 3.0 + 0.01 * x
         });
-        let wave = Wave::strongest(&sheet).unwrap();
+        let wave = Wave::of_ripples(&sheet).unwrap();
         assert!((wave.q - q).abs() < 2e-4 && (wave.kappa - kappa).abs() < 4e-4, "{wave:?}");
         let local = Local::of(&sheet, &wave);
         assert!(local.coherence() > 0.999, "{}", local.coherence());
@@ -103,7 +103,7 @@ mod tests {
         let pits = sheet(|x, y| (0.9 * x + 0.9 * y).cos() + 0.9 * (0.9 * x - 0.9 * y).cos());
         assert!(pits.straightness() < 0.3, "{}", pits.straightness());
         let chaos = sheet(|x, y| (0.9 * x + 40.0 * (7.3 * y).sin()).cos());
-        let wave = Wave::strongest(&chaos).unwrap();
+        let wave = Wave::of_ripples(&chaos).unwrap();
         let coherence = Local::of(&chaos, &wave).coherence();
         assert!(coherence < 0.7, "{coherence}");
     }

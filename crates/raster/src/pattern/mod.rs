@@ -95,7 +95,7 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
     if amplitude < FLAT * sheets.depth.abs() {
         return (Regime::Steady, None);
     }
-    let Some(wave) = Wave::strongest(sheet) else { return (Regime::Unknown, None) };
+    let Some(wave) = Wave::of_ripples(sheet) else { return (Regime::Unknown, None) };
     let local = Local::of(sheet, &wave);
     let coherence = Local::of(&sheets.own, &wave).coherence();
     let is_pitted = sheet.straightness() < STRAIGHT && amplitude > PITTED * sheets.depth.abs();

@@ -14,7 +14,7 @@ pub(super) struct Sheet {
     band: f64,
 }
 
-/// Where the power |Σ window u e^{-i(qx + κy)}|² has its maximum.
+/// Where the power |Σ window u e^{-i(qx + κy)}|² has a maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wave {
     pub(super) q: f64,
@@ -28,6 +28,12 @@ const FEWEST_WAVES: f64 = 2.0;
 const PER_PEAK: f64 = 2.0;
 /// Of the band: what is looked through. The groove of a sharp pit has less than e^{-6} of its power beyond.
 const LOOKED_AT: f64 = 0.4;
+/// Within so many widths of a peak of κ = 0 all lines do alike, by the edge from which they all start.
+const ALIKE: f64 = 3.0;
+/// What is oblique is no ripple where it has less than this part of the power of the strongest wave.
+const FAR_WEAKER: f64 = 0.1;
+/// Waves of this part of the power of the strongest are as strong.
+const AS_STRONG: f64 = 0.5;
 
 impl Sheet {
     pub(super) fn new(
@@ -106,25 +112,51 @@ impl Sheet {
 }
 
 impl Wave {
-    /// The strongest wave vector with q > 0.
-    pub(super) fn strongest(sheet: &Sheet) -> Option<Self> {
+    /// The wave vector of the ripples: that of the oblique ones, unless what all lines do alike is far stronger; and of
+    /// those that are as strong the longest, the others being it and what it is modulated by.
+    pub(super) fn of_ripples(sheet: &Sheet) -> Option<Self> {
+        let peaks = Self::peaks(sheet);
+        let (dq, dk) = sheet.resolution();
+        let power = |wave: &&Self| wave.power;
+        let strongest = |waves: &[&Self]| waves.iter().map(power).fold(0.0, f64::max);
+        let all: Vec<&Self> = peaks.iter().collect();
+        let oblique: Vec<&Self> =
+            peaks.iter().filter(|wave| wave.kappa.abs() > ALIKE * dk).collect();
+        let is_oblique = strongest(&oblique) > FAR_WEAKER * strongest(&all);
+        let candidates = if is_oblique { oblique } else { all };
+        let least = AS_STRONG * strongest(&candidates);
+        let strong = candidates.into_iter().filter(|wave| wave.power >= least);
+        let longest = strong.min_by(|a, b| a.q.hypot(a.kappa).total_cmp(&b.q.hypot(b.kappa)))?;
+        Some(longest.refined(sheet, (dq / PER_PEAK, dk / PER_PEAK)))
+    }
+
+    /// Where the power is larger than all around, q > 0.
+    fn peaks(sheet: &Sheet) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
         let half = (PI / sheet.pitch / step_k).round() as i64;
-        let mut best: Option<Self> = None;
-        let mut q = FEWEST_WAVES * dq;
-        while q < LOOKED_AT * sheet.band {
-            let along = sheet.along(q);
-            for i in -half..half {
-                let kappa = step_k * i as f64;
-                let power = sheet.across(&along, kappa);
-                if best.is_none_or(|best| power > best.power) {
-                    best = Some(Self { q, kappa, power });
+        let first = (FEWEST_WAVES * PER_PEAK) as i64;
+        let last = (LOOKED_AT * sheet.band / step_q) as i64;
+        let row = |i: i64| -> Vec<f64> {
+            let along = sheet.along(step_q * i as f64);
+            (-half..half).map(|j| sheet.across(&along, step_k * j as f64)).collect()
+        };
+        let power: Vec<Vec<f64>> = (first..=last).map(row).collect();
+        let columns = 2 * half as usize;
+        let mut peaks = vec![];
+        for (n, row) in power.iter().enumerate() {
+            let rows = &power[n.saturating_sub(1)..power.len().min(n + 2)];
+            for (j, here) in row.iter().enumerate() {
+                // Beyond ±π/d phases begin again.
+                let near = [j + columns - 1, j, j + 1].map(|j| j % columns);
+                if rows.iter().all(|row| near.iter().all(|j| row[*j] <= *here)) {
+                    let q = step_q * (first + n as i64) as f64;
+                    let kappa = step_k * (j as i64 - half) as f64;
+                    peaks.push(Self { q, kappa, power: *here });
                 }
             }
-            q += step_q;
         }
-        best.map(|best| best.refined(sheet, (step_q, step_k)))
+        peaks
     }
 
     /// The top of the peak, by parabolas through the logarithm of the power.

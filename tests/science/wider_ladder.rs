@@ -2,7 +2,6 @@
 //! with the `direct` memory at 1e-13; tests/science/wider_law.rs ties that to the outside.
 
 use crate::acceptance::{Acceptance, largest_difference, observed_order};
-use std::sync::Arc;
 use stickslip_tip::memory::Policy;
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Run, Scenario, Start, Step, SupportPath, TipFunction,

@@ -82,7 +82,7 @@ pub use raster_stability::{
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
-pub use run::{RunDocument, Samples};
+pub use run::{LoopDocument, RunDocument, Samples};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,

@@ -8,6 +8,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::friction::Loop;
 use stickslip_tip::{Support, Trajectory};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
@@ -32,6 +33,9 @@ pub struct RunDocument {
     pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// The closed loops of a support on a path, and the work done in each; where the run keeps its history.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loops: Option<Vec<LoopDocument>>,
     /// The rate of creep, where the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
@@ -72,6 +76,7 @@ impl RunDocument {
             history,
             regime: end.regime,
             oscillation: end.oscillation,
+            loops: None,
             creep: end.creep,
             transient: end.transient,
             remarks: end.remarks,
@@ -95,6 +100,24 @@ impl RunDocument {
         }
         let scenario = parameters.scenario()?;
         history.under(*scenario.model.wider(), scenario.support())
+    }
+}
+
+/// A closed loop of the support.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoopDocument {
+    /// Time at which it begins, in Γ/k.
+    pub from: f64,
+    /// Time at which it ends, in Γ/k.
+    pub to: f64,
+    /// ∮ (R - x0)dR, the work that the support does, in kσ².
+    pub work: f64,
+}
+
+impl From<Loop> for LoopDocument {
+    fn from(Loop { from, to, work }: Loop) -> Self {
+        Self { from, to, work }
     }
 }
 

@@ -53,10 +53,12 @@ impl FullGrid<'_> {
         self.read(u, stencil).map(|height| self.problem.wider.weight(height))
     }
 
-    fn height(&self, u: &[f64], x: f64) -> f64 {
+    /// u(x) at time t.
+    fn height(&self, t: f64, u: &[f64], x: f64) -> f64 {
         let mut stencil = Patch::default();
         self.scheme.height_stencil(x, &mut stencil);
-        self.read(u, &stencil).unwrap_or_else(|| self.problem.start.height(x))
+        let left = || self.problem.left_of_start(t) * self.problem.start.height(x);
+        self.read(u, &stencil).unwrap_or_else(left)
     }
 }
 
@@ -118,7 +120,7 @@ pub(crate) fn run(
     let u = request
         .points
         .iter()
-        .map(|&x| grid.height(&runner.solver.y().0[1..=grid.len], x))
+        .map(|&x| grid.height(runner.t, &runner.solver.y().0[1..=grid.len], x))
         .collect();
     Ok(Run { x0, u, work: runner.work })
 }

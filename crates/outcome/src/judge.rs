@@ -11,6 +11,7 @@ use stickslip_tip::motion::{self, Extremum};
 use stickslip_tip::{InitialSurface, Scenario, Start, Step, Support, Trajectory, stop};
 
 mod extrapolated;
+mod free;
 mod remarks;
 
 /// The last fifth of a run must be near steady motion for the run to count as steady.
@@ -19,8 +20,6 @@ const STEADY_SHARE: f64 = 0.2;
 const NOT_GROWN: f64 = 1.05;
 /// A motion is periodic where it is as near to its limit as this part of amplitude and period.
 const SETTLED: f64 = 1e-3;
-/// A tip without a spring drifts where its velocity has changed by less than this part in the last of its run.
-const DRIFTS: f64 = 1e-4;
 /// Farther from a cycle than this part of its amplitude its multipliers do not say where a motion goes.
 const BESIDE: f64 = 0.3;
 /// A motion stands still beside its cycle where it comes nearer by less than this part of what the multiplier asks.
@@ -105,19 +104,6 @@ impl End<'_> {
             return outcome;
         }
         self.oscillates().unwrap_or_else(|| self.beside_steady())
-    }
-
-    /// A tip that nothing drags: it drifts at one velocity, or not.
-    fn without_spring(&self) -> Outcome {
-        let (from, to) = (self.tail.start(), self.last.end());
-        let enough = to - from >= STEADY_SHARE * (to - self.start());
-        let at = |i: u32| self.tail.velocity(from + (to - from) * f64::from(i) / 1000.0);
-        let now = self.last.velocity(to);
-        let change = (0..1000).map(at).map(|v| (v - now).abs()).fold(0.0, f64::max);
-        if !enough || change > DRIFTS * now.abs().max(self.scenario.tolerance) {
-            return Outcome::transient(None, None);
-        }
-        Outcome::settled(Regime::Drifting)
     }
 
     /// Whether a force above a hundredth of the tolerance acts in the last fifth of the run.

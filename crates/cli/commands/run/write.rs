@@ -13,7 +13,7 @@ use std::path::Path;
 use stickslip_documents::{
     Array, Named, Order, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
 };
-use stickslip_tip::{InitialSurface, Scenario, Trajectory};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory, friction};
 
 /// What the run is written to.
 pub(super) enum Target {
@@ -70,6 +70,9 @@ pub(super) fn all(
                 trajectory.as_ref().filter(|_| order.history).map(Into::into),
                 end.clone(),
             );
+            let on_path = trajectory.as_ref().filter(|_| scenario.path.is_some());
+            document.loops =
+                on_path.map(|t| friction::loops(t).into_iter().map(Into::into).collect());
             let asked = trajectory.as_ref().filter(|_| order.verify && integrated.signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found =

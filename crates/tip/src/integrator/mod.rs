@@ -4,8 +4,10 @@
 //! groove is what the memory knows of the past plus the step's own indentation, the Butcher matrix
 //! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
 
+mod ahead;
 mod control;
 mod corner;
+mod error;
 mod saved;
 mod stage_equations;
 
@@ -19,8 +21,8 @@ use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model, Support};
 use control::Control;
 use corner::Corner;
-use stage_equations::{Begin, Solution, StageEquations, Unknowns};
-use thiserror::Error;
+pub use error::IntegrationError;
+use stage_equations::{Begin, Solution, StageEquations};
 
 /// What the integrator did, in counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -31,33 +33,6 @@ pub struct Work {
     pub rejected: u64,
     /// Newton iterations, each of them one look at the groove in all stages.
     pub newton_iterations: u64,
-}
-
-/// Why a run could not go on.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum IntegrationError {
-    /// The step length fell to the round-off of t.
-    #[error(
-        "at t = {t}: the tolerance {tolerance:e} cannot be met, the step length fell to {h:e}; ask for a larger tolerance, or for smoother forces and surfaces"
-    )]
-    StepTooSmall {
-        /// Time reached.
-        t: f64,
-        /// Last step length tried.
-        h: f64,
-        /// Tolerance asked for.
-        tolerance: f64,
-    },
-    /// The tip came back to where it had been so long ago that the memory no longer knows it.
-    #[error(
-        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
-    )]
-    Forgotten {
-        /// Time reached.
-        t: f64,
-        /// Distance over which the past is kept.
-        kept: f64,
-    },
 }
 
 /// The state of a tip under way, and all that acts on it.
@@ -106,19 +81,11 @@ impl<'a, M: Memory> Integrator<'a, M> {
     ) -> Self {
         let (t, extension) = start;
         let support = if model.wider().spring { Support::Moving(model.r()) } else { Support::None };
-        let x = support.position(t) - extension;
-        let (slope, curvature) = surface.slope_and_curvature(x);
         let control = Control::new(tolerance);
-        let pull = if model.wider().spring { extension } else { 0.0 };
-        let force_now = force.value(t);
-        let velocity = match model.wider().inertia {
-            Some(_) => model.r(),
-            None => -slope + pull + force_now,
-        };
-        Self {
+        let integrator = Self {
             model,
             apex: Apex::new(model.tip(), (ENOUGH * control.target()).max(f64::EPSILON)),
-            corner: Corner::of(model, surface.height(x), control.target()),
+            corner: None,
             surface,
             force,
             support,
@@ -127,13 +94,31 @@ impl<'a, M: Memory> Integrator<'a, M> {
             t,
             start: t,
             extension,
-            velocity,
-            curvature,
-            limits_from_before: (slope, force_now),
+            velocity: 0.0,
+            curvature: 0.0,
+            limits_from_before: (0.0, 0.0),
             stretch: Stretch::nowhere(),
             last: None,
             work: Work::default(),
+        };
+        integrator.set_off(model.r())
+    }
+
+    /// Where it is, with what surface and forces make of that; with inertia at this velocity.
+    fn set_off(mut self, velocity: f64) -> Self {
+        let (x, wider) = (self.position(), self.model.wider());
+        let (slope, curvature) = self.surface.slope_and_curvature(x);
+        let pull = if wider.spring { self.extension } else { 0.0 };
+        let force = self.force.value(self.t);
+        let drift = -slope + pull + force;
+        self.velocity = if wider.inertia.is_some() { velocity } else { drift };
+        self.curvature = curvature;
+        self.limits_from_before = (slope, force);
+        if wider.depth_limit.is_some() {
+            let height = self.surface.height(x);
+            self.corner = Corner::of(self.model, height, self.control.target());
         }
+        self
     }
 
     /// Steps of this length only, without error control: for observing the order of convergence.
@@ -147,10 +132,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
     #[must_use]
     pub fn moved_by(mut self, support: Support, velocity: f64) -> Self {
         self.support = support;
-        if self.model.wider().inertia.is_some() {
-            self.velocity = velocity;
-        }
-        self
+        self.set_off(velocity)
     }
 
     /// Time reached.
@@ -341,35 +323,6 @@ impl<'a, M: Memory> Integrator<'a, M> {
             None => slope,
             Some(_) => slope * self.model.wider().left_after(self.t - self.start),
         }
-    }
-
-    /// The last polynomials continued, where they can be trusted to; else straight lines.
-    fn predict(&self, h: f64, longest: f64) -> Unknowns {
-        Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }
-    }
-
-    fn way_ahead(&self, h: f64, longest: f64) -> Stages {
-        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.h) {
-            let guess = RADAU.continued(&last.displacement, h / last.h);
-            if guess.iter().all(|d| d.abs() < longest) {
-                return guess;
-            }
-        }
-        RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
-    }
-
-    /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
-    fn length_limit(&self) -> f64 {
-        let stretch = &self.stretch;
-        let speed = self.velocity.abs().max(1e-300);
-        let ahead = if self.velocity >= 0.0 {
-            stretch.high - self.position()
-        } else {
-            self.position() - stretch.low
-        };
-        let longest = step::longest_displacement(self.model.tip().band());
-        let distance = longest.min(1.2 * ahead.max(stretch.slack));
-        self.force.longest_step(self.t).min(distance / speed)
     }
 }
 

@@ -84,10 +84,10 @@ struct Look {
     missed: Missed,
 }
 
-/// The Jacobian, factored.
-enum Jacobian {
-    Plain(Factors),
-    Limited(Box<LimitedFactors>),
+/// The Jacobian, factored: one of the two.
+struct Jacobian {
+    plain: Option<Factors>,
+    limited: Option<LimitedFactors>,
 }
 
 impl<'a> StageEquations<'a> {
@@ -131,15 +131,16 @@ impl<'a> StageEquations<'a> {
         let Unknowns { mut displacement, mut height } = guess;
         let mut previous = f64::INFINITY;
         let mut ratio = 1.0;
-        let mut jacobian = None;
+        let mut jacobian = Jacobian { plain: None, limited: None };
         let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
         for iterations in 1..=MOST_ITERATIONS {
             let look = self.look(memory, &displacement, &height);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
-                jacobian = self.jacobian(&look, &height);
+                self.factor(&mut jacobian, &look, &height);
             }
-            let Some(jacobian) = &jacobian else { return Solved { iterations, solution: None } };
-            let correction = jacobian.corrections(&look.missed);
+            let Some(correction) = jacobian.corrections(&look.missed) else {
+                return Solved { iterations, solution: None };
+            };
             let mut size = largest(&correction.displacement);
             for (d, c) in displacement.iter_mut().zip(correction.displacement) {
                 *d -= c;
@@ -178,18 +179,17 @@ impl<'a> StageEquations<'a> {
         Solution { displacement, height, spent, curvature_at_end }
     }
 
-    fn jacobian(&self, look: &Look, height: &Stages) -> Option<Jacobian> {
+    /// Factors the Jacobian afresh.
+    fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
         let known = &look.known;
-        match (&self.depth, &look.own_height) {
-            (Some(depth), Some(own_height)) => depth
-                .factors(&self.equations, height, known, (&look.own, own_height))
-                .map(|factors| Jacobian::Limited(Box::new(factors))),
-            _ => {
-                let curvatures = (&known.past_curvature, &known.relief_curvature);
-                let matrix: Matrix = self.equations.jacobian(curvatures.0, curvatures.1, &look.own);
-                Factors::of(matrix).map(Jacobian::Plain)
-            }
+        if let (Some(depth), Some(own_height)) = (&self.depth, &look.own_height) {
+            let own = (&look.own, own_height);
+            jacobian.limited = depth.factors(&self.equations, height, known, own);
+            return;
         }
+        let (past, relief) = (&known.past_curvature, &known.relief_curvature);
+        let matrix: Matrix = self.equations.jacobian(past, relief, &look.own);
+        jacobian.plain = Factors::of(matrix);
     }
 
     #[inline]
@@ -216,9 +216,9 @@ impl<'a> StageEquations<'a> {
             groove = groove.with_height(&mut known.past_height);
         }
         memory.groove(d, &mut groove);
-        for i in 0..STAGES {
-            (known.relief_slope[i], known.relief_curvature[i]) =
-                self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
+        let relief = known.relief_slope.iter_mut().zip(&mut known.relief_curvature);
+        for ((slope, curvature), d) in relief.zip(d) {
+            (*slope, *curvature) = self.surface.slope_and_curvature_on(self.stretch, self.x + d);
         }
         if self.depth.is_some() {
             known.relief_height = d.map(|d| self.surface.height_on(self.stretch, self.x + d));
@@ -231,15 +231,14 @@ impl<'a> StageEquations<'a> {
 }
 
 impl Jacobian {
+    /// `None` where it is singular.
     #[inline]
-    fn corrections(&self, missed: &Missed) -> Missed {
-        match self {
-            Self::Plain(factors) => {
-                let displacement = factors.solve(&missed.displacement);
-                Missed { displacement, height: [0.0; STAGES] }
-            }
-            Self::Limited(factors) => factors.corrections(missed),
+    fn corrections(&self, missed: &Missed) -> Option<Missed> {
+        if let Some(limited) = &self.limited {
+            return Some(limited.corrections(missed));
         }
+        let displacement = self.plain.as_ref()?.solve(&missed.displacement);
+        Some(Missed { displacement, height: [0.0; STAGES] })
     }
 }
 

@@ -5,7 +5,7 @@ use crate::{History, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
-use stickslip_tip::{Heights, STEP_NUMBERS, Step, Support, Trajectory, Work, nodes_and_weights};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Work, nodes_and_weights};
 
 /// One line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -83,8 +83,8 @@ pub struct LineHistory {
 pub struct KeptLine {
     /// Counted from 0.
     pub index: usize,
-    /// The numbers of each step, all of them: what follows is the same to the last bit.
-    pub steps: Vec<[f64; STEP_NUMBERS]>,
+    /// Start, duration, extension and displacements of each step, to the last bit.
+    pub steps: Vec<[f64; 3 + STAGES]>,
     /// The heights of each step, where there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heights: Option<Vec<Vec<f64>>>,
@@ -193,7 +193,7 @@ impl KeptLine {
         let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
         Self {
             index,
-            steps: steps.iter().map(Step::numbers).collect(),
+            steps: steps.iter().map(numbers).collect(),
             heights: steps.iter().map(heights).collect(),
             work: [done, rejected, newton_iterations],
         }
@@ -217,7 +217,7 @@ impl KeptLine {
 
     /// `None` if there are none, or not as many heights.
     fn steps(&self) -> Option<Vec<Step>> {
-        let steps = self.steps.iter().map(|step| Step::from_numbers(*step));
+        let steps = self.steps.iter().map(step);
         let steps: Vec<Step> = match &self.heights {
             None => steps.collect(),
             Some(heights) if heights.len() == self.steps.len() => {
@@ -232,6 +232,20 @@ impl KeptLine {
         };
         (!steps.is_empty()).then_some(steps)
     }
+}
+
+/// All of a step but its heights.
+fn numbers(step: &Step) -> [f64; 3 + STAGES] {
+    let mut numbers = [0.0; 3 + STAGES];
+    numbers[..3].copy_from_slice(&[step.t, step.h, step.extension]);
+    numbers[3..].copy_from_slice(&step.displacement);
+    numbers
+}
+
+/// The step again.
+fn step(numbers: &[f64; 3 + STAGES]) -> Step {
+    let [t, h, extension, displacement @ ..] = *numbers;
+    Step { t, h, extension, displacement, height: None }
 }
 
 impl From<LineRegime> for LineRegimeName {

@@ -39,7 +39,7 @@ check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) bench --workspace --locked --no-run
 
-outputs: ## do two builds write the same bytes: OLD=path of the other program
+outputs: ## do two builds write the same, but for the changes in tests/outputs: OLD=path of the other program
 	$(CARGO) build --release --locked
 	tests/outputs/compare.py $(OLD) target/release/stickslip
 

@@ -1,25 +1,31 @@
 #!/usr/bin/env python3
-"""Do two builds of stickslip write the same bytes?
+"""Do two builds of stickslip write the same bytes, but for what was meant?
 
-    tests/outputs/compare.py OLD NEW [COMMANDS]
+    tests/outputs/compare.py OLD NEW [COMMANDS [CHANGES]]
 
 Runs every line of commands.txt with both programs, each in a folder of its own, and compares what they print and
-each file that they write. Times (`seconds`) may differ, and pictures are not compared. JSON that differs is taken
-apart: the fields that only one side has, and those whose value differs, are named. The exit status is 1 if
-anything differs, so that a documented change can be told from one that nobody meant.
+each file that they write. Times (`seconds`) may differ, and pictures are not compared. What differs is taken apart:
+JSON into its fields, JSON Lines, CSV and NumPy archives into their columns; numbers by how much. changes.txt says
+which change explains which of it, and lets nothing else pass: the exit status is 1 if anything is left.
 """
 
+import ast
+import collections
+import csv
+import io
 import json
+import math
 import pathlib
 import re
 import shlex
+import struct
 import subprocess
 import sys
 import tempfile
 import zipfile
 
 HERE = pathlib.Path(__file__).parent
-SECONDS = re.compile(rb'"([a-z_]*seconds|speedup)":[-+.0-9eE]+')
+TIMES = re.compile(r"(seconds|speedup)$")
 
 INPUTS = {
     "surface.csv": "x,u\n" + "".join(f"{x},{0.02 * (x % 3) - 0.02}\n" for x in range(20, 60)),
@@ -28,6 +34,39 @@ INPUTS = {
     "tip.json": '{"gaussians":[{"amplitude":1,"center":0,"width":1},{"amplitude":-0.3,"center":2,"width":0.8},'
     '{"amplitude":-0.3,"center":-2,"width":0.8}]}\n',
 }
+
+# One thing that differs: the command line, the file (or "printed"), what of it (a field, a column; "status"), how
+# ("without" and "with": only one side has it; "changed"), and of numbers by how much, over the largest of them.
+Difference = collections.namedtuple("Difference", "line file field how size")
+
+
+class Change:
+    """A documented change: the differences that it explains."""
+
+    def __init__(self, text):
+        head, *rules = text.splitlines()
+        self.cause, self.seen, self.lines, self.largest = head.strip(), 0, set(), 0.0
+        self.rules = []
+        for rule in rules:
+            words = rule.split()
+            within = float(words.pop().removeprefix("within=")) if words[-1].startswith("within=") else None
+            how, where, field = words
+            self.rules.append((how, re.compile(where), re.compile(field), within))
+
+    def explains(self, d):
+        for how, where, field, within in self.rules:
+            small = within is None or (d.size is not None and d.size <= within)
+            if how in ("any", d.how) and where.search(f"{d.line} > {d.file}") and field.fullmatch(d.field) and small:
+                self.seen += 1
+                self.lines.add(d.line)
+                self.largest = max(self.largest, d.size or 0.0)
+                return True
+        return False
+
+
+def changes(path):
+    text = "\n".join(line for line in path.read_text().splitlines() if not line.startswith("#"))
+    return [Change(part) for part in re.split(r"\n\s*\n", text.strip()) if part.strip()]
 
 
 def run(program, line, folder):
@@ -39,50 +78,113 @@ def files(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def members(data):
-    with tempfile.NamedTemporaryFile() as file:
-        file.write(data)
-        file.flush()
-        with zipfile.ZipFile(file.name) as archive:
-            return {name: archive.read(name) for name in archive.namelist()}
-
-
 def leaves(value, at=""):
+    """The fields of a JSON value, each with all that it holds; entries of a list of objects are one field."""
+    found = collections.defaultdict(list)
     if isinstance(value, dict):
-        return {k: v for key, inner in value.items() for k, v in leaves(inner, f"{at}.{key}").items()}
-    if isinstance(value, list) and any(isinstance(v, dict) for v in value):
-        return {k: v for i, inner in enumerate(value) for k, v in leaves(inner, f"{at}[{i}]").items()}
-    return {at: value}
+        for key, inner in value.items():
+            for name, values in leaves(inner, f"{at}.{key}" if at else key).items():
+                found[name] += values
+    elif isinstance(value, list) and any(isinstance(v, dict) for v in value):
+        for inner in value:
+            for name, values in leaves(inner, f"{at}[]").items():
+                found[name] += values
+    elif isinstance(value, list):
+        found[at] += value
+    else:
+        found[at].append(value)
+    return found
 
 
-def difference(old, new):
-    """What differs between two outputs, in words; None if nothing does."""
-    old, new = SECONDS.sub(b"", old), SECONDS.sub(b"", new)
-    if old == new:
-        return None
-    if old[:2] == b"PK" and new[:2] == b"PK":
-        old, new = members(old), members(new)
-        names = [n for n in old.keys() | new.keys() if old.get(n) != new.get(n)]
-        return f"arrays {', '.join(sorted(names))}" if names else None
+def array(data):
+    """A .npy as a list of numbers, or as its bytes."""
+    length = struct.unpack("<H", data[8:10])[0]
+    header = ast.literal_eval(data[10:10 + length].decode())
+    kind = {"<f8": "d", "|u1": "B", "<i8": "q", "<u8": "Q"}.get(header["descr"])
+    body = data[10 + length:]
+    if kind is None:
+        return [body]
+    return [v[0] for v in struct.iter_unpack(f"<{kind}", body)]
+
+
+def number(text):
     try:
-        # Not `loads` of what is left: with the times their commas are gone.
-        old, new = (leaves(json.loads(re.sub(rb",(?=[}\]])|(?<=[{\[]),|,(?=,)", b"", d))) for d in (old, new))
+        return float(text)
     except ValueError:
-        return "bytes"
-    plain = lambda field: re.sub(r"\[\d+\]", "[]", field)
-    gone = {plain(k) for k in old.keys() - new.keys()}
-    come = {plain(k) for k in new.keys() - old.keys()}
-    changed = {plain(k) for k in old.keys() & new.keys() if old[k] != new[k]}
-    told = [f"{what} {', '.join(sorted(which))}" for what, which in
-            (("without", gone), ("with", come), ("changed", changed)) if which]
-    return "; ".join(told) or "order of fields"
+        return text or None
+
+
+def parts(name, data):
+    """What is in an output, by name; None for what is not known."""
+    if data[:2] == b"PK":
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return {n.removesuffix(".npy"): array(archive.read(n)) for n in archive.namelist()}
+    text = data.decode(errors="replace")
+    if name.endswith(".csv"):
+        rows = list(csv.reader(io.StringIO(text)))
+        columns = zip(*rows) if rows else []
+        return {column[0]: [number(v) for v in column[1:]] for column in columns}
+    if name.endswith(".jsonl"):
+        return leaves([json.loads(line) for line in text.splitlines()], "line")
+    try:
+        return leaves(json.loads(text))
+    except ValueError:
+        return None
+
+
+def size(old, new):
+    """The largest difference of two lists of numbers, over the largest number; None where they are not."""
+    if len(old) != len(new):
+        return None
+    largest, scale = 0.0, 0.0
+    for a, b in zip(old, new):
+        if a == b or (a != a and b != b):
+            continue
+        if not all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in (a, b)):
+            return None
+        if not (math.isfinite(a) and math.isfinite(b)):
+            return None
+        largest = max(largest, abs(a - b))
+    scale = max((abs(v) for v in old + new if isinstance(v, (int, float)) and math.isfinite(v)), default=0.0)
+    return largest / scale if scale else 0.0
+
+
+def differences(line, name, old, new):
+    if old == new:
+        return
+    a, b = parts(name, old), parts(name, new)
+    if a is None or b is None:
+        yield Difference(line, name, "bytes", "changed", None)
+        return
+    for field in dict.fromkeys([*a, *b]):
+        if TIMES.search(field):
+            continue
+        if field not in a or field not in b:
+            yield Difference(line, name, field, "without" if field in a else "with", None)
+        # By what is printed of them: -0 is not 0.
+        elif [repr(v) for v in a[field]] != [repr(v) for v in b[field]]:
+            yield Difference(line, name, field, "changed", size(a[field], b[field]))
+
+
+def compared(line, programs, places):
+    before = [files(place) for place in places]
+    outputs = [run(program, line, place) for program, place in zip(programs, places)]
+    if outputs[0].returncode != outputs[1].returncode:
+        yield Difference(line, "status", f"{outputs[0].returncode}, now {outputs[1].returncode}", "changed", None)
+    yield from differences(line, "printed", *(o.stdout for o in outputs))
+    a, b = map(files, places)
+    for name in sorted(a.keys() | b.keys()):
+        is_new = (a.get(name), b.get(name)) != (before[0].get(name), before[1].get(name))
+        if is_new and not name.endswith((".svg", ".png", ".pdf")):
+            yield from differences(line, name, a.get(name, b""), b.get(name, b""))
 
 
 def main():
-    old, new = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
-    lines = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else HERE / "commands.txt").read_text().splitlines()
-    lines = [line for line in lines if line.strip() and not line.startswith("#")]
-    different = 0
+    programs = [str(pathlib.Path(p).resolve()) for p in sys.argv[1:3]]
+    commands = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else HERE / "commands.txt")
+    known = changes(pathlib.Path(sys.argv[4] if len(sys.argv) > 4 else HERE / "changes.txt"))
+    lines = [line for line in commands.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    same, left = 0, []
     with tempfile.TemporaryDirectory() as folder:
         places = [pathlib.Path(folder, side) for side in ("old", "new")]
         for place in places:
@@ -90,26 +192,20 @@ def main():
             for name, text in INPUTS.items():
                 (place / name).write_text(text)
         for line in lines:
-            before = [files(place) for place in places]
-            outputs = [run(program, line, place) for program, place in zip((old, new), places)]
-            told = []
-            if outputs[0].returncode != outputs[1].returncode:
-                told.append(f"status {outputs[0].returncode}, now {outputs[1].returncode}: "
-                            + outputs[1].stderr.decode(errors="replace").strip()[:200])
-            printed = difference(*(o.stdout for o in outputs))
-            told += [f"printed: {printed}"] if printed else []
-            a, b = map(files, places)
-            written = [name for name in sorted(a.keys() | b.keys())
-                       if (a.get(name), b.get(name)) != (before[0].get(name), before[1].get(name))]
-            for name in written:
-                if not name.endswith((".svg", ".png", ".pdf")):
-                    what = difference(a.get(name, b""), b.get(name, b""))
-                    told += [f"{name}: {what}"] if what else []
-            if told:
-                different += 1
-                print(f"{line}\n    " + "\n    ".join(told))
-    print(f"{len(lines) - different} of {len(lines)} command lines give the same bytes")
-    return 1 if different else 0
+            found = list(compared(line, programs, places))
+            same += not found
+            left += [d for d in found if not any([change.explains(d) for change in known])]
+    for line in dict.fromkeys(d.line for d in left):
+        print(line)
+        for d in (d for d in left if d.line == line):
+            print(f"    {d.file}: {d.field} {d.how}" + (f" by {d.size:.1e}" if d.size is not None else ""))
+    unexplained = len({d.line for d in left})
+    print(f"{len(lines)} command lines: {same} the same bytes, {len(lines) - same - unexplained} the same but for:")
+    for change in known:
+        most = f", by at most {change.largest:.1e}" if change.largest else ""
+        print(f"  {len(change.lines):3} {change.cause}{most}" if change.seen else f"    - {change.cause}: not seen")
+    print(f"{unexplained} that nothing explains")
+    return 1 if left else 0
 
 
 if __name__ == "__main__":

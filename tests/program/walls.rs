@@ -212,3 +212,24 @@ fn no_file_is_too_long_to_be_one_idea() {
         assert!(lines <= LONGEST, "{}: {lines} lines", file.display());
     }
 }
+
+/// A library that is not compiled for tests of its own has none that would never run.
+#[test]
+fn no_unit_test_is_dead() {
+    let mut without = 0;
+    for folder in crates() {
+        let manifest = folder.parent().unwrap().join("Cargo.toml");
+        let Ok(manifest) = fs::read_to_string(manifest) else { continue };
+        if !manifest.lines().any(|line| line == "test = false") {
+            continue;
+        }
+        without += 1;
+        let mut files = vec![];
+        sources(&folder, &mut files);
+        for file in files {
+            let text = fs::read_to_string(&file).unwrap();
+            assert!(!text.contains("#[test]"), "{}", file.display());
+        }
+    }
+    assert!(without > 0);
+}

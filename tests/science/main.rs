@@ -10,6 +10,7 @@ mod continuation;
 mod convergence;
 mod corrections;
 mod cycles;
+mod documents;
 mod grids_converge;
 mod memories_agree;
 mod properties;

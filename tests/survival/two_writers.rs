@@ -69,8 +69,8 @@ fn pairs() -> Vec<Pair> {
         ),
         pair(
             "figures",
-            ["figures --only fig2,fig7 --out-dir .", "figures --only fig2,fig7 --out-dir ."],
-            &["fig2.svg", "fig7.json"],
+            ["figures --only fig2,fig6 --out-dir .", "figures --only fig2,fig6 --out-dir ."],
+            &["fig2.svg", "fig6.json"],
         ),
         resumed(
             "resumed lines",

@@ -14,6 +14,7 @@ use stickslip_documents::{
     ResponseSamples, Software,
 };
 use stickslip_stability::{Response, ResponseMode, response as respond};
+use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, Pulse, Scenario, TipFunction};
 
 /// What the modes left out may add, relative to the leading one, where the sum counts as valid.
@@ -91,12 +92,10 @@ impl Asked {
             return Ok(self.origin + over);
         }
         let doubled = (0..60).map(|n| 0.01 * 2.0_f64.powi(n)).find(|d| fading(over + d));
-        let (mut low, mut high) = (0.0, doubled.unwrap_or(0.0));
-        while high - low > 1e-3 * high {
-            let middle = 0.5 * (low + high);
-            if fading(over + middle) { high = middle } else { low = middle }
-        }
-        Ok(self.origin + over + high)
+        let is_narrow = |(low, high): (f64, f64)| high - low <= 1e-3 * high;
+        let lasts = |longer: f64| !fading(over + longer);
+        let (_, longer) = bisected((0.0, doubled.unwrap_or(0.0)), lasts, is_narrow);
+        Ok(self.origin + over + longer)
     }
 }
 
@@ -176,7 +175,7 @@ const SMALL: f64 = 0.01;
 /// Where linear theory is not what the tip does.
 fn beyond_linear(asked: &Asked, response: &Response, samples: &ResponseSamples) -> Vec<String> {
     let largest = samples.deviation.iter().flatten().fold(0.0, |most: f64, d| most.max(d.abs()));
-    let widths = largest * asked.model.tip().band() / 8.7;
+    let widths = largest / asked.model.tip().widths(1.0);
     let strong = (widths > SMALL).then(|| {
         format!(
             "samples: l leaves l0 by up to {widths:.1e} widths of the tip; linear theory is off by about that part \

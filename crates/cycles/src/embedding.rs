@@ -3,7 +3,7 @@
 use super::{CycleError, lattice};
 use std::sync::Arc;
 use stickslip_tip::memory::{Fit, FitError, accuracy_needed};
-use stickslip_tip::{Model, TipFunction};
+use stickslip_tip::{Model, TipFunction, tip_function};
 
 /// (18) with f'(ξ) = `Σ_j Re(w_j e^{s_j ξ})` on the side of the past.
 ///
@@ -91,7 +91,7 @@ impl Embedding {
 
     /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.
     pub(super) fn width(&self) -> f64 {
-        8.7 / self.band
+        tip_function::widths(1.0, self.band)
     }
 
     /// How far back from the farthest point reached the sums still hold.

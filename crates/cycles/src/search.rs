@@ -165,7 +165,7 @@ impl Search {
         };
         let small = equation.as_ref().and_then(|e| born(e, model, critical));
         if !small.is_some_and(&mut take) {
-            let width = equation.as_ref().map_or(8.7 / model.tip().band(), Embedding::width);
+            let width = equation.as_ref().map_or(model.tip().widths(1.0), Embedding::width);
             found.ended = from_runs(model, (width, critical.period), take)?;
         }
         unless_stopped(found)

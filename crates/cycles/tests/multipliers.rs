@@ -26,8 +26,10 @@ struct PeriodMap {
     points: usize,
     past: usize,
     h: f64,
-    /// α h f''(x0(t_i) - x0(t_i - (j+1)h)) by i, j.
+    /// α h f''(x0(t_i) - x0(t_i - (j+1)h)) in column i, row j,
     kernel: DMatrix<f64>,
+    /// and the sums of its columns.
+    stiffness: Vec<f64>,
 }
 
 impl PeriodMap {
@@ -41,11 +43,12 @@ impl PeriodMap {
             let (round, i) = (i.div_euclid(points as isize), i.rem_euclid(points as isize));
             within[i as usize] + round as f64 * r * period
         };
-        let kernel = DMatrix::from_fn(points, past, |i, j| {
+        let kernel = DMatrix::from_fn(past, points, |j, i| {
             let distance = x(i as isize) - x(i as isize - 1 - j as isize);
             cycle.model().alpha() * h * tip.slope_and_curvature(distance).1
         });
-        Self { points, past, h, kernel }
+        let stiffness = kernel.column_iter().map(|column| column.sum()).collect();
+        Self { points, past, h, kernel, stiffness }
     }
 
     /// A past, the latest value last, one period later.
@@ -53,10 +56,11 @@ impl PeriodMap {
         let mut values = past.as_slice().to_vec();
         // δ' = -a δ + b
         let rate = |i: usize, values: &[f64]| {
-            let row = self.kernel.row(i % self.points);
+            let i = i % self.points;
+            let column = self.kernel.column(i);
             let latest = values.iter().rev().take(self.past);
-            let fed: f64 = row.iter().zip(latest).map(|(k, v)| k * v).sum();
-            (1.0 - row.sum(), -fed)
+            let fed: f64 = column.iter().zip(latest).map(|(k, v)| k * v).sum();
+            (1.0 - self.stiffness[i], -fed)
         };
         let (mut a, mut b) = rate(0, &values[..values.len() - 1]);
         for i in 0..self.points {

@@ -249,7 +249,7 @@ impl End<'_> {
 
     /// Swings below this may be those of linear theory.
     fn small(&self) -> f64 {
-        SMALL * 8.7 / self.scenario.model.tip().band()
+        self.scenario.model.tip().widths(SMALL)
     }
 
     /// Near a stable cycle: on it, as near as the tolerance lets the run come, or on the way.

@@ -40,7 +40,7 @@ impl Observer {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let Scenario { model, tolerance, .. } = scenario;
-        let most = STEADY_AT_MOST * 8.7 / model.tip().band();
+        let most = model.tip().widths(STEADY_AT_MOST);
         Self {
             r: model.r(),
             support: scenario.support(),

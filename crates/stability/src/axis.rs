@@ -6,6 +6,7 @@ use super::transform::CurvatureTransform;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use stickslip_tip::TipFunction;
+use stickslip_tip::roots::zero_between;
 
 /// Samples per period of the fastest ripple that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 8.0;
@@ -124,24 +125,18 @@ impl Axis {
         left: (f64, (f64, f64)),
         right: (f64, (f64, f64)),
     ) -> Vec<AxisPoint> {
-        let (mut lo, mut hi) = (left, right);
-        for _ in 0..60 {
-            let middle = 0.5 * (lo.0 + hi.0);
-            let at = (middle, g(&self.at(middle)));
-            if at.1.0 * left.1.0 <= 0.0 {
-                return vec![self.refine(g, left, at), self.refine(g, at, right)];
-            }
-            if at.1.1 * left.1.1 > 0.0 {
-                lo = at
-            } else {
-                hi = at
-            }
-            // The slopes at either side fall towards the extremum: it is out of reach of zero.
-            if at.1.0.abs() > 2.0 * (lo.1.1.abs() + hi.1.1.abs()) * (hi.0 - lo.0) {
-                break;
-            }
+        // The slopes at either side fall towards the extremum: it is out of reach of zero.
+        let reach = 2.0 * (left.1.1.abs() + right.1.1.abs()) * (right.0 - left.0);
+        if left.1.0.abs().min(right.1.0.abs()) > reach {
+            return Vec::new();
         }
-        Vec::new()
+        let slope = |wave_number: f64| g(&self.at(wave_number)).1;
+        let extremum = zero_between(slope, left.0, right.0);
+        let at = (extremum, g(&self.at(extremum)));
+        if at.1.0 * left.1.0 > 0.0 {
+            return Vec::new();
+        }
+        vec![self.refine(g, left, at), self.refine(g, at, right)]
     }
 
     /// Newton's method kept within a bracket by bisection (Press et al., Numerical Recipes, 9.4).

@@ -13,6 +13,7 @@ use super::newton::polish;
 use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{CurvatureTransform, Scaled};
 use num_complex::Complex64;
+use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, TipFunction};
 
 /// The creep that the equations allow at given α and r.
@@ -106,11 +107,7 @@ fn bessel(kappa: f64) -> Spectrum {
 fn cubic([a, b, c]: [f64; 3]) -> [Complex64; 3] {
     let value = |z: f64| ((z + a) * z + b) * z + c;
     let bound = 1.0 + a.abs().max(b.abs()).max(c.abs());
-    let (mut low, mut high) = (-bound, bound);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if value(middle) < 0.0 { low = middle } else { high = middle }
-    }
+    let (low, high) = bisected((-bound, bound), |z| value(z) < 0.0, |_| false);
     let z = 0.5 * (low + high);
     let (p, q) = (a + z, b + z * (a + z));
     let root = Complex64::new(0.25 * p * p - q, 0.0).sqrt();

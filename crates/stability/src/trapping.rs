@@ -7,6 +7,7 @@ use super::StabilityError;
 use super::transform::CurvatureTransform;
 use num_complex::Complex64;
 use stickslip_tip::TipFunction;
+use stickslip_tip::roots::bisected;
 
 /// Samples of ln p in the search for the largest Q.
 const SAMPLES: u32 = 400;
@@ -49,15 +50,10 @@ impl Push {
         let sample = |i: u32| self.slowest * ratio.powi(i.cast_signed());
         let highest =
             (0..=SAMPLES).map(sample).max_by(|a, b| self.q(*a).0.total_cmp(&self.q(*b).0))?;
-        let (mut lo, mut hi) = (highest / ratio, highest * ratio);
-        while hi - lo > 4.0 * f64::EPSILON * hi {
-            let middle = 0.5 * (lo + hi);
-            if middle <= lo || middle >= hi {
-                break;
-            }
-            if self.q(middle).1 > 0.0 { lo = middle } else { hi = middle }
-        }
-        let q = self.q(lo).0;
-        (q > 0.0).then_some((lo, q))
+        let rises = |p: f64| self.q(p).1 > 0.0;
+        let is_narrow = |(low, high): (f64, f64)| high - low <= 4.0 * f64::EPSILON * high;
+        let (p, _) = bisected((highest / ratio, highest * ratio), rises, is_narrow);
+        let q = self.q(p).0;
+        (q > 0.0).then_some((p, q))
     }
 }

@@ -42,7 +42,9 @@ struct SteadyPast {
     /// s = 1/(rT), 0 where nothing heals.
     fading: f64,
     position: f64,
+    /// Ahead of it and behind, where it has a slope.
     reach: f64,
+    behind: f64,
 }
 
 /// A stretch of x on which a relief is one smooth function.
@@ -57,6 +59,8 @@ pub(crate) struct Piece {
     pub(crate) index: Option<usize>,
 }
 
+/// No step looks farther (`memory::longest_look`).
+const FARTHEST_LOOK: f64 = 12.0;
 /// A knot within this fraction of an interval counts as reached,
 const AT_A_KNOT: f64 = 1e-9;
 /// or within this many roundings of x; but never within more than this fraction of an interval.
@@ -77,7 +81,9 @@ impl Relief {
         let tip = model.tip().clone();
         let reach = tip.reach().unwrap_or(f64::INFINITY);
         let (depth, fading) = (model.steady_density(), model.fading());
-        Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach }))
+        // Where it fades, the slope goes on behind the reach of f.
+        let behind = if fading > 0.0 { f64::INFINITY } else { reach };
+        Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach, behind }))
     }
 
     /// The cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
@@ -139,6 +145,7 @@ impl Relief {
     }
 
     /// Those of the function that it is on a piece, wherever x is.
+    #[inline]
     pub(crate) fn slope_and_curvature_on(&self, piece: Option<usize>, x: f64) -> (f64, f64) {
         match (&self.0, piece) {
             (Shape::SteadyPast(past), _) => past.slope_and_curvature(x),
@@ -177,6 +184,15 @@ impl Relief {
         }
     }
 
+    /// Whether it has neither slope nor height as far as a step from x may look, on this piece.
+    pub(crate) fn is_flat_about(&self, piece: &Piece, x: f64) -> bool {
+        match &self.0 {
+            Shape::SteadyPast(past) => x - past.position > past.reach + FARTHEST_LOOK,
+            Shape::Spline(_) => piece.index.is_none(),
+            Shape::OnLattice(_) => false,
+        }
+    }
+
     /// The piece that a tip at x is on, or about to enter if it is at a break; x is known to `accuracy`.
     pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
         let Shape::Spline(spline) = &self.0 else { return Piece::EVERYWHERE };
@@ -191,25 +207,31 @@ impl Relief {
 }
 
 impl SteadyPast {
-    /// Whether it has a slope at x: where it fades, everywhere behind too.
+    #[inline]
     fn covers(&self, x: f64) -> bool {
         let ahead = x - self.position;
-        ahead < self.reach && (self.fading > 0.0 || -ahead < self.reach)
+        ahead < self.reach && -ahead < self.behind
+    }
+
+    /// φ' = sφ - f, of which the height is -depth φ.
+    #[cold]
+    fn fading_slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        let s = self.fading;
+        let steep = self.tip.value(x) - s * self.tip.fading_tail(x, s);
+        (self.depth * steep, self.depth * (self.tip.slope(x) + s * steep))
     }
 
     fn height(&self, x: f64) -> f64 {
         -self.depth * self.tip.fading_tail(x - self.position, self.fading)
     }
 
+    #[inline]
     fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        if self.covers(x) && self.fading > 0.0 {
-            // φ' = sφ - f, of which the height is -depth φ.
-            let (x, s) = (x - self.position, self.fading);
-            let steep = self.tip.value(x) - s * self.tip.fading_tail(x, s);
-            return (self.depth * steep, self.depth * (self.tip.slope(x) + s * steep));
-        }
         if !self.covers(x) {
             return (0.0, 0.0);
+        }
+        if self.fading > 0.0 {
+            return self.fading_slope_and_curvature(x - self.position);
         }
         let slope = self.tip.slope(x - self.position);
         (self.depth * self.tip.value(x - self.position), self.depth * slope)

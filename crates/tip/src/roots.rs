@@ -36,13 +36,28 @@ pub fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
 }
 
 /// The same by halving the bracket: slower, but it ends at the sign change whatever the function is like.
-pub fn halved_between(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub fn halved_between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let sign = f(low).signum();
-    for _ in 0..MOST_ITERATIONS {
-        let middle = 0.5 * (low + high);
-        *(if f(middle) * sign > 0.0 { &mut low } else { &mut high }) = middle;
-    }
+    let mut halvings = 0..MOST_ITERATIONS;
+    let (low, high) = bisected((low, high), |x| f(x) * sign > 0.0, |_| halvings.next().is_none());
     0.5 * (low + high)
+}
+
+/// A bracket of the place where a property is lost, from what has it to what has not, halved until it is narrow, or
+/// until no number lies within.
+pub fn bisected(
+    (mut has, mut has_not): (f64, f64),
+    is_before: impl Fn(f64) -> bool,
+    mut is_narrow: impl FnMut((f64, f64)) -> bool,
+) -> (f64, f64) {
+    while !is_narrow((has, has_not)) {
+        let middle = 0.5 * (has + has_not);
+        if middle.to_bits() == has.to_bits() || middle.to_bits() == has_not.to_bits() {
+            break;
+        }
+        *(if is_before(middle) { &mut has } else { &mut has_not }) = middle;
+    }
+    (has, has_not)
 }
 
 #[cfg(test)]

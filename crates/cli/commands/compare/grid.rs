@@ -11,10 +11,11 @@ use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Path, Problem, Request, Run, Start, Stepping, Wider,
     solve_observed,
 };
+use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 use stickslip_tip::{InitialSurface, Scenario, TipFunction};
 
-/// π/8.7 widths: the widest lattice that is exact to round-off.
-const EXACT: f64 = std::f64::consts::PI / 8.7;
+/// The widest lattice that is exact to round-off, in widths.
+const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
 /// Of the second-order grids, in widths.
 const SECOND_ORDER: f64 = 0.01;
 /// Cells on either side that a sinc reaches over, for round-off.

@@ -28,7 +28,7 @@ pub(super) fn at_onset(
     let hopf = Special { kind: SpecialKind::Hopf, alpha, r, period: born.period, cycle: None };
     let lost = CycleError::NotConverged { alpha, r };
     let model = Model::new(tip.clone(), alpha, r).map_err(|_| lost.clone())?;
-    let closed = small(settings, &model, born.period, FIRST_AMPLITUDE * 8.7 / tip.band())?;
+    let closed = small(settings, &model, born.period, tip.widths(FIRST_AMPLITUDE))?;
     let place = Place::new(closed, settings.over, &Direction::L).ok_or(lost)?;
     Ok((hopf, place))
 }

@@ -89,6 +89,7 @@ impl Control {
     /// As long as the groove's `stiffness` is small against 1/h, the error follows from the defect, which
     /// is δ N(τ)/N(0), N vanishing at the nodes. Where it is large, the stages are exact, velocities are
     /// not, and the stage polynomial errs by interpolation.
+    #[inline]
     pub(super) fn judge(
         &mut self,
         (defect, interpolation): (f64, f64),

@@ -225,7 +225,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let enough = ENOUGH * self.control.target();
         let (surface, force) = ((self.surface, &self.stretch), self.force);
         let model = (self.model, &self.apex);
-        let equations = StageEquations::new(model, surface, force, self.begin(h));
+        let mass = self.model.wider().inertia;
+        let inertia = mass.map(|mass| step::Inertia::new(mass, h, self.velocity));
+        let begin = self.begin(h);
+        let equations = StageEquations::new(model, surface, force, begin, inertia.as_ref());
         let look = longest_look(self.model.tip());
         let solved = equations.solve(&mut self.memory, guess, enough, look);
         self.work.newton_iterations += solved.iterations;
@@ -257,7 +260,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             h,
             x: self.position(),
             extension: self.extension,
-            velocities: (self.velocity, self.support.velocity(self.t)),
+            velocity: self.support.velocity(self.t),
             side: self.corner.map_or(0.0, |corner| corner.side),
             age: self.t - self.start,
         }

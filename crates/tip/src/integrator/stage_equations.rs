@@ -5,7 +5,8 @@ use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Memory};
 use crate::step::{
-    Depth, Equations, Factors, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove, OwnHeight,
+    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove,
+    OwnHeight,
 };
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
@@ -18,7 +19,7 @@ pub(super) struct StageEquations<'a> {
     stretch: &'a Stretch,
     /// Position of the tip at the start of the step.
     x: f64,
-    equations: Equations,
+    equations: Equations<'a>,
     depth: Option<Depth>,
     left: Option<Left>,
 }
@@ -32,8 +33,8 @@ pub(super) struct Begin {
     pub(super) x: f64,
     /// R - x0
     pub(super) extension: f64,
-    /// Of the tip, and of the support.
-    pub(super) velocities: (f64, f64),
+    /// Velocity of the support.
+    pub(super) velocity: f64,
     /// Side of the corner of |h|.
     pub(super) side: f64,
     /// Time since the start of the run.
@@ -80,8 +81,20 @@ const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 struct Look {
     known: Known,
     own: OwnGroove,
-    own_height: Option<OwnHeight>,
+    own_height: OwnHeight,
     missed: Missed,
+}
+
+impl Look {
+    fn nothing() -> Self {
+        let zero = [0.0; STAGES];
+        Self {
+            known: Known::nothing(),
+            own: OwnGroove::nothing(),
+            own_height: OwnHeight::nothing(),
+            missed: Missed { displacement: zero, height: zero },
+        }
+    }
 }
 
 /// The Jacobian, factored: one of the two.
@@ -92,14 +105,16 @@ struct Jacobian {
 
 impl<'a> StageEquations<'a> {
     /// For the step that begins so.
+    #[inline]
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
         (surface, stretch): (&'a InitialSurface, &'a Stretch),
         force: &Force,
         begin: Begin,
+        inertia: Option<&'a Inertia>,
     ) -> Self {
-        let Begin { t, h, x, extension, velocities, side, age } = begin;
-        let (law, wider) = (Law { r: velocities.1, ..Law::of(model) }, model.wider());
+        let Begin { t, h, x, extension, velocity, side, age } = begin;
+        let (law, wider) = (Law { r: velocity, ..Law::of(model) }, model.wider());
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
         let mut pull = law.pull(extension, h);
@@ -107,14 +122,16 @@ impl<'a> StageEquations<'a> {
             *pull += force.value((t + h * c).min(last));
         }
         let mut equations = Equations::new(law, h, pull);
-        let left = wider.healing_time.map(|time| {
-            equations = equations.clone().with_healing(time);
+        if let Some(time) = wider.healing_time {
+            equations = equations.with_healing(time);
+        }
+        if let Some(inertia) = inertia {
+            equations = equations.with_inertia(inertia);
+        }
+        let left = wider.healing_time.map(|_| {
             let past = RADAU.c.map(|c| wider.left_after(h * c));
             Left { past, relief: past.map(|left| left * wider.left_after(age)) }
         });
-        if let Some(mass) = wider.inertia {
-            equations = equations.with_inertia(mass, velocities.0);
-        }
         let depth = wider.depth_limit.map(|limit| Depth { limit, side });
         Self { model, apex, surface, stretch, x, equations, depth, left }
     }
@@ -133,8 +150,9 @@ impl<'a> StageEquations<'a> {
         let mut ratio = 1.0;
         let mut jacobian = Jacobian { plain: None, limited: None };
         let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
+        let mut look = Look::nothing();
         for iterations in 1..=MOST_ITERATIONS {
-            let look = self.look(memory, &displacement, &height);
+            self.look(memory, (&displacement, &height), &mut look);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
                 self.factor(&mut jacobian, &look, &height);
             }
@@ -182,8 +200,8 @@ impl<'a> StageEquations<'a> {
     /// Factors the Jacobian afresh.
     fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
         let known = &look.known;
-        if let (Some(depth), Some(own_height)) = (&self.depth, &look.own_height) {
-            let own = (&look.own, own_height);
+        if let Some(depth) = &self.depth {
+            let own = (&look.own, &look.own_height);
             jacobian.limited = depth.factors(&self.equations, height, known, own);
             return;
         }
@@ -193,32 +211,33 @@ impl<'a> StageEquations<'a> {
     }
 
     #[inline]
-    fn look(&self, memory: &mut impl Memory, d: &Stages, height: &Stages) -> Look {
-        let known = self.known(memory, d);
-        let own = OwnGroove::near(self.apex, self.model.tip(), d);
+    fn look(&self, memory: &mut impl Memory, (d, height): (&Stages, &Stages), look: &mut Look) {
+        let Look { known, own, own_height, missed } = look;
+        self.know(memory, d, known);
+        *own = OwnGroove::near(self.apex, self.model.tip(), d);
         if let Some(depth) = &self.depth {
-            let own_height = OwnHeight::near(self.apex, self.model.tip(), d);
-            let missed = depth.missed(&self.equations, (d, height), &known, (&own, &own_height));
-            return Look { known, own, own_height: Some(own_height), missed };
+            *own_height = OwnHeight::near(self.apex, self.model.tip(), d);
+            *missed = depth.missed(&self.equations, (d, height), known, (own, own_height));
+            return;
         }
-        let velocity = self.equations.velocity(d, &known.past_slope, &known.relief_slope, &own);
-        let displacement = self.equations.residual(d, &velocity);
-        let missed = Missed { displacement, height: [0.0; STAGES] };
-        Look { known, own, own_height: None, missed }
+        let velocity = self.equations.velocity(d, &known.past_slope, &known.relief_slope, own);
+        missed.displacement = self.equations.residual(d, &velocity);
     }
 
     /// What memory and surface tell at these displacements.
     #[inline]
-    fn known(&self, memory: &mut impl Memory, d: &Stages) -> Known {
-        let mut known = Known::nothing();
+    fn know(&self, memory: &mut impl Memory, d: &Stages, known: &mut Known) {
         let mut groove = Groove::new(&mut known.past_slope, &mut known.past_curvature);
         if self.depth.is_some() {
             groove = groove.with_height(&mut known.past_height);
         }
         memory.groove(d, &mut groove);
-        let relief = known.relief_slope.iter_mut().zip(&mut known.relief_curvature);
-        for ((slope, curvature), d) in relief.zip(d) {
-            (*slope, *curvature) = self.surface.slope_and_curvature_on(self.stretch, self.x + d);
+        if !self.stretch.flat {
+            let relief = known.relief_slope.iter_mut().zip(&mut known.relief_curvature);
+            for ((slope, curvature), d) in relief.zip(d) {
+                (*slope, *curvature) =
+                    self.surface.slope_and_curvature_on(self.stretch, self.x + d);
+            }
         }
         if self.depth.is_some() {
             known.relief_height = d.map(|d| self.surface.height_on(self.stretch, self.x + d));
@@ -226,7 +245,6 @@ impl<'a> StageEquations<'a> {
         if let Some(left) = &self.left {
             known.fade(&left.past, &left.relief);
         }
-        known
     }
 }
 

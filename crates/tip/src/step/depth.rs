@@ -126,12 +126,12 @@ impl Depth {
         (own, own_height): (&OwnGroove, &OwnHeight),
     ) -> Option<LimitedFactors> {
         let weights = self.weights(height);
-        let indenting = by_columns(equations.indenting(), &weights);
+        let indenting = by_columns(&equations.indenting(), &weights);
         let curvatures = (&known.past_curvature, &known.relief_curvature);
         let by_displacement = equations.jacobian_with(&indenting, curvatures, own);
         // ∂w/∂η = -σ w/b
         let by_height = weights.map(|w| -self.side * w / self.limit);
-        let changing = by_columns(equations.indenting(), &by_height);
+        let changing = by_columns(&equations.indenting(), &by_height);
         let (slopes, values) = (own.slopes(), own_height.values());
         let displacement_by_height =
             equations.less_carried([[0.0; STAGES]; STAGES], &products(&changing, &slopes));
@@ -207,6 +207,7 @@ fn products(a: &Matrix, b: &Matrix) -> Matrix {
 
 #[cfg(test)]
 mod tests {
+    use super::super::inertia::Inertia;
     use super::super::law::Law;
     use super::*;
     use crate::TipFunction;
@@ -231,9 +232,11 @@ mod tests {
         let law = Law { alpha: 1.3, r: 0.8, spring: 1.0 };
         for (time, mass) in [(None, None), (Some(0.9), Some(0.4))] {
             let (h, depth) = (0.6, Depth { limit: 1.7, side: -1.0 });
+            let inertia;
             let mut equations = Equations::new(law, h, law.pull(0.9, h));
             if let (Some(time), Some(mass)) = (time, mass) {
-                equations = equations.with_healing(time).with_inertia(mass, 0.7);
+                inertia = Inertia::new(mass, h, 0.7);
+                equations = equations.with_healing(time).with_inertia(&inertia);
             }
             let d: Stages = RADAU.c.map(|c| 0.8 * c * (1.0 - 0.4 * c));
             let height: Stages = RADAU.c.map(|c| -1.8 - 0.9 * c);

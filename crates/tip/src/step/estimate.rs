@@ -10,12 +10,14 @@ const LONGEST_DISPLACEMENT: f64 = 4.0;
 
 /// The farthest that one step is planned to lead, for an f of this band.
 #[must_use]
+#[inline]
 pub fn longest_displacement(band: f64) -> f64 {
     (BANDS_PER_STEP / band).min(LONGEST_DISPLACEMENT)
 }
 
 /// Velocity at the end of a step of length h.
 #[must_use]
+#[inline]
 pub fn velocity_at_end(displacement: &Stages, h: f64) -> f64 {
     apply(&RADAU.derivative, displacement)[STAGES - 1] / h
 }
@@ -23,6 +25,7 @@ pub fn velocity_at_end(displacement: &Stages, h: f64) -> f64 {
 /// Defect of the stage polynomial at the start of the step, where the true velocity is known from the step
 /// before.
 #[must_use]
+#[inline]
 pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
     let slope: f64 = RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
     slope / h - velocity
@@ -31,6 +34,7 @@ pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
 /// Error of the stage polynomial as an interpolant, from its continuation back into the step before, of
 /// which displacements and length are given.
 #[must_use]
+#[inline]
 pub fn interpolation_error(
     displacement: &Stages,
     h: f64,

@@ -8,7 +8,7 @@ use crate::collocation::{RADAU, STAGES, Stages, apply};
 /// M v' + v = φ, x' = v, collocated: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and d = hAv. So d is
 /// linear in the force at the stages, and one unknown for each stage is enough.
 #[derive(Debug, Clone)]
-pub(super) struct Inertia {
+pub struct Inertia {
     /// hA S hA/M: d by φ.
     carried: Matrix,
     /// hA S v(start): how far the tip would glide.
@@ -17,7 +17,8 @@ pub(super) struct Inertia {
 
 impl Inertia {
     /// Of a step of length h that begins with this velocity.
-    pub(super) fn new(mass: f64, h: f64, velocity: f64) -> Self {
+    #[must_use]
+    pub fn new(mass: f64, h: f64, velocity: f64) -> Self {
         let share = h / mass;
         let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
         let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
@@ -35,9 +36,9 @@ impl Inertia {
         std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
     }
 
-    /// `∂d_i` by the force at the stage k.
-    pub(super) fn carried(&self, i: usize, k: usize) -> f64 {
-        self.carried[i][k]
+    /// ∂d by the force.
+    pub(super) fn carried(&self) -> &Matrix {
+        &self.carried
     }
 }
 

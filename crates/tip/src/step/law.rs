@@ -51,39 +51,36 @@ impl Law {
 
 /// The equations of one step, d = hAv.
 #[derive(Debug, Clone)]
-pub struct Equations {
+pub struct Equations<'a> {
     law: Law,
     h: f64,
     /// κ(R - x0(start)) and forces at the nodes: all of the velocity that does not depend on d.
     pull: Stages,
     /// hA, or what healing makes of it.
     carving: Matrix,
-    /// α times that.
-    indenting: Matrix,
-    inertia: Option<Inertia>,
+    heals: bool,
+    inertia: Option<&'a Inertia>,
 }
 
-impl Equations {
+impl<'a> Equations<'a> {
     /// Of a step of length h under this pull.
     #[must_use]
+    #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
-        let (carving, indenting) = (carving(h), carving(law.alpha * h));
-        Self { law, h, pull, carving, indenting, inertia: None }
+        Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
     }
 
     /// On a surface that heals in this time.
     #[must_use]
     pub fn with_healing(mut self, time: f64) -> Self {
-        self.carving = healing(self.h, time);
-        self.indenting = self.carving.map(|row| row.map(|b| self.law.alpha * b));
+        (self.carving, self.heals) = (healing(self.h, time), true);
         self
     }
 
-    /// With a tip of this inertia, which begins the step with this velocity.
+    /// With a tip of this inertia, in a step of the same length.
     #[must_use]
-    pub fn with_inertia(mut self, mass: f64, velocity: f64) -> Self {
-        self.inertia = Some(Inertia::new(mass, self.h, velocity));
-        self
+    pub fn with_inertia(self, inertia: &'a Inertia) -> Self {
+        Self { inertia: Some(inertia), ..self }
     }
 
     /// How much of what each stage leaves is there at each stage; the last row is what stays.
@@ -94,8 +91,11 @@ impl Equations {
 
     /// α times that.
     #[must_use]
-    pub fn indenting(&self) -> &Matrix {
-        &self.indenting
+    pub fn indenting(&self) -> Matrix {
+        if self.heals {
+            return self.carving.map(|row| row.map(|b| self.law.alpha * b));
+        }
+        carving(self.law.alpha * self.h)
     }
 
     /// α
@@ -130,7 +130,7 @@ impl Equations {
     #[must_use]
     #[inline]
     pub fn residual(&self, d: &Stages, velocity: &Stages) -> Stages {
-        if let Some(inertia) = &self.inertia {
+        if let Some(inertia) = self.inertia {
             return inertia.residual(d, velocity);
         }
         let carried = apply(&RADAU.a, velocity);
@@ -141,7 +141,7 @@ impl Equations {
     #[must_use]
     #[inline]
     pub fn jacobian(&self, past: &Stages, relief: &Stages, own: &OwnGroove) -> Matrix {
-        self.jacobian_with(&self.indenting, (past, relief), own)
+        self.jacobian_with(&self.indenting(), (past, relief), own)
     }
 
     /// The same where what each stage indents is another matrix.
@@ -166,12 +166,13 @@ impl Equations {
     /// A matrix less hA times one of derivatives of the force.
     #[inline]
     pub(super) fn less_carried(&self, mut matrix: Matrix, derivatives: &Matrix) -> Matrix {
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (k, derivatives) in derivatives.iter().enumerate() {
-                let factor = match &self.inertia {
-                    None => self.h * RADAU.a[i][k],
-                    Some(inertia) => inertia.carried(i, k),
-                };
+        let (carried, h) = match self.inertia {
+            None => (&RADAU.a, self.h),
+            Some(inertia) => (inertia.carried(), 1.0),
+        };
+        for (row, carried) in matrix.iter_mut().zip(carried) {
+            for (a, derivatives) in carried.iter().zip(derivatives) {
+                let factor = h * a;
                 row.iter_mut().zip(derivatives).for_each(|(entry, d)| *entry -= factor * d);
             }
         }

@@ -11,6 +11,7 @@ pub(crate) struct Factors {
 
 impl Factors {
     /// `None` for a matrix that is singular or not finite.
+    #[inline]
     pub(crate) fn of(mut rows: [Stages; STAGES]) -> Option<Self> {
         let mut order = std::array::from_fn(|i| i);
         for k in 0..STAGES {
@@ -35,6 +36,7 @@ impl Factors {
     }
 
     /// J⁻¹ `right`
+    #[inline]
     pub(crate) fn solve(&self, right: &Stages) -> Stages {
         let mut x = self.order.map(|i| right[i]);
         for i in 1..STAGES {

@@ -44,6 +44,11 @@ pub fn carving(factor: f64) -> Matrix {
 }
 
 impl OwnGroove {
+    /// Not yet known.
+    pub(crate) fn nothing() -> Self {
+        Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] }
+    }
+
     /// Under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
@@ -106,6 +111,11 @@ pub struct OwnHeight {
 }
 
 impl OwnHeight {
+    /// Not yet known.
+    pub(crate) fn nothing() -> Self {
+        Self { value: [0.0; PAIRS.len()], apex: 0.0 }
+    }
+
     /// Under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {

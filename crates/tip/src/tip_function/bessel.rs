@@ -77,14 +77,3 @@ pub(super) fn taylor(degree: usize) -> Vec<f64> {
     }
     sum
 }
-
-/// cos x = Σ (-x²)^k / (2k)!
-pub(super) fn taylor_of_cosine(degree: usize) -> Vec<f64> {
-    let mut sum = vec![0.0; degree + 1];
-    let mut here = 1.0;
-    for (k, coefficient) in sum.iter_mut().step_by(2).enumerate() {
-        *coefficient = here;
-        here *= -1.0 / ((2 * k + 1) * (2 * k + 2)) as f64;
-    }
-    sum
-}

@@ -19,11 +19,6 @@ pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     }
 }
 
-/// Re e^{ix}/(s - i)
-pub(super) fn cosine(x: f64, s: f64) -> f64 {
-    (s * libm::cos(x) - libm::sin(x)) / (s * s + 1.0)
-}
-
 /// Above this the integrand of the mean over wave numbers is smooth on a few hundred points.
 const FAST: f64 = 0.1;
 /// Where e^{sx} has lost this many digits' worth of the difference that it multiplies.

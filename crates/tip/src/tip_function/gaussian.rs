@@ -1,6 +1,6 @@
 //! Sums of Gaussians a exp(-(x-c)²/(2w²)).
 
-use super::{LARGEST, TipFunctionError};
+use super::{BAND_OF_A_GAUSSIAN, LARGEST, TipFunctionError};
 use crate::Footprint;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
@@ -8,9 +8,6 @@ use std::sync::Arc;
 /// A Gaussian is below 1e-17 of its peak beyond this many widths: exp(-8.8²/2) = 1.5e-17. The factor
 /// x that a derivative brings keeps that below round-off too.
 const WIDTHS_OF_REACH: f64 = 8.8;
-
-/// Its transform likewise, in units of 1/width.
-const INVERSE_WIDTHS_OF_BAND: f64 = 8.7;
 
 /// One term a exp(-(x-c)²/(2w²)). Lengths in units of σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +129,7 @@ impl GaussianSum {
     }
 
     pub(super) fn band(&self) -> f64 {
-        self.terms.iter().map(|g| INVERSE_WIDTHS_OF_BAND / g.width).fold(0.0, f64::max)
+        self.terms.iter().map(|g| BAND_OF_A_GAUSSIAN / g.width).fold(0.0, f64::max)
     }
 
     /// The terms that matter at x, each with z = (x-c)/w: a table's many narrow ones are mostly far.

@@ -2,15 +2,18 @@
 
 mod apex;
 mod bessel;
+mod cosine;
 mod error;
 mod fading;
 mod gaussian;
+mod scale;
 pub(crate) mod table;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
 pub use error::TipFunctionError;
 pub use gaussian::{Gaussian, GaussianSum};
+pub use scale::{BAND_OF_A_GAUSSIAN, widths};
 
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +97,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.value(x),
             Self::Bessel => libm::j0(x),
-            Self::Cosine => libm::cos(x),
+            Self::Cosine => cosine::value(x),
         }
     }
 
@@ -106,11 +109,12 @@ impl TipFunction {
 
     /// f'(x) and f''(x), which share their costly part.
     #[must_use]
+    #[inline]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         match self {
             Self::Gaussians(sum) => sum.slope_and_curvature(x),
             Self::Bessel => bessel::slope_and_curvature(x),
-            Self::Cosine => (-libm::sin(x), -libm::cos(x)),
+            Self::Cosine => cosine::slope_and_curvature(x),
         }
     }
 
@@ -119,7 +123,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.taylor(degree),
             Self::Bessel => bessel::taylor(degree),
-            Self::Cosine => bessel::taylor_of_cosine(degree),
+            Self::Cosine => cosine::taylor(degree),
         }
     }
 
@@ -139,7 +143,7 @@ impl TipFunction {
             Self::Gaussians(sum) => sum.tail(x),
             Self::Bessel => bessel::tail(x),
             // Its mean value, as if it faded slowly.
-            Self::Cosine => -libm::sin(x),
+            Self::Cosine => cosine::tail(x),
         }
     }
 
@@ -152,7 +156,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.terms().iter().map(|g| fading::gaussian(g, x, s)).sum(),
             Self::Bessel => fading::bessel(x, s),
-            Self::Cosine => fading::cosine(x, s),
+            Self::Cosine => cosine::fading(x, s),
         }
     }
 

@@ -28,7 +28,7 @@ const FINEST: f64 = 2.5e-14;
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
-    let width = 8.7 / model.tip().band();
+    let width = model.tip().widths(1.0);
     // Without a support its own force moves the tip.
     let speed = if model.wider().spring { model.r() } else { 1.0 };
     let moving = WIDTHS * width * model.alpha().abs() / speed;

@@ -214,7 +214,7 @@ fn retreat(tip: &TipFunction, reach: f64) -> f64 {
     let (f, curvature) = (tip.value(0.0), tip.slope_and_curvature(0.0).1);
     let apex = (f / curvature).abs().sqrt();
     let apex = if apex.is_finite() { apex.min(reach / 8.0) } else { 0.0 };
-    RETREAT * apex.max(8.7 / tip.band())
+    RETREAT * apex.max(tip.widths(1.0))
 }
 
 /// Where f' is to be fitted, from -δ to its reach.

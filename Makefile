@@ -26,7 +26,7 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
-survive: ## the long tests: 200 kills, 200 pairs of writers, 500 flipped bits, forged checkpoints, ten million time units
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 
 judge: ## 1,000 random runs, each against one ten times as long: regimes, errors, prospects

@@ -1,7 +1,7 @@
 //! SIGINT and SIGTERM.
 //!
-//! A command that has nothing to keep ends [at once](end_at_once), by a thread that waits for signals and for
-//! nothing else. One that keeps what it has [listens](Interrupt::listen): the first signal is remembered, for it
+//! Every command begins as one that has nothing to keep, and ends [at once](end_at_once), by a thread that waits for
+//! signals and for nothing else. One that keeps what it has [listens](Interrupt::listen): the first signal is remembered, for it
 //! to end at its next step, and the second one ends the program at once. Where all that it keeps is in a file
 //! already, it need not come to its next step: it says [what is told then](Interrupt::or_else). All this holds too
 //! where the program was started with SIGINT ignored, as a job in the background is.
@@ -11,7 +11,7 @@ use crate::message::say;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::io;
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -21,8 +21,8 @@ use std::time::Duration;
 struct State {
     signal: AtomicU8,
     received: Arc<AtomicBool>,
-    /// Somebody keeps what there is.
-    kept: AtomicBool,
+    /// So many keep what there is.
+    keepers: AtomicUsize,
     farewell: Mutex<Option<Farewell>>,
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn end_at_once() -> io::Result<()> {
             let number = u8::try_from(signal).unwrap_or_default();
             let is_first = !state().received.swap(true, Ordering::SeqCst);
             state().signal.store(number, Ordering::SeqCst);
-            let failure = match is_first && state().kept.load(Ordering::SeqCst) {
+            let failure = match is_first && state().keepers.load(Ordering::SeqCst) > 0 {
                 true => after_a_while(number),
                 false => Some(Failure::Stopped(number)),
             };
@@ -77,9 +77,13 @@ pub(crate) struct Interrupt(());
 
 impl Interrupt {
     /// Starts listening.
-    pub(crate) fn listen() -> io::Result<Self> {
-        state().kept.store(true, Ordering::SeqCst);
-        end_at_once()?;
+    ///
+    /// # Errors
+    /// The system does not let it.
+    pub(crate) fn listen() -> Result<Self, Failure> {
+        state().keepers.fetch_add(1, Ordering::SeqCst);
+        let listening = end_at_once();
+        listening.map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         Ok(Self(()))
     }
 
@@ -107,6 +111,6 @@ pub(crate) fn flag() -> &'static Arc<AtomicBool> {
 impl Drop for Interrupt {
     fn drop(&mut self) {
         *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;
-        state().kept.store(false, Ordering::SeqCst);
+        state().keepers.fetch_sub(1, Ordering::SeqCst);
     }
 }

@@ -16,6 +16,7 @@ mod files;
 mod fuzz;
 mod interrupt;
 mod message;
+mod sign_of_life;
 
 use arguments::{Cli, Command};
 use clap::Parser;
@@ -32,11 +33,12 @@ fn main() -> ExitCode {
     if cli.quiet {
         message::be_quiet();
     }
-    if !cli.command.keeps_what_it_has()
-        && let Err(error) = interrupt::end_at_once()
-    {
+    if let Err(error) = interrupt::end_at_once() {
         say(format_args!("stickslip: cannot listen for signals: {error}"));
         return ExitCode::FAILURE;
+    }
+    if !cli.quiet {
+        sign_of_life::begin();
     }
     let done = match &cli.command {
         Command::Run(arguments) => commands::run::run(arguments),
@@ -55,6 +57,7 @@ fn main() -> ExitCode {
         Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
     };
+    sign_of_life::end();
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -63,14 +66,6 @@ fn main() -> ExitCode {
             }
             failure.exit_code()
         }
-    }
-}
-
-impl Command {
-    /// Whether it has something to keep when a signal comes, and listens for signals itself.
-    fn keeps_what_it_has(&self) -> bool {
-        use Command::{Continue, Raster, Run, Sweep, Verify};
-        matches!(self, Run(_) | Verify(_) | Continue(_) | Sweep(_) | Raster(_))
     }
 }
 

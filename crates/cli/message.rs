@@ -3,6 +3,7 @@
 //! File names and the contents of files come back in messages. They may hold what moves a cursor or renames a
 //! window, and megabytes of it.
 
+use crate::sign_of_life::aside;
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{Write, stderr};
@@ -18,7 +19,7 @@ pub(crate) fn say(line: impl Display) {
     let mut line = harmless(&short(&line.to_string())).into_owned();
     line.push('\n');
     // In one piece: lines of several processes do not mix.
-    stderr().lock().write_all(line.as_bytes()).ok();
+    aside(|| stderr().lock().write_all(line.as_bytes()).ok());
 }
 
 /// Whether nothing but failures is to be said.

@@ -170,7 +170,7 @@ fn unusable_options_are_refused_by_name() {
 #[test]
 fn an_interrupted_comparison_writes_nothing() {
     let folder = Folder::new("compare-interrupted");
-    let long = "compare --alpha 1.2 --r 1 --until 457 --grid uniform --spacing 0.001 -o c.json";
+    let long = "compare --alpha 1.2 --r 1 --until 457 --grid uniform --spacing 0.001 --time-limit 1e9 -o c.json";
     for (signal, status) in [("-INT", 130), ("-TERM", 143)] {
         let mut child =
             folder.command(long).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

@@ -184,6 +184,11 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
     let zigzag = folder.prints_json("stability --tip gaussian --r 1 --pitch 0.5 --path zigzag");
     assert!((number(&zigzag["critical"]["alpha"]) - 0.457_309).abs() < 5e-7);
     assert_eq!(zigzag["critical"]["kappa"], Value::Null);
+    let over = folder.prints_json("boundary --tip gaussian --pitch-range 0.5:1:2 --r 1");
+    for (n, alpha) in [(0, 0.418_787), (1, 0.805_167)] {
+        assert!((number(&over["alpha"][n]) - alpha).abs() < 5e-7);
+    }
+    folder.prints("boundary --tip gaussian --pitch-range 0.5:3:9 --r 1 -o p.csv --plot p.svg");
     for (alpha, stable) in [(0.4, true), (0.44, false)] {
         let line = format!("stability --tip gaussian --r 1 --pitch 0.5 --alpha {alpha}");
         let found = folder.prints_json(&line);
@@ -222,6 +227,8 @@ fn what_no_raster_can_be_made_of_is_refused_with_advice() {
             "raster --alpha 1 --r 1 --pitch 1 --lines 3 --length 10 --sample-at 11",
             ["--sample-at 11", "each line"],
         ),
+        ("boundary --pitch-range -1:1:3 --r 1", ["--pitch-range -1:1:3", "above 0"]),
+        ("boundary --pitch-range 1:2:3", ["--r", "required"]),
         ("stability --r 1 --pitch -1", ["--pitch -1", "above 0"]),
         ("stability --r 1 --path zigzag", ["--pitch", "distance"]),
         ("stability --r 1 --path repeat", ["--alpha", "growth"]),

@@ -14,6 +14,7 @@ mod documents;
 mod grids_converge;
 mod memories_agree;
 mod properties;
+mod raster_documents;
 mod regimes;
 mod scaling_laws;
 mod stability_against_runs;

@@ -17,6 +17,29 @@ const REFUSAL: Duration = Duration::from_secs(1);
 /// No command line of these tests takes longer, on whatever machine: what does hangs.
 const LONGEST: Duration = Duration::from_secs(60);
 
+/// What a command said, and what it took.
+pub struct Measured {
+    pub output: Output,
+    /// Of the processor.
+    pub took: Duration,
+    /// Largest resident set, in bytes.
+    pub peak: u64,
+}
+
+fn measured(command: &mut Command) -> Measured {
+    let files = ["out", "err"].map(|_| tempfile::tempfile().unwrap());
+    let [stdout, stderr] = files.each_ref().map(|file| file.try_clone().unwrap());
+    let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().unwrap();
+    let ended = child.wait4().unwrap();
+    let [stdout, stderr] = files.map(|mut file| {
+        let mut bytes = vec![];
+        file.rewind().and_then(|()| file.read_to_end(&mut bytes)).unwrap();
+        bytes
+    });
+    let (took, peak) = (ended.rusage.utime + ended.rusage.stime, ended.rusage.maxrss);
+    Measured { output: Output { status: ended.status, stdout, stderr }, took, peak }
+}
+
 /// A folder under the target directory, empty at first.
 pub struct Folder(PathBuf);
 
@@ -68,18 +91,18 @@ impl Folder {
 
     /// The same, and the processor time that it took, which no other work on the machine adds to.
     pub fn stickslip_timed(&self, line: &str) -> (Output, Duration) {
-        let files = ["out", "err"].map(|_| tempfile::tempfile().unwrap());
-        let [stdout, stderr] = files.each_ref().map(|file| file.try_clone().unwrap());
-        let mut command = self.command(line);
-        let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().unwrap();
-        let ended = child.wait4().unwrap();
-        let [stdout, stderr] = files.map(|mut file| {
-            let mut bytes = vec![];
-            file.rewind().and_then(|()| file.read_to_end(&mut bytes)).unwrap();
-            bytes
-        });
-        let took = ended.rusage.utime + ended.rusage.stime;
-        (Output { status: ended.status, stdout, stderr }, took)
+        let Measured { output, took, .. } = measured(&mut self.command(line));
+        (output, took)
+    }
+
+    /// The same, ended by the system after so many seconds of processor time.
+    #[cfg(unix)]
+    pub fn measured_within(&self, line: &str, seconds: u64) -> Measured {
+        let inner = self.command(line);
+        let mut shell = Command::new("sh");
+        let script = format!("ulimit -t {seconds}; exec \"$0\" \"$@\"");
+        shell.current_dir(&self.0).arg("-c").arg(script);
+        measured(shell.arg(inner.get_program()).args(inner.get_args()))
     }
 
     /// A command for those tests that watch the program while it runs.
@@ -115,10 +138,20 @@ impl Folder {
     }
 }
 
-/// Waits until a process listens for SIGINT, as it does once its work begins; where the system does not tell, for
+/// What a process that goes on has had of the processor, where the system tells: in hundredths of a second.
+pub fn processor_time(id: u32) -> Option<Duration> {
+    let stat = fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
+    // Behind the name, which may hold anything.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let mut ticks = || fields.next()?.parse::<u64>().ok();
+    Some(Duration::from_millis(10 * (ticks()? + ticks()?)))
+}
+
+/// Waits until a process listens for SIGINT and has been at its work for a while; where the system does not tell, for
 /// half a second.
 pub fn wait_until_it_listens(child: &mut Child) {
     const SIGINT: u64 = 1 << 1;
+    const AT_WORK: Option<Duration> = Some(Duration::from_millis(60));
     let started = Instant::now();
     let caught = |status: &str| {
         let line = status.lines().find_map(|line| line.strip_prefix("SigCgt:"))?;
@@ -127,7 +160,9 @@ pub fn wait_until_it_listens(child: &mut Child) {
     while child.try_wait().unwrap().is_none() && started.elapsed() < LONGEST {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id()));
         match status.ok().as_deref().and_then(caught) {
-            Some(signals) if signals & SIGINT != 0 => return,
+            Some(signals) if signals & SIGINT != 0 && processor_time(child.id()) >= AT_WORK => {
+                return;
+            }
             Some(_) => sleep(Duration::from_millis(5)),
             None => return sleep(Duration::from_millis(500)),
         }

@@ -175,13 +175,13 @@ fn killed_runs_resume_to_the_same_bytes() {
 
 /// As many kills as the project promises to survive: some minutes.
 #[test]
-#[ignore = "200 kills take minutes: make survive"]
-fn two_hundred_kills() {
+#[ignore = "300 kills take minutes: make survive"]
+fn three_hundred_kills() {
     let mut kills = 0;
     for seed in 2.. {
         kills += kill_all(10, seed);
         println!("{kills} kills so far");
-        if kills >= 200 {
+        if kills >= 300 {
             break;
         }
     }

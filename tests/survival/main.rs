@@ -7,13 +7,19 @@ mod folder;
 #[path = "../support/runs.rs"]
 mod runs;
 
+#[cfg(unix)]
 mod accepted_tips;
+#[cfg(target_os = "linux")]
+mod extreme_arguments;
 #[cfg(unix)]
 mod flipped_bits;
 #[cfg(unix)]
 mod killed_runs;
 #[cfg(unix)]
 mod long_runs;
+#[cfg(target_os = "linux")]
+mod signals;
+#[cfg(unix)]
 mod tips;
 #[cfg(unix)]
 mod two_writers;

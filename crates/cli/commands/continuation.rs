@@ -29,8 +29,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     let origin = Origin::asked(arguments)?;
     let job = Job::open::<ContinueDocument>(&arguments.outlet, arguments.plot.as_deref())?;
 
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let interrupt = Interrupt::listen()?;
     let found = stop::where_asked_by(interrupt.flag(), || {
         branches(arguments, &settings, &origin, &interrupt)
     });

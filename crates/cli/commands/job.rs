@@ -10,6 +10,7 @@ use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, OutputFormat};
 use crate::files::table::{write_csv, write_npz};
 use crate::message::remark_lines;
+use crate::sign_of_life;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -103,6 +104,7 @@ impl Job {
         product: &P,
         told: &Told,
     ) -> Result<Option<Figure>, Failure> {
+        sign_of_life::end();
         // Fields take the place of the document.
         if self.is_file || self.fields.is_empty() {
             match self.format {

@@ -5,6 +5,7 @@
 //! adding as much again.
 
 use crate::message::say;
+use std::f64::consts::PI;
 use stickslip_stability::critical;
 use stickslip_tip::TipFunction;
 
@@ -12,6 +13,10 @@ use stickslip_tip::TipFunction;
 const FEWEST_ROWS: usize = 16;
 /// A relative change of αc at r = 1 that is told.
 const TOLD: f64 = 0.02;
+/// Where noise can change αc by no more, nobody tries how much it does.
+const NOT_TOLD: f64 = 0.1 * TOLD;
+/// A sum over many random rows is at most so many standard deviations.
+const LARGEST_DRAW: f64 = 5.0;
 /// How often noise is added.
 const DRAWS: u32 = 5;
 /// Binomial coefficients of a sixth difference, and the root of the sum of their squares.
@@ -38,6 +43,9 @@ fn change((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Option<f64> {
     let alpha = |tip: &TipFunction| critical(tip, 1.0).ok().map(|at| at.alpha);
     let all = alpha(tip)?;
     let noise = noise(f);
+    if all * most_felt(x, noise) < NOT_TOLD {
+        return Some(0.0);
+    }
     let changes = (0..DRAWS).map(|draw| {
         let mut random = uniform(draw);
         let last = f.len() - 1;
@@ -50,6 +58,15 @@ fn change((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Option<f64> {
     });
     let squares: Vec<f64> = changes.map(|change| change * change).collect();
     Some((squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+}
+
+/// A bound of what noise adds to ∫f''(y) e^{-iqy}dy, to which 1/αc(1) is proportional, at any wave number that rows
+/// resolve: q² times its transform, a sum over random rows, and q times its value at 0.
+fn most_felt(x: &[f64], noise: f64) -> f64 {
+    let length = x[x.len() - 1];
+    let spacing = length / (x.len() - 1) as f64;
+    let q = PI / spacing;
+    LARGEST_DRAW * noise * (q * q * (spacing * length).sqrt() + q)
 }
 
 /// Standard deviation of what is not smooth from row to row.
@@ -88,5 +105,21 @@ mod tests {
             assert!(changed(rows, 1e-6) < TOLD, "{rows}: {}", changed(rows, 1e-6));
         }
         assert!(changed(20, 0.0) < TOLD, "{}", changed(20, 0.0));
+    }
+
+    /// Where the bound says that it cannot be felt, it is not.
+    #[test]
+    fn noise_that_is_not_tried_changes_nothing() {
+        for (rows, noise) in [(60, 1e-7), (60, 2e-6), (200, 1e-8), (200, 1e-7), (600, 1e-9)] {
+            let x: Vec<f64> = (0..rows).map(|i| 8.0 * f64::from(i) / f64::from(rows - 1)).collect();
+            let exact: Vec<f64> = x.iter().map(|x| (-0.5 * x * x).exp()).collect();
+            let mut random = uniform(3);
+            let noisy: Vec<f64> = exact.iter().map(|f| f + noise * random()).collect();
+            let alpha =
+                |f: &[f64]| critical(&TipFunction::table(&x, f).unwrap(), 1.0).unwrap().alpha;
+            let change = (alpha(&noisy) / alpha(&exact) - 1.0).abs();
+            let bound = alpha(&exact) * most_felt(&x, noise / 3_f64.sqrt());
+            assert!(change < bound, "{rows} {noise}: {change} above {bound}");
+        }
     }
 }

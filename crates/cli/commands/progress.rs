@@ -2,12 +2,11 @@
 //! taken, and how much longer it takes where that can be told.
 
 use crate::message::is_quiet;
+use crate::sign_of_life::{self, PATIENCE};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// Shown after the first second.
-const PATIENCE: Duration = Duration::from_secs(1);
 /// Of work whose parts take no longer than a look at the clock.
 const CALLS_PER_LOOK: u32 = 256;
 const TICKS: f64 = 1000.0;
@@ -81,6 +80,7 @@ impl Drop for Progress {
 
 /// indicatif draws on standard error, and nothing where that is no terminal.
 fn new_bar(has_end: bool, started: Instant) -> ProgressBar {
+    sign_of_life::end();
     let template = if has_end {
         "{wide_bar} {percent:>3} %  {msg}  {elapsed}, {eta} left"
     } else {

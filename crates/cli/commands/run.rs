@@ -20,6 +20,7 @@ use crate::arguments::{FieldArguments, Format, RunArguments};
 use crate::failure::Failure;
 use crate::files::place::{Place, Target as File, place};
 use crate::files::stream::Stream;
+use crate::interrupt::Interrupt;
 use checkpoint::Checkpoints;
 use integration::Integration;
 use record::{Record, SAMPLE_NUMBERS, Sink};
@@ -43,6 +44,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let scenario = order.parameters.scenario().map_err(said)?;
     let surface = scenario.initial_surface().map_err(explained)?;
     let running = Watched::new(&scenario, &surface).map_err(explained)?;
+    let interrupt = Interrupt::listen()?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
@@ -57,6 +59,7 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
         checkpoints: checkpoint
             .zip(order.checkpoint_every)
             .map(|(file, every)| Checkpoints::new(file, &order, start, every, start)),
+        interrupt,
         seconds: 0.0,
     };
     integration.checkpoint()?;

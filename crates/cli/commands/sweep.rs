@@ -39,8 +39,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
         None => Finished::in_memory(),
     };
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let interrupt = Interrupt::listen()?;
     let finished = compute(&grid, finished, threads, &interrupt)?;
     if let Some(signal) = interrupt.signal() {
         return Err(left_unfinished(&grid, &finished, signal));
@@ -161,6 +160,8 @@ fn compute(
         finished_so_far.fetch_add(1, Ordering::Relaxed);
         state.lock().unwrap_or_else(PoisonError::into_inner).keep(point)
     };
+    // More than there are points have nothing to do but to look for it; 0 of them is one for each core.
+    let threads = threads.min(missing.len().max(1));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Failure::Run(format!("cannot start threads: {error}")))?;
     pool.install(|| missing.par_iter().with_max_len(1).try_for_each(work));

@@ -150,8 +150,7 @@ fn of_samples(
 fn repeated(
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let interrupt = Interrupt::listen()?;
     let mut progress = Progress::new(0.0, 1.0);
     let found = work(&mut |part| {
         progress.reached(part);

@@ -103,6 +103,7 @@ impl From<FitError> for CycleError {
     fn from(error: FitError) -> Self {
         match error {
             FitError::NeverFades => Self::NeverFades,
+            FitError::Stopped => Self::Stopped,
             error => Self::Fit(error),
         }
     }

@@ -45,8 +45,9 @@ impl Linearisation {
         free: Parameter,
         solved: &Fit,
     ) -> Result<Self, Singular> {
-        let past = Past::of(&equation.short, orbit);
-        let other = (solved != &*equation.short).then(|| Past::of(solved, orbit));
+        let past = Past::of(&equation.short, orbit).ok_or(Singular)?;
+        let other = (solved != &*equation.short).then(|| Past::of(solved, orbit).ok_or(Singular));
+        let other = other.transpose()?;
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(1 + 2 * equation.short.terms().len());
         let (mut stages, mut stiffness) = (vec![], vec![]);

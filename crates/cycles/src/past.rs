@@ -4,6 +4,7 @@ use super::orbit::Orbit;
 use num_complex::Complex;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::memory::{Fit, Term};
+use stickslip_tip::stop;
 
 /// ζ at the ends of all steps of an orbit, and the exponentials at their stages.
 pub(super) struct Past<'a> {
@@ -27,11 +28,16 @@ pub(super) struct PastOfStep<'a> {
 }
 
 impl<'a> Past<'a> {
+    /// `None` where nobody waits for it any more.
+    ///
     /// Over a step ζ becomes `e^{s d_s} (ζ + w h Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
-    pub(super) fn of(fit: &'a Fit, orbit: &Orbit) -> Self {
+    pub(super) fn of(fit: &'a Fit, orbit: &Orbit) -> Option<Self> {
         let terms = fit.terms();
         let (mut exponentials, mut spent) = (vec![], vec![]);
         for (d, h) in orbit.stages.iter().zip(orbit.lengths()) {
+            if stop::is_asked() {
+                return None;
+            }
             for term in terms {
                 let e = d.map(|d| (term.exponent * d).exp());
                 spent.push(term.weight * spent_in(&e) * h);
@@ -46,7 +52,7 @@ impl<'a> Past<'a> {
             |(added, term): (&Complex<f64>, &Term)| added / (1.0 - (term.exponent * moved).exp());
         past.zeta = added.iter().zip(terms).map(settled).collect();
         past.follow(&spent);
-        past
+        Some(past)
     }
 
     /// ζ at the ends of all steps, from what it is at the start.

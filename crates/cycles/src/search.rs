@@ -2,7 +2,7 @@
 
 use super::embedding::Embedding;
 use super::orbit::Orbit;
-use super::solve::{Condition, MOST_WORK, close};
+use super::solve::{Condition, MOST_WORK, NotClosed, close};
 use super::start::{from_onset, from_runs, part, small_cycle_exists};
 use super::{Cycle, CycleError, Ended, TOLERANCES, Tried};
 use stickslip_stability::{Critical, StabilityError, critical, onset_at};
@@ -56,22 +56,25 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let (alpha, r) = (model.alpha(), model.r());
     let critical = critical(model.tip(), r)?;
     if alpha > critical.alpha {
-        let Search { stable, unstable, ended } = Search::above_onset(model, critical, tolerance)?;
+        let found = Search::above_onset(model, critical, tolerance)?;
+        let Search { stable, unstable, ended, coarse } = found;
         if let Some(found) = stable {
             return Ok(found);
         }
         let ended = ended.map(|run| run.ended());
         let is_stuck = ended == Some(Ended::Stuck);
         let followed = || followed_from_onset(&equation, model, critical, tolerance);
-        let found = match (if is_stuck { None } else { followed() }, unstable) {
+        let followed = if is_stuck || coarse.is_some() { None } else { followed() };
+        let found = match (followed, unstable) {
             (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
             (_, other) => other,
         };
-        return unless_stopped(found)?.ok_or(CycleError::NoCycleReached { alpha, r, ended });
+        let none = coarse.unwrap_or(CycleError::NoCycleReached { alpha, r, ended });
+        return unless_stopped(found)?.ok_or(none);
     }
-    let small =
-        born(&equation, model, critical).and_then(|guess| solve(&equation, guess, tolerance));
-    unless_stopped(small)?.ok_or(CycleError::NoSmallCycle { alpha, r, critical: critical.alpha })
+    let none = CycleError::NoSmallCycle { alpha, r, critical: critical.alpha };
+    let Some(guess) = born(&equation, model, critical) else { return Err(none) };
+    unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, none))
 }
 
 /// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
@@ -86,7 +89,8 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     let mesh = [0.0].into_iter().chain(ends).collect();
     let guess = Orbit::of_profile(equation.r, length, mesh, |t| period.l(start + t));
     let (alpha, r) = (model.alpha(), model.r());
-    unless_stopped(solve(&equation, guess, tolerance))?.ok_or(CycleError::NotConverged { alpha, r })
+    let lost = CycleError::NotConverged { alpha, r };
+    unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, lost))
 }
 
 /// As [`cycle_near`], for the stretch of a motion between two times, a period apart, at which l is at its
@@ -103,7 +107,8 @@ pub fn cycle_within(
     let equation = embedding(model, tolerance)?;
     let (alpha, r) = (model.alpha(), model.r());
     let found = solve(&equation, part(motion, from, to), tolerance);
-    unless_stopped(found)?.ok_or(CycleError::NotConverged { alpha, r })
+    let lost = CycleError::NotConverged { alpha, r };
+    unless_stopped(found)?.map_err(|error| error.told(tolerance, lost))
 }
 
 /// The small cycle that is born at αc, on the side of it where it exists; `None` where its leading order leads
@@ -114,7 +119,7 @@ pub fn cycle_within(
 pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, CycleError> {
     let equation = embedding(model, tolerance)?;
     let guess = born(&equation, model, critical(model.tip(), model.r())?);
-    Ok(guess.and_then(|guess| solve(&equation, guess, tolerance)))
+    Ok(guess.and_then(|guess| solve(&equation, guess, tolerance).ok()))
 }
 
 /// What a search came to, if it came to its end.
@@ -138,12 +143,17 @@ fn judge(tolerance: f64) -> Result<(), CycleError> {
     if usable { Ok(()) } else { Err(CycleError::Tolerance(tolerance)) }
 }
 
+/// Guesses that close, but not to the residual asked for.
+const MOST_COARSE: usize = 3;
+
 /// What was found above αc.
 struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
     /// The longest run, if one was needed.
     ended: Option<Tried>,
+    /// There is a cycle, but none to the residual asked for.
+    coarse: Option<CycleError>,
 }
 
 impl Search {
@@ -153,10 +163,19 @@ impl Search {
             Err(CycleError::NeverFades) => None,
             other => Some(other?),
         };
-        let mut found = Self { stable: None, unstable: None, ended: None };
+        let mut found = Self { stable: None, unstable: None, ended: None, coarse: None };
+        let (mut coarse, mut times) = (None, 0);
         let mut take = |guess: Orbit| {
-            let Some(cycle) = equation.as_ref().and_then(|e| solve(e, guess, tolerance)) else {
-                return false;
+            let Some(equation) = &equation else { return false };
+            let cycle = match solve(equation, guess, tolerance) {
+                Ok(cycle) => cycle,
+                Err(NotClosed::Lost) => return false,
+                // Another guess may have a better mesh; after some of them it is not that.
+                Err(NotClosed::Coarse(reached)) => {
+                    coarse = Some(CycleError::Rough { allowed: tolerance, reached });
+                    times += 1;
+                    return times == MOST_COARSE;
+                }
             };
             let is_stable = cycle.is_stable();
             let place = if is_stable { &mut found.stable } else { &mut found.unstable };
@@ -168,7 +187,7 @@ impl Search {
             let width = equation.as_ref().map_or(model.tip().widths(1.0), Embedding::width);
             found.ended = from_runs(model, (width, critical.period), take)?;
         }
-        unless_stopped(found)
+        unless_stopped(Self { coarse, ..found })
     }
 }
 
@@ -192,11 +211,11 @@ fn followed_from_onset(
         Some((Embedding { alpha, ..equation.clone() }, model))
     };
     let (nearby, small) = at(FIRST_SHARE)?;
-    let mut cycle = solve(&nearby, born(&nearby, &small, critical)?, tolerance)?;
+    let mut cycle = solve(&nearby, born(&nearby, &small, critical)?, tolerance).ok()?;
     let (mut share, mut step, mut failures, mut work) = (FIRST_SHARE, FIRST_STEP, 0, 0.0);
     while share < 1.0 {
         let next = (share + step).min(1.0);
-        if let Some(found) = solve(&at(next)?.0, cycle.closed.orbit.clone(), tolerance) {
+        if let Ok(found) = solve(&at(next)?.0, cycle.closed.orbit.clone(), tolerance) {
             work += found.work();
             (cycle, share, step) = (found, next, GROWTH * step);
         } else {
@@ -217,14 +236,14 @@ fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit
 }
 
 /// The cycle near a guess, once around it: a guess at two slips may close after one.
-fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Option<Cycle> {
-    let closed = close(equation.clone(), guess, Condition::GIVEN, tolerance).ok()?;
+fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, NotClosed> {
+    let closed = close(equation.clone(), guess, Condition::GIVEN, tolerance)?;
     if closed.is_steady() {
-        return None;
+        return Err(NotClosed::Lost);
     }
     let r = equation.r;
     if closed.orbit.difference_of_halves(r) < REPEATS_WITHIN {
         return solve(equation, closed.orbit.halved(r), tolerance);
     }
-    Cycle::new(closed).ok()
+    Cycle::new(closed).map_err(|_| NotClosed::Lost)
 }

@@ -1,5 +1,6 @@
 //! Newton's method for a cycle, on meshes that are refined until its residual is as small as asked.
 
+use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
@@ -34,17 +35,27 @@ impl Condition {
     pub(super) const GIVEN: Self = Self { free: Parameter::Alpha, fixed: Direction::PARAMETER };
 }
 
-/// Newton's method did not converge, or the mesh needs too many steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NotClosed;
+/// Why there is no cycle near a guess.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum NotClosed {
+    /// Newton's method did not converge, or the mesh needs too many steps.
+    Lost,
+    /// There is one, but no mesh brings its residual down to what is asked: round-off of the sum that stands for f
+    /// does not let it. This much can be had.
+    Coarse(f64),
+}
 
 const MOST_ITERATIONS: usize = 15;
-const MOST_STEPS: usize = 4000;
+pub(super) const MOST_STEPS: usize = 4000;
+/// A guess may have more, which its mesh does not keep.
+const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 const MOST_MESHES: usize = 8;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
 /// Residuals within a step may exceed the estimate by as much.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
+/// What can be had, over the residual at which meshes no longer help.
+const MARGIN: f64 = 2.0;
 /// A correction of this size leaves an error of its square.
 const ENOUGH: f64 = 1e-9;
 /// Enough to see how far the mesh must be refined.
@@ -63,8 +74,11 @@ pub(super) fn close(
     condition: Condition,
     allowed: f64,
 ) -> Result<Closed, NotClosed> {
+    if orbit.stages.len() > MOST_STEPS_OF_GUESS {
+        return Err(NotClosed::Lost);
+    }
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
-    let (mut iterations, mut work) = (0, 0.0);
+    let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
     let state = 2.0 * equation.short.terms().len() as f64 + 1.0;
     for _ in 0..MOST_MESHES {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
@@ -75,14 +89,15 @@ pub(super) fn close(
             iterations += count;
             work += (count * orbit.stages.len()) as f64 * state * state;
             if work > MOST_WORK || stop::is_asked() {
-                return Err(NotClosed);
+                return Err(NotClosed::Lost);
             }
             let residuals = residuals(&orbit, &linearisation.stiffness);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
+            reached = MARGIN / ESTIMATE_FALLS_SHORT * residual;
             if residual > ESTIMATE_FALLS_SHORT * allowed {
                 let mesh = adapted(&orbit, equation.band, &residuals, allowed);
                 if mesh.len() > MOST_STEPS {
-                    return Err(NotClosed);
+                    return Err(NotClosed::Lost);
                 }
                 orbit = orbit.on_mesh(equation.r, mesh);
                 break;
@@ -93,7 +108,7 @@ pub(super) fn close(
             }
         }
     }
-    Err(NotClosed)
+    Err(NotClosed::Coarse(reached))
 }
 
 /// Newton's method on one mesh.
@@ -111,8 +126,8 @@ impl Newton<'_> {
         let mut last = f64::INFINITY;
         for iteration in 1..=MOST_ITERATIONS {
             let linearisation = Linearisation::new(self.equation, self.orbit, free, solved);
-            let linearisation = linearisation.map_err(|_| NotClosed)?;
-            let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed)?;
+            let linearisation = linearisation.map_err(|_| NotClosed::Lost)?;
+            let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed::Lost)?;
             self.apply(&change)?;
             let size = change.size();
             let settled = size > 0.5 * last && size < ROUND_OFF;
@@ -121,7 +136,7 @@ impl Newton<'_> {
             }
             last = size;
         }
-        Err(NotClosed)
+        Err(NotClosed::Lost)
     }
 
     fn apply(&mut self, change: &Change) -> Result<(), NotClosed> {
@@ -131,7 +146,7 @@ impl Newton<'_> {
         self.orbit.move_by(change, factor);
         self.equation.set(free, self.equation.parameter(free) + factor * change.parameter);
         let usable = change.size().is_finite() && self.orbit.period > 0.0;
-        if usable && self.equation.model().is_some() { Ok(()) } else { Err(NotClosed) }
+        if usable && self.equation.model().is_some() { Ok(()) } else { Err(NotClosed::Lost) }
     }
 }
 
@@ -140,6 +155,16 @@ fn damping(change: &Change, period: f64, width: f64) -> f64 {
     let by_size = LONGEST_CORRECTION * width / change.size();
     let by_period = LARGEST_CHANGE_OF_PERIOD * period / change.period.abs();
     by_size.min(by_period).min(1.0)
+}
+
+impl NotClosed {
+    /// What is told of it where there is a cycle to a looser tolerance; else `lost`.
+    pub(super) fn told(self, allowed: f64, lost: CycleError) -> CycleError {
+        match self {
+            Self::Lost => lost,
+            Self::Coarse(reached) => CycleError::Rough { allowed, reached },
+        }
+    }
 }
 
 impl Closed {

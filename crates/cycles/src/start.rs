@@ -3,6 +3,7 @@
 use super::embedding::Embedding;
 use super::mesh::equidistributed;
 use super::orbit::{Orbit, even_mesh};
+use super::solve::MOST_STEPS;
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -35,7 +36,7 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     if period <= 0.5 * onset.critical.period {
         return None;
     }
-    let mesh = even_mesh(steps_of_mode(equation, period, amplitude));
+    let mesh = even_mesh(steps_of_mode(equation, period, amplitude)?);
     Some(Orbit::of_profile(equation.r, period, mesh, mode(model.steady_l(), amplitude, period)))
 }
 
@@ -44,12 +45,13 @@ pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> 
     move |t| steady + amplitude * (TAU * t / period).cos()
 }
 
-/// So many steps that none leads too far.
-pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> usize {
+/// So many steps that none leads too far; `None` where that is more than any mesh has.
+pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> Option<usize> {
     let farthest = equation.r * period + PI * amplitude;
     let longest = longest_displacement(equation.band);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    return FEWEST_STEPS.max(1.5 * farthest / longest) as usize;
+    let steps = FEWEST_STEPS.max(1.5 * farthest / longest) as usize;
+    (steps <= MOST_STEPS).then_some(steps)
 }
 
 /// Whether a small cycle is to be expected here.

@@ -162,7 +162,7 @@ mod tests {
         let found = crate::cycle(&model, 1e-9).unwrap();
         let (equation, orbit) = (&found.closed.equation, &found.closed.orbit);
         let law = Law::of(&model);
-        let past = Past::of(&equation.fine, orbit);
+        let past = Past::of(&equation.fine, orbit).unwrap();
         let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
         let steps = || orbit.lengths().zip(&orbit.stages);
         for _ in 0..8 {

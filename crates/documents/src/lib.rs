@@ -77,7 +77,8 @@ pub use raster::{
     RasterSurfaceDocument, RasterWork,
 };
 pub use raster_stability::{
-    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
+    RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,
+    RasterStabilityDocument, RasterStabilityParameters,
 };
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};

@@ -7,8 +7,8 @@ use crate::vector::tree;
 use resvg::tiny_skia::{Color, FilterQuality, Pixmap, PixmapPaint, Transform};
 use resvg::usvg::{Group, Image, ImageKind, Node};
 
-/// More pixels than these are 1.6 GB.
-const MOST: f64 = 4e8;
+/// More pixels than these take above 240 MB, being compressed; a page of A4 has 22 million at 480 in an inch.
+const MOST: f64 = 3.2e7;
 
 /// Draws `svg`, which has no ground, on white.
 pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
@@ -26,8 +26,18 @@ pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
     draw_images(tree.root(), scale, &mut picture);
     resvg::render(&tree, scale, &mut picture.as_mut());
     let size = (picture.width() as usize, picture.height() as usize);
-    let pixels: Vec<u8> = picture.data().chunks(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-    png_file(size, png::ColorType::Rgb, &pixels, Some(dots_per_inch))
+    png_file(size, png::ColorType::Rgb, &without_alpha(picture), Some(dots_per_inch))
+}
+
+/// Red, green and blue, in the room that they had with the opacity of what is opaque.
+fn without_alpha(picture: Pixmap) -> Vec<u8> {
+    let pixels = picture.width() as usize * picture.height() as usize;
+    let mut bytes = picture.take();
+    for i in 0..pixels {
+        bytes.copy_within(4 * i..4 * i + 3, 3 * i);
+    }
+    bytes.truncate(3 * pixels);
+    bytes
 }
 
 /// Draws the pictures within the SVG, which lie below all else. resvg would do it with decoders of four formats;

@@ -5,8 +5,8 @@
 use super::transform::CurvatureTransform;
 use num_complex::Complex64;
 use std::f64::consts::PI;
-use stickslip_tip::TipFunction;
 use stickslip_tip::roots::zero_between;
+use stickslip_tip::{TipFunction, stop};
 
 /// Samples per period of the fastest ripple that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 8.0;
@@ -60,7 +60,7 @@ impl Axis {
         let roundoff = if transform.is_closed_form() { 0.0 } else { ROUNDOFF };
         let mut axis = Self { tip: tip.clone(), transform, samples: Vec::new(), least: 0.0 };
         let (mut largest, mut faded, mut wave_number) = (0.0_f64, 0, 0.0);
-        while wave_number < tip.band() && faded < FADED_SPAN {
+        while wave_number < tip.band() && faded < FADED_SPAN && !stop::is_asked() {
             wave_number += step;
             let point = axis.at(wave_number);
             largest = largest.max(point.cosine.abs());

@@ -3,7 +3,7 @@
 use super::StabilityError;
 use super::axis::{Axis, AxisPoint};
 use std::f64::consts::PI;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, stop};
 
 /// A point of the stability boundary with the oscillation that is born there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,8 @@ pub fn critical(tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
 pub(super) fn first_crossing(axis: &Axis, r: f64) -> Result<Critical, StabilityError> {
     // αc = r/c: the first crossing is the one of the largest c.
     let first = axis.crossings_of_r(r).into_iter().max_by(|a, b| a.cosine.total_cmp(&b.cosine));
-    let AxisPoint { cosine, wave_number, .. } = first.ok_or(StabilityError::NoCrossing { r })?;
+    let none = unless_stopped(StabilityError::NoCrossing { r });
+    let AxisPoint { cosine, wave_number, .. } = first.ok_or(none)?;
     Ok(Critical::new(r / cosine, r, wave_number))
 }
 
@@ -70,9 +71,14 @@ pub fn critical_r(tip: &TipFunction, alpha: f64) -> Result<Critical, StabilityEr
     let crossings = Axis::new(tip).crossings_of_alpha(alpha);
     let fastest = crossings.into_iter().max_by(|a, b| a.cosine.total_cmp(&b.cosine));
     // r = αc: the fastest is the one of the largest c.
-    let AxisPoint { cosine, wave_number, .. } =
-        fastest.ok_or(StabilityError::NoCriticalR { alpha })?;
+    let none = unless_stopped(StabilityError::NoCriticalR { alpha });
+    let AxisPoint { cosine, wave_number, .. } = fastest.ok_or(none)?;
     Ok(Critical::new(alpha, alpha * cosine, wave_number))
+}
+
+/// Why nothing was found, if the search came to its end.
+fn unless_stopped(none: StabilityError) -> StabilityError {
+    if stop::is_asked() { StabilityError::Stopped } else { none }
 }
 
 /// Ω of (47), written so that nothing cancels: Ω² = 2/(√(1+4r²) + 1).

@@ -76,6 +76,9 @@ pub enum StabilityError {
         "the pitch is {0:?}: the distance of scan lines must be a finite number above 0, and no less than 1e-5 of the reach of the tip across them"
     )]
     Pitch(f64),
+    /// Nobody waits for it any more: [`stickslip_tip::stop`].
+    #[error("stopped before it was found")]
+    Stopped,
     /// p ∫e^{-ps}(-f')ds is nowhere positive: nothing can hold the tip.
     #[error("this tip function cannot trap the tip at any alpha")]
     NoTrapping,

@@ -9,6 +9,7 @@ use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use stickslip_tip::stop;
 
 /// Contours reach no further than this, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
 const FARTHEST: f64 = 1e9;
@@ -75,7 +76,7 @@ impl HalfPlane {
     fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
         let mut upper = Vec::new();
         for start in self.starts(h) {
-            if total(&upper) >= self.count {
+            if total(&upper) >= self.count || stop::is_asked() {
                 break;
             }
             let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length) else { continue };

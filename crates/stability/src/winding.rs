@@ -3,6 +3,7 @@
 use super::StabilityError;
 use super::transform::Scaled;
 use num_complex::Complex64;
+use stickslip_tip::stop;
 
 /// A step may turn h by at most about this angle, as foretold by h' at either end and as found.
 const TURN: f64 = 0.7;
@@ -35,6 +36,9 @@ pub(super) fn argument_change(
     let (mut at, mut here) = (0.0, h(from));
     let mut turned = 0.0;
     for _ in 0..MOST_STEPS {
+        if stop::is_asked() {
+            return Err(StabilityError::Stopped);
+        }
         let mut step = TURN * reach(&here).min(length);
         loop {
             if step < SHORTEST * length {

@@ -10,6 +10,7 @@
 //! References: Golub & Van Loan, *Matrix Computations*, sections 5.2 and 7.5; Parlett & Reinsch, Numer. Math.
 //! 13, 293 (1969).
 
+use crate::stop;
 use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
 use num_complex::Complex;
 
@@ -123,7 +124,7 @@ impl Deflation {
             match end - start {
                 1 => found[start] = self.h[(start, start)].into(),
                 2 => found[start..end].copy_from_slice(&self.pair(start)),
-                _ if sweeps == MOST_SWEEPS => return None,
+                _ if sweeps == MOST_SWEEPS || stop::is_asked() => return None,
                 _ => {
                     sweeps += 1;
                     self.sweep(start, end, sweeps.is_multiple_of(SWEEPS_PER_STALL));

@@ -303,3 +303,22 @@ fn an_accuracy_out_of_reach_is_refused_with_what_can_be_had() {
     assert!((w / wanted - 1.0).abs() < 1e-12 && reached > wanted && reached < 1e-12);
     assert_eq!(run(&tight).unwrap().memory, "fft");
 }
+
+/// Where f' is 1e12, 10 is an accuracy, and a lattice that is not damped is no fit: it never faded, and its certificate
+/// was looked for without end.
+#[test]
+fn a_tip_of_any_width_is_fitted_or_refused() {
+    for width in [1e-15, 1e-12, 1e-6, 1.0, 1e6, 1e12] {
+        let tip = TipFunction::triple_gaussian(1.0, width).unwrap();
+        for relative in [1e-3, 1e-8, 1e-11, 1e-20] {
+            let wanted = relative / width;
+            match Fit::new(&tip, wanted) {
+                Ok(fit) => assert!(fit.certificate().slope <= wanted, "{width} {relative}"),
+                Err(FitError::NotMet { reached, .. }) => {
+                    assert!(reached > wanted || relative < 1e-8)
+                }
+                Err(error) => panic!("{width} {relative}: {error}"),
+            }
+        }
+    }
+}

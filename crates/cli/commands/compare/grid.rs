@@ -20,8 +20,8 @@ const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
 const SECOND_ORDER: f64 = 0.01;
 /// Cells on either side that a sinc reaches over, for round-off.
 const SINC_HALF_WIDTH: usize = 80;
-/// Eight vectors of these are 1.3 GB.
-const MOST_CELLS: f64 = 2e7;
+/// Eight vectors of these are 190 MB.
+const MOST_CELLS: f64 = 3e6;
 /// At most twice as many samples are kept.
 const SAMPLES: usize = 2048;
 

@@ -30,8 +30,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let (plan, parameters) = plan(arguments)?;
     let times = sample_times(&arguments.sampling, &plan)?;
     let job = Job::of_format::<RasterDocument>(format, output, &arguments.fields, plot.as_deref())?;
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
+    let interrupt = Interrupt::listen()?;
     let (lines, finished) = scan::scan(&plan, &parameters, job.file(), &interrupt)?;
     let document = RasterDocument::new(parameters, &plan, &lines, &times);
     if is_gsf {

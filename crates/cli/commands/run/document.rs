@@ -13,7 +13,7 @@ pub(super) fn end(
     initial: &InitialSurface,
     integrated: &Integrated,
 ) -> Result<RunEnd, Failure> {
-    let Integrated { running, seconds, signal, .. } = integrated;
+    let Integrated { running, seconds, interrupt, .. } = integrated;
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
     // Whoever stops the judgement too, or stopped the run, is told what can be said at once.
     let outcome = stop::where_asked_by(interrupt::flag(), || running.outcome());
@@ -28,7 +28,7 @@ pub(super) fn end(
         creep: outcome.creep.map(Into::into),
         transient: outcome.prospect.map(Into::into),
         remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
-        interrupted: signal.is_some(),
+        interrupted: interrupt.signal().is_some(),
         work: WorkDocument {
             memory: running.memory().into(),
             memory_reason: running.memory_reason(),

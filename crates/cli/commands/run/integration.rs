@@ -7,13 +7,14 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
 use stickslip_outcome::Watched;
-use stickslip_tip::{Scenario, Step};
+use stickslip_tip::{Scenario, Step, stop};
 
 /// A run under way, with all that accompanies it.
 pub(super) struct Integration<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) checkpoints: Option<Checkpoints>,
+    pub(super) interrupt: Interrupt,
     /// Spent before.
     pub(super) seconds: f64,
 }
@@ -23,8 +24,7 @@ pub(super) struct Integrated<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) seconds: f64,
-    /// That stopped it before its end.
-    pub(super) signal: Option<u8>,
+    pub(super) interrupt: Interrupt,
 }
 
 impl<'a> Integration<'a> {
@@ -37,7 +37,8 @@ impl<'a> Integration<'a> {
     }
 
     fn step(&mut self) -> Result<Option<Step>, Failure> {
-        self.running.step().map_err(|error| match self.record.keep_part() {
+        let step = stop::where_asked_by(self.interrupt.flag(), || self.running.step());
+        step.map_err(|error| match self.record.keep_part() {
             None => Failure::Run(error.to_string()),
             Some(part) => Failure::Run(format!(
                 "{error}; what was written until then is in {}",
@@ -48,17 +49,16 @@ impl<'a> Integration<'a> {
 
     /// Goes to the end of the scenario.
     pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<'a>, Failure> {
-        let interrupt = Interrupt::listen()
-            .map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
         let (mut signal, mut is_whole) = (None, true);
         while signal.is_none()
             && let Some(step) = self.step()?
         {
+            let interrupt = &self.interrupt;
             is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
             progress.counted(step.end(), || format!("t = {:.6}", step.end()));
-            signal = interrupt.signal();
+            signal = self.interrupt.signal();
             // Of a step whose samples were not all taken there is none: the last one is before it.
             if !is_whole {
                 break;
@@ -71,6 +71,7 @@ impl<'a> Integration<'a> {
         }
         let seconds = before + started.elapsed().as_secs_f64();
         self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
-        Ok(Integrated { running: self.running, record: self.record, seconds, signal })
+        let Self { running, record, interrupt, .. } = self;
+        Ok(Integrated { running, record, seconds, interrupt })
     }
 }

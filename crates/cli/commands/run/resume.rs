@@ -14,6 +14,7 @@ use crate::files::paths::{folder_of, resolved};
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
 use crate::files::within::found_from;
+use crate::interrupt::Interrupt;
 use crate::message::remark;
 use std::path::Path;
 use stickslip_documents::{CheckpointHead, Order, RunEnd, RunFormat};
@@ -33,6 +34,7 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     let running = running.map_err(|error| named(error.to_string()))?;
     judge(&head, running.t(), &scenario).map_err(|message| named(message.into()))?;
     let order = head.order;
+    let interrupt = Interrupt::listen()?;
     let (target, record) = if order.format == RunFormat::Jsonl {
         let target = file("--output", &order.output)?;
         // What the run has written may have its name by now, and have kept the one from before.
@@ -51,7 +53,8 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
     let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, t));
-    let mut integration = Integration { running, record, checkpoints, seconds: head.seconds };
+    let seconds = head.seconds;
+    let mut integration = Integration { running, record, checkpoints, interrupt, seconds };
     if arguments.output.is_some() || arguments.plot.is_some() {
         // From here on it is gone on with at the new places.
         integration.checkpoint()?;

@@ -5,8 +5,8 @@ use crate::failure::{Failure, Typed};
 use stickslip_documents::Times;
 
 const DEFAULT_INTERVALS: u64 = 2000;
-/// Four columns of these are 1.3 GB, and four times as much as JSON.
-const MOST_SAMPLES: f64 = 4e7;
+/// Rows, columns and what is written of them are 240 MB; there is no limit to lines.
+const MOST_SAMPLES: f64 = 2.5e6;
 /// A petabyte of lines.
 const MOST_LINES: f64 = 1e13;
 
@@ -39,10 +39,14 @@ pub(super) fn sample_times(
     let most = if are_kept { MOST_SAMPLES } else { MOST_LINES };
     if count > most {
         let least = (end - start) / most;
+        let lines = match what {
+            "the run" if are_kept => ", or -o FILE.jsonl, which keeps none",
+            _ => "",
+        };
         return Err(Failure::input(
             named,
             format!(
-                "would make {count:.1e} samples, more than fit in memory; {least:.3e} or above will do"
+                "would make {count:.1e} samples, more than are kept in memory; {least:.3e} or above will do{lines}"
             ),
         ));
     }

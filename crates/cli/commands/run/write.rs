@@ -42,7 +42,8 @@ pub(super) fn all(
     target: Target,
 ) -> Result<(), Failure> {
     let end = document::end(scenario, initial, &integrated)?;
-    let reached = integrated.signal.map(|_| end.end);
+    let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
+    let reached = signal.map(|_| end.end);
     if order.output == Path::new("-") && order.format != RunFormat::Text {
         // Beside a file they are told with what was found.
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
@@ -73,7 +74,7 @@ pub(super) fn all(
             let on_path = trajectory.as_ref().filter(|_| scenario.path.is_some());
             document.loops =
                 on_path.map(|t| friction::loops(t).into_iter().map(Into::into).collect());
-            let asked = trajectory.as_ref().filter(|_| order.verify && integrated.signal.is_none());
+            let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found =
                 asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
@@ -91,7 +92,7 @@ pub(super) fn all(
             };
         }
     }
-    let interrupted = integrated.signal.map(Failure::Interrupted);
+    let interrupted = signal.map(Failure::Interrupted);
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 

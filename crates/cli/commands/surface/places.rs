@@ -7,7 +7,9 @@ use stickslip_tip::Trajectory;
 const DEFAULT_SPACING: f64 = 0.05;
 /// Shown on either side of the tip's way.
 const MARGIN: f64 = 12.0;
-const MOST_POINTS: f64 = 2e7;
+/// 200 MB with what is written of them: of curves, which have an x each, and of images.
+const MOST_POINTS: f64 = 3e6;
+const MOST_PIXELS: f64 = 1e7;
 
 /// Times and positions.
 #[derive(Debug)]
@@ -59,7 +61,8 @@ impl Places {
                 return Err(Failure::input(named, "must be finite numbers"));
             }
             let y = across.map_or(Ok(vec![]), |across| {
-                across.positions("--spacing-y", each / across.points() * x.len() as f64)
+                let each = each / across.points() * x.len() as f64;
+                across.positions("--spacing-y", each, MOST_PIXELS)
             })?;
             return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
         }
@@ -68,8 +71,9 @@ impl Places {
             Some(typed) => range(["--range", "--spacing"], typed, arguments.spacing, spacing)?,
         };
         let spacing = along.spacing;
-        let x = along.positions("--spacing", each)?;
-        let y = across.map_or(Ok(vec![]), |across| across.positions("--spacing-y", 1.0))?;
+        let most = if across.is_some() { MOST_PIXELS } else { MOST_POINTS };
+        let x = along.positions("--spacing", each, most)?;
+        let y = across.map_or(Ok(vec![]), |across| across.positions("--spacing-y", 1.0, most))?;
         Ok(Self { t, x, spacing: Some(spacing), y, spacing_y })
     }
 }
@@ -133,12 +137,12 @@ impl Range {
         ((self.high - self.low) / self.spacing).max(1.0)
     }
 
-    /// The points, unless with `each` of them as many others they are too many.
-    fn positions(&self, option: &str, each: f64) -> Result<Vec<f64>, Failure> {
+    /// The points, unless with `each` of them as many others they are more than `most`.
+    fn positions(&self, option: &str, each: f64, most: f64) -> Result<Vec<f64>, Failure> {
         let Self { low, high, spacing } = *self;
         let points = self.points() * each;
-        if points > MOST_POINTS {
-            let least = spacing * points / MOST_POINTS;
+        if points > most {
+            let least = spacing * points / most;
             return Err(Failure::input(
                 format!("{option} {}", Typed(spacing)),
                 format!(

@@ -41,13 +41,14 @@ pub(super) fn small(
     amplitude: f64,
 ) -> Result<Closed, CycleError> {
     let equation = embedding(model, settings.tolerance)?;
-    let mesh = even_mesh(steps_of_mode(&equation, period, amplitude));
+    let (alpha, r) = (model.alpha(), model.r());
+    let lost = CycleError::NotConverged { alpha, r };
+    let mesh = even_mesh(steps_of_mode(&equation, period, amplitude).ok_or(lost.clone())?);
     let l = mode(model.steady_l(), amplitude, period);
     let guess = Orbit::of_profile(model.r(), period, mesh, l);
     let condition = Condition { free: settings.over, fixed: Direction::L };
-    let (alpha, r) = (model.alpha(), model.r());
     close(equation, guess, condition, settings.tolerance)
-        .map_err(|_| CycleError::NotConverged { alpha, r })
+        .map_err(|error| error.told(settings.tolerance, lost))
 }
 
 /// Of a cycle whose halves are nearly the same, the one of half the period.

@@ -81,7 +81,7 @@ pub(super) fn solved_again(cycle: &Cycle, settings: &Continuation) -> Result<Clo
     let (alpha, r) = (equation.alpha, equation.r);
     let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
     close(equation, orbit, condition, settings.tolerance)
-        .map_err(|_| CycleError::NotConverged { alpha, r })
+        .map_err(|error| error.told(settings.tolerance, CycleError::NotConverged { alpha, r }))
 }
 
 /// What a change of each quantity is measured by.

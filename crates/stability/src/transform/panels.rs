@@ -9,19 +9,44 @@ use stickslip_tip::Gaussian;
 const PANEL_NODES: usize = 32;
 /// |Λ + band| times half a panel's width that 32 nodes integrate to round-off.
 const PANEL_PHASE: f64 = 17.0;
+/// e^{-Λy} at the start of a panel comes from that of the panel before, but for every so many.
+const PANELS_PER_EXPONENTIAL: usize = 8;
 /// The quadrature serves |Λ| up to this many bands; beyond, the closed form does.
 const BANDS_SERVED: f64 = 1.5;
 /// The quadrature covers so many widths of each Gaussian: exp(-13²/2) = 2e-37.
 const WIDTHS_INTEGRATED: f64 = 13.0;
 
+/// Terms by their centres, and the largest width.
+struct Sorted(Vec<Gaussian>, f64);
+
+impl Sorted {
+    fn new(terms: &[Gaussian]) -> Self {
+        let mut sorted = terms.to_vec();
+        sorted.sort_by(|a, b| a.center.total_cmp(&b.center));
+        Self(sorted, terms.iter().map(|g| g.width).fold(0.0, f64::max))
+    }
+
+    /// All that may matter at y.
+    fn about(&self, y: f64) -> &[Gaussian] {
+        let Self(terms, widest) = self;
+        let far = WIDTHS_INTEGRATED * widest;
+        let first = terms.partition_point(|g| g.center < y - far);
+        let end = terms.partition_point(|g| g.center <= y + far);
+        &terms[first..end]
+    }
+}
+
 /// f'(y) and f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
-fn slope_and_curvature(terms: &[Gaussian], y: f64) -> (f64, f64) {
+fn slope_and_curvature(terms: &Sorted, y: f64) -> (f64, f64) {
     let scaled = |g: &Gaussian| (y - g.center) / g.width;
-    let near = terms.iter().map(|g| (g, scaled(g))).filter(|(_, z)| z.abs() < WIDTHS_INTEGRATED);
-    near.fold((0.0, 0.0), |(slope, curvature), (g, z)| {
-        let value = g.amplitude / g.width * (-0.5 * z * z).exp();
-        (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
-    })
+    let near = terms.about(y).iter().map(|g| (g, scaled(g)));
+    near.filter(|(_, z)| z.abs() < WIDTHS_INTEGRATED).fold(
+        (0.0, 0.0),
+        |(slope, curvature), (g, z)| {
+            let value = g.amplitude / g.width * (-0.5 * z * z).exp();
+            (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
+        },
+    )
 }
 
 /// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip; near Λ = 0 of
@@ -55,6 +80,7 @@ impl Panels {
         let offsets: Vec<f64> = pairs.iter().map(|(x, _)| 0.5 * width * (1.0 + x)).collect();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let starts = (0..panels as u32).map(|i| f64::from(i) * width);
+        let terms = &Sorted::new(terms);
         let (slope, curvature): (Vec<f64>, Vec<f64>) = starts
             .flat_map(|start| {
                 let node = |(x, w): (&f64, &(f64, f64))| {
@@ -107,8 +133,9 @@ impl Panels {
         let log_scale = if largest > LARGEST_EXPONENT { largest } else { 0.0 };
         let mut value = Complex64::ZERO;
         let mut derivative = Complex64::ZERO;
-        let mut start = 0.0;
-        for panel in panels {
+        let (mut start, mut carry) = (0.0, Complex64::ONE);
+        let along = (-lambda * self.width).exp();
+        for (i, panel) in panels.enumerate() {
             let mut sum = Complex64::ZERO;
             let mut moment = Complex64::ZERO;
             for ((weight, e), x) in panel.iter().zip(&within).zip(&self.offsets) {
@@ -116,7 +143,11 @@ impl Panels {
                 sum += term;
                 moment += term * *x;
             }
-            let carry = (-lambda * start - log_scale).exp();
+            // A few multiplications are as exact as an exponential, and sooner done.
+            carry = match i % PANELS_PER_EXPONENTIAL {
+                0 => (-lambda * start - log_scale).exp(),
+                _ => carry * along,
+            };
             value += carry * sum;
             derivative -= carry * (moment + sum * start);
             start += self.width;

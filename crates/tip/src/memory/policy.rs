@@ -122,8 +122,11 @@ impl Policy {
         let Some(record) = &self.record else { return };
         match &mut self.now {
             Now::Direct => {
-                if self.choice == MemoryChoice::Auto && is_long(record) {
-                    (self.record, self.now) = self.without_direct(record.all());
+                if self.choice == MemoryChoice::Auto
+                    && is_long(record)
+                    && let Some(other) = self.without_direct(record.all())
+                {
+                    (self.record, self.now) = other;
                 }
             }
             Now::Modes(modes, retreats) if retreats.fft.is_some() => {
@@ -141,12 +144,16 @@ impl Policy {
         }
     }
 
-    /// What takes over from a direct sum.
-    fn without_direct(&self, past: impl Iterator<Item = (f64, f64)>) -> (Option<Record>, Now) {
-        match Fit::cached(&self.tip, self.accuracy) {
+    /// What takes over from a direct sum; nothing where nobody waits for it, and whoever goes on decides anew.
+    fn without_direct(
+        &self,
+        past: impl Iterator<Item = (f64, f64)>,
+    ) -> Option<(Option<Record>, Now)> {
+        Some(match Fit::cached(&self.tip, self.accuracy) {
             Ok(fit) => with_modes(&self.tip, fit, past),
+            Err(FitError::Stopped) => return None,
             Err(why) => with_fft(&self.tip, past, Some(why)),
-        }
+        })
     }
 }
 

@@ -70,7 +70,7 @@ impl MemoryReport {
             Sum::Fft { instead_of_modes: Some(FitError::NeverFades) } => {
                 many + ", and modes need a footprint that fades"
             }
-            Sum::Fft { instead_of_modes: Some(FitError::NotMet { .. } | FitError::Terms) } => {
+            Sum::Fft { instead_of_modes: Some(_) } => {
                 format!("{many}, and modes do not fit f' to {:.1e}", self.accuracy)
             }
         })

@@ -24,6 +24,8 @@ pub struct Gaussian {
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
+    /// Distance of the terms, where they are those of a table.
+    lattice: Option<f64>,
     /// The f(x,y) that this is f(x,0) of.
     footprint: Option<Arc<Footprint>>,
 }
@@ -51,7 +53,7 @@ impl GaussianSum {
         if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
             return Err(TipFunctionError::NotEven { center: term.center });
         }
-        Ok(Self { terms, footprint: None })
+        Ok(Self { lattice: lattice(&terms), terms, footprint: None })
     }
 
     /// The terms, as given.
@@ -134,11 +136,40 @@ impl GaussianSum {
 
     /// The terms that matter at x, each with z = (x-c)/w: a table's many narrow ones are mostly far.
     fn near(&self, x: f64) -> impl Iterator<Item = (&Gaussian, f64)> {
-        self.terms
+        self.looked_at(x)
             .iter()
             .map(move |g| (g, (x - g.center) / g.width))
             .filter(|(_, z)| z.abs() < WIDTHS_OF_REACH)
     }
+
+    /// All terms that may matter at x: of a table those of the lattice points about |x|, in their order.
+    fn looked_at(&self, x: f64) -> &[Gaussian] {
+        let Some(spacing) = self.lattice else { return &self.terms };
+        let reach = WIDTHS_OF_REACH * self.terms[0].width;
+        let (low, high) = ((x.abs() - reach) / spacing, (x.abs() + reach) / spacing);
+        // Point k has the terms 2k - 1 and 2k. One point more on either side: what is rounded here is not missed.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let (first, last) = ((low as usize).saturating_sub(1), (high as usize).saturating_add(2));
+        let end = last.saturating_mul(2).saturating_add(1).min(self.terms.len());
+        &self.terms[first.saturating_mul(2).saturating_sub(1).min(end)..end]
+    }
+}
+
+/// The distance of terms that are on an even lattice as those of a table are, of one width, in the order 0, -1, 1, -2,
+/// 2 and so on.
+fn lattice(terms: &[Gaussian]) -> Option<f64> {
+    /// Fewer are looked at as soon as chosen.
+    const MANY: usize = 32;
+    let (first, spacing) = (terms.first()?, terms.get(2)?.center);
+    let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
+    let at = |(i, g): (usize, &Gaussian)| {
+        #[expect(clippy::cast_precision_loss, reason = "a table has 2000 rows")]
+        let distance = i.div_ceil(2) as f64 * spacing;
+        same(g.center, if i.is_multiple_of(2) { distance } else { -distance })
+            && same(g.width, first.width)
+    };
+    let is_lattice = terms.len() >= MANY && spacing > 0.0 && terms.iter().enumerate().all(at);
+    is_lattice.then_some(spacing)
 }
 
 /// Whether the mirror image of `term` is among `terms` as often as it is itself, to round-off.
@@ -154,4 +185,37 @@ fn has_twin(terms: &[Gaussian], term: &Gaussian) -> bool {
             .sum()
     };
     close(total(term.center), total(-term.center), term.amplitude.abs().max(1e-300))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same terms in another order, of which all are looked at.
+    #[test]
+    fn of_a_table_no_term_that_matters_is_passed_over() {
+        for rows in [20, 300] {
+            let x: Vec<f64> = (0..rows).map(|i| 9.0 * f64::from(i) / f64::from(rows - 1)).collect();
+            let f: Vec<f64> =
+                x.iter().map(|x| (1.0 - 0.2 * x * x) * (-0.5 * x * x).exp()).collect();
+            let crate::TipFunction::Gaussians(sum) = crate::TipFunction::table(&x, &f).unwrap()
+            else {
+                unreachable!("a table is a sum")
+            };
+            assert!(sum.lattice.is_some());
+            let all = GaussianSum { lattice: None, ..sum.clone() };
+            for i in -3000..=3000 {
+                let x = 0.005 * f64::from(i);
+                assert_eq!(sum.value(x).to_bits(), all.value(x).to_bits(), "{x}");
+                let bits = |(a, b): (f64, f64)| (a.to_bits(), b.to_bits());
+                let here = |sum: &GaussianSum| bits(sum.slope_and_curvature(x));
+                assert_eq!(here(&sum), here(&all), "{x}");
+            }
+            for x in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
+                assert!(sum.value(x).abs() <= 0.0, "{x}");
+            }
+        }
+        let few = [0.0, -1.0, 1.0].map(|center| Gaussian { amplitude: 1.0, center, width: 1.0 });
+        assert_eq!(GaussianSum::new(few.to_vec()).unwrap().lattice, None);
+    }
 }

@@ -1,7 +1,7 @@
 //! How far a sum of exponentials is from f', everywhere on its half-line.
 
 use super::term::Term;
-use crate::TipFunction;
+use crate::{TipFunction, stop};
 use num_complex::Complex;
 
 /// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ ≥ -δ.
@@ -17,6 +17,8 @@ pub struct FitCertificate {
 
 /// Grid points per 1/|s| of the fastest exponential.
 const POINTS_PER_LENGTH: f64 = 16.0;
+/// Sums that have not faded at so many reaches are no fits.
+const FARTHEST: f64 = 100.0;
 /// Powers `e^{s n h}` are formed by so many multiplications at most, then afresh.
 const BLOCK: usize = 32;
 
@@ -41,6 +43,10 @@ pub(super) fn certify(
         if n % BLOCK == 0 {
             if xi > reach && tail(terms, xi) < 0.5 * found.slope {
                 break;
+            }
+            if xi > FARTHEST * reach || stop::is_asked() {
+                found.slope = f64::INFINITY;
+                return found;
             }
             values = terms.iter().map(|t| t.weight * (t.exponent * xi).exp()).collect();
         }

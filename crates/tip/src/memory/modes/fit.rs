@@ -4,7 +4,7 @@ use super::certificate::{FitCertificate, certify};
 use super::pencil::Pencil;
 use super::term::Term;
 use super::weights::weights;
-use crate::TipFunction;
+use crate::{TipFunction, stop};
 use num_complex::Complex;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::{Arc, Mutex};
@@ -30,6 +30,9 @@ pub enum FitError {
     /// Terms that make no sum.
     #[error("a fit needs at least one exponential, and each must fade")]
     Terms,
+    /// Nobody waits for it any more: [`crate::stop`].
+    #[error("stopped before f' was fitted")]
+    Stopped,
     /// The best fit is not good enough.
     #[error(
         "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: ask for a larger tolerance, or use the memory fft"
@@ -77,7 +80,12 @@ impl Fit {
         }
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         let retreat = retreat(tip, reach);
-        let window = Window { reach, retreat };
+        let window = Window { reach, retreat, largest: largest_slope(tip, (retreat, reach)) };
+        // f' itself is known no better.
+        let roundings = f64::EPSILON * window.largest;
+        if wanted < roundings {
+            return Err(FitError::NotMet { wanted, reached: roundings });
+        }
         let pencil = |samples, reached: &mut f64| by_pencil(tip, &window, samples, wanted, reached);
         let mut reached = f64::INFINITY;
         if wanted >= FINEST_OF_PENCIL
@@ -86,7 +94,7 @@ impl Fit {
             return Ok(fit);
         }
         let mut lattices = false;
-        for period in PERIODS {
+        for period in PERIODS.into_iter().take_while(|_| !stop::is_asked()) {
             let Some(fit) = damped_fourier(tip, &window, period, wanted) else { continue };
             if fit.meets() {
                 return Ok(fit);
@@ -98,7 +106,7 @@ impl Fit {
         if !lattices && let Some(fit) = pencil(MORE_SAMPLES, &mut reached) {
             return Ok(fit);
         }
-        Err(FitError::NotMet { wanted, reached })
+        Err(if stop::is_asked() { FitError::Stopped } else { FitError::NotMet { wanted, reached } })
     }
 
     /// -sin ξ = Re(i e^{iξ}), exactly, on both sides and for ever.
@@ -124,6 +132,9 @@ impl Fit {
             return fit;
         }
         let fit = Self::new(tip, wanted).map(Arc::new);
+        if fit == Err(FitError::Stopped) {
+            return fit;
+        }
         let mut cache = lock();
         if cache.len() == MOST {
             drop(cache.remove(0));
@@ -146,6 +157,9 @@ impl Fit {
         }
         let retreat = retreat(tip, reach);
         let certificate = certify(tip, reach, retreat, &terms);
+        if stop::is_asked() {
+            return Err(FitError::Stopped);
+        }
         Ok(Self { terms, retreat, wanted: certificate.slope, certificate })
     }
 
@@ -200,7 +214,7 @@ impl Fit {
         samples: &[(f64, f64)],
         wanted: f64,
     ) -> Option<Self> {
-        let Window { reach, retreat } = *window;
+        let Window { reach, retreat, .. } = *window;
         let weights = weights(exponents, samples)?;
         let term = |(s, w): (&Complex<f64>, Complex<f64>)| Term { exponent: *s, weight: w };
         let terms: Vec<Term> = exponents.iter().zip(weights).map(term).collect();
@@ -221,6 +235,15 @@ fn retreat(tip: &TipFunction, reach: f64) -> f64 {
 struct Window {
     reach: f64,
     retreat: f64,
+    /// max |f'|
+    largest: f64,
+}
+
+/// max |f'|, about.
+fn largest_slope(tip: &TipFunction, span: (f64, f64)) -> f64 {
+    let (count, _) = MORE_SAMPLES;
+    let samples = samples(tip, span, count);
+    samples.iter().map(|(_, slope)| slope.abs()).fold(0.0, f64::max)
 }
 
 /// (ξ, f'(ξ)) at n points from -δ to the end, denser towards -δ, where a fit is free to stray.
@@ -250,6 +273,9 @@ fn by_pencil(
     let most = pencil.most_terms().min(MOST_TERMS);
     let (mut best, mut misses) = (f64::INFINITY, 0);
     for p in pencil.fewest_terms(wanted)..=most {
+        if stop::is_asked() {
+            return None;
+        }
         let exponents = pencil.exponents(p);
         let fit = exponents.and_then(|s| Fit::with_exponents(tip, window, &s, &fine, wanted));
         let Some(fit) = fit else { continue };
@@ -270,9 +296,10 @@ fn by_pencil(
 /// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
 /// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`.
 fn damped_fourier(tip: &TipFunction, window: &Window, period: f64, wanted: f64) -> Option<Fit> {
-    let Window { reach, retreat } = *window;
+    let Window { reach, retreat, .. } = *window;
     let period = period * (reach + retreat);
-    let digits = -(SHARE_OF_LATTICE * wanted).max(f64::EPSILON * f64::EPSILON).ln();
+    let share = SHARE_OF_LATTICE * wanted / window.largest.max(1.0);
+    let digits = -share.clamp(f64::EPSILON * f64::EPSILON, SHARE_OF_LATTICE).ln();
     let (rate, lattice) = (-digits / period, TAU / period);
     let pairs = waves(tip, lattice, SHARE_OF_LATTICE * wanted);
     if pairs > MOST_PAIRS {

@@ -32,7 +32,7 @@ impl Saved for Policy {
             (self.record, self.now) = if state.flag()? {
                 (Some(Record::whole(&self.tip)), Now::Direct)
             } else {
-                self.without_direct(std::iter::empty())
+                self.without_direct(std::iter::empty()).ok_or(Damaged::Other("fit"))?
             };
         }
         match (&mut self.now, &mut self.record) {
@@ -50,6 +50,10 @@ impl Saved for Policy {
             }
             (_, Some(record)) => record.restore(state)?,
             (_, None) => {}
+        }
+        // What was put off where a signal came.
+        if matches!(self.now, Now::Direct) {
+            self.decide();
         }
         Ok(())
     }

@@ -197,8 +197,8 @@ fn numbers_are_the_same_in_json_csv_and_npz() {
         let array: Array1<f64> = npz.by_name(name).unwrap();
         bits(array)
     };
-    let columns = csv(&folder, "run.csv", "t,l,x0,velocity");
-    for (name, in_csv) in ["t", "l", "x0", "velocity"].iter().zip(&columns) {
+    let columns = csv(&folder, "run.csv", "t,l,x0,velocity,lag");
+    for (name, in_csv) in ["t", "l", "x0", "velocity", "lag"].iter().zip(&columns) {
         let in_json = column(&document, &format!("/samples/{name}"));
         assert_eq!(&in_json, in_csv, "{name}");
         assert_eq!(in_json, vector(name), "{name}");

@@ -21,3 +21,5 @@ mod stability_against_runs;
 mod surfaces;
 mod three_dimensions;
 mod tolerance_ladder;
+mod wider_ladder;
+mod wider_law;

@@ -42,7 +42,7 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &ResponseArguments) -> Result<Self, Failure> {
-        let model = model(&arguments.model)?;
+        let model = model(&arguments.model, "response")?;
         let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
         judge_count("--modes", arguments.modes)?;
         let position = arguments.start_position;

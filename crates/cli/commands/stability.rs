@@ -3,7 +3,7 @@
 mod raster;
 
 use super::job::{Job, judge_places};
-use super::model::{model, tip};
+use super::model::{model, only_papers, tip};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
@@ -46,6 +46,7 @@ struct Point {
 
 impl Point {
     fn asked(arguments: &StabilityArguments) -> Result<Self, Failure> {
+        only_papers(&arguments.model, "stability")?;
         let tip = tip(&arguments.model.tip)?;
         match arguments.solve_for {
             SolveFor::Alpha => Self::for_alpha(&arguments.model, tip),
@@ -61,7 +62,11 @@ impl Point {
             return Err(Failure::input(format!("--r {}", Typed(r)), error));
         }
         if arguments.alpha.is_some() || arguments.alpha_above.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: model(arguments, "stability")?,
+                at_critical: false,
+            });
         }
         let advice = "give --alpha A for the growth exponents there";
         let at = critical.map_err(|error| {
@@ -82,7 +87,11 @@ impl Point {
             return Err(Failure::input(format!("--alpha {}", Typed(alpha)), error));
         }
         if arguments.r.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: model(arguments, "stability")?,
+                at_critical: false,
+            });
         }
         let advice = "give --r R for the growth exponents there";
         let at = critical.map_err(|error| {

@@ -83,10 +83,11 @@ pub use raster_stability::{
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
-pub use run::{RunDocument, Samples};
+pub use run::{LoopDocument, RunDocument, Samples};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
+    SupportPathParameters,
 };
 pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};

@@ -49,7 +49,7 @@ impl Creep {
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
     let Spectrum { roots, certificate } = match model.tip() {
         TipFunction::Bessel => bessel(model.alpha() / model.r()),
-        TipFunction::Gaussians(_) => {
+        TipFunction::Gaussians(_) | TipFunction::Cosine => {
             let h = Characteristic::of_creep(model);
             let unmoved = h.ratio <= 0.0;
             if unmoved { none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }

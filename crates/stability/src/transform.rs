@@ -44,12 +44,14 @@ enum Kind {
     ClosedForms(Vec<Gaussian>, Origin),
     Quadrature(Panels, Vec<Gaussian>),
     Bessel,
+    Cosine,
 }
 
 impl CurvatureTransform {
     pub(super) fn new(tip: &TipFunction) -> Self {
         let kind = match tip {
             TipFunction::Bessel => Kind::Bessel,
+            TipFunction::Cosine => Kind::Cosine,
             TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
                 Kind::ClosedForms(sum.terms().to_vec(), Origin::of(sum.terms()))
             }
@@ -73,6 +75,7 @@ impl CurvatureTransform {
             Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
             Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
             Kind::Bessel => bessel(lambda),
+            Kind::Cosine => cosine(lambda),
         }
     }
 
@@ -89,6 +92,7 @@ impl CurvatureTransform {
             Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
             Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
             Kind::Bessel => bessel(lambda).value.norm(),
+            Kind::Cosine => cosine(lambda).value.norm(),
         }
     }
 }
@@ -254,6 +258,14 @@ fn bessel(lambda: Complex64) -> Scaled {
     Scaled { value, derivative, log_scale: 0.0 }
 }
 
+/// G = -Λ/(Λ²+1) for f = cos.
+fn cosine(lambda: Complex64) -> Scaled {
+    let square = lambda * lambda;
+    let value = -lambda / (square + 1.0);
+    let derivative = (square - 1.0) / ((square + 1.0) * (square + 1.0));
+    Scaled { value, derivative, log_scale: 0.0 }
+}
+
 /// √(Λ²+1), positive for positive Λ, with cuts from ±i straight to the left.
 pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
     (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
@@ -269,6 +281,7 @@ mod tests {
             TipFunction::gaussian(1.0).unwrap(),
             TipFunction::triple_gaussian(0.7, 0.4).unwrap(),
             TipFunction::Bessel,
+            TipFunction::Cosine,
         ];
         let points = [(0.0, 0.75), (0.3, 0.2), (-2.0, 1.0), (-3.5, 0.3), (4.0, 7.0), (0.0, 3.0)];
         for tip in &tips {

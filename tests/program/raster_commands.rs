@@ -138,7 +138,33 @@ fn lines_kept_are_taken_up_where_they_are_whole_and_of_this_raster() {
     folder.refuses(&format!("{line} -o b.json"), &["--output", "another raster"]);
 }
 
-/// PHYSICS table: thresholds and angles, in the document as in the library.
+/// The wider law on the command line: heights in samples, lines that take away less, and the same bytes after a resume.
+#[test]
+fn a_raster_under_the_wider_law_is_one_too() {
+    let folder = Folder::new("raster_wider");
+    let line = "raster --alpha 1.5 --r 1 --depth-limit 3 --pitch 1 --lines 3 --length 15";
+    let limited = folder.prints_json(line);
+    let height = number(&limited["lines"][1]["samples"]["height"][30]);
+    assert!(height.abs() > 1e-3, "{height}");
+    assert_eq!(limited["parameters"]["depth_limit"], 3.0);
+    folder.write("a.json", limited.to_string());
+    let surface = folder.prints_json("surface a.json --range 0:15:31 --y 0.5");
+    assert_eq!(surface["surfaces"][0]["u"][0].as_array().unwrap().len(), 31);
+    let free = folder.prints_json(&line.replace("--depth-limit 3 ", ""));
+    // A triple Gaussian of β = 1 has no volume.
+    assert!(number(&free["volume"]).abs() < 1e-12 && number(&limited["volume"]).abs() < 1e-12);
+    let healed = line.replace("--depth-limit 3", "--tip gaussian --healing-time 5 --inertia 0.2");
+    let healed = folder.prints_json(&format!("{healed} --path zigzag"));
+    let never = -1.5 * 15.0 * 2.0 * std::f64::consts::PI * 3.0;
+    assert!(number(&healed["volume"]) > 0.5 * never, "{}", healed["volume"]);
+    folder.refuses(
+        "raster --alpha -1 --no-spring --pitch 1 --lines 3 --length 15",
+        &["--r", "required"],
+    );
+    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "paper's law"]);
+}
+
+/// Thresholds and angles, in the document as in the library.
 #[test]
 fn thresholds_of_a_raster_are_those_of_the_library() {
     let folder = Folder::new("raster_stability");

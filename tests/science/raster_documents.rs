@@ -2,12 +2,20 @@
 
 use stickslip_documents::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
+/// One-way under a depth limit on a surface that heals, the others under the paper's law.
 fn plan(path: Path) -> Plan {
     let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
     let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
-    Plan::new(footprint, Model::new(tip, 0.6, 0.9).unwrap(), path, 0.7, 5, 20.0)
+    let is_wider = path == Path::OneWay;
+    let wider = Wider {
+        depth_limit: is_wider.then_some(4.0),
+        healing_time: is_wider.then_some(50.0),
+        ..Wider::default()
+    };
+    let model = Model::under(wider, tip, 0.6, 0.9).unwrap();
+    Plan::new(footprint, model, path, 0.7, 5, 20.0)
 }
 
 fn document(path: Path) -> (Plan, Vec<Line>, RasterDocument) {
@@ -42,7 +50,8 @@ fn a_raster_comes_back_from_its_document() {
 /// What was scanned, and no other, is what the rest of a raster goes on from.
 #[test]
 fn a_line_kept_is_the_line() {
-    let (plan, lines, _) = document(Path::Zigzag);
+    let (plan, lines, _) = document(Path::OneWay);
+    assert!(lines[0].height(3.0).is_some_and(|height| height < 0.0));
     for (n, line) in lines.iter().enumerate() {
         let text = serde_json::to_string(&KeptLine::of(n, line)).unwrap();
         let kept: KeptLine = serde_json::from_str(&text).unwrap();
@@ -51,7 +60,11 @@ fn a_line_kept_is_the_line() {
         assert_eq!(again.trajectory(), line.trajectory());
     }
     let other = KeptLine { index: 7, ..KeptLine::of(0, &lines[0]) };
-    assert!(other.line(&plan).is_err());
+    let without = KeptLine { heights: None, ..KeptLine::of(0, &lines[0]) };
+    let short = KeptLine { heights: Some(vec![]), ..KeptLine::of(0, &lines[0]) };
+    for line in [other, without, short] {
+        assert!(line.line(&plan).is_err(), "{}", line.index);
+    }
 }
 
 #[test]

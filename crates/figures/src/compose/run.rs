@@ -11,7 +11,7 @@ use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
 use stickslip_documents::{
     CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters,
-    StyleName,
+    StyleName, to_its_digits,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
@@ -74,6 +74,7 @@ const COLUMNS: usize = 3;
 #[derive(Debug, Clone, Copy)]
 struct Shown<'a> {
     part: Part<'a>,
+    /// Periods, in which there may be several slips.
     oscillations: usize,
     detail: Option<f64>,
 }
@@ -83,10 +84,12 @@ type Row = (PanelDocument, Option<PanelDocument>);
 
 impl<'a> Shown<'a> {
     fn of(run: &RunDocument, part: Part<'a>, l: Quantity) -> Self {
-        let oscillations = part.maxima(l);
-        let mean = (part.span.1 - part.span.0) / oscillations.max(1) as f64;
-        let period = run.oscillation.as_ref().map_or(mean, |o| o.period);
-        Self { part, oscillations, detail: (oscillations > MANY).then_some(SHOWN * period) }
+        let maxima = part.maxima(l);
+        let mean = (part.span.1 - part.span.0) / maxima.max(1) as f64;
+        let (period, slips) =
+            run.oscillation.as_ref().map_or((mean, 1), |o| (o.period, o.slips.max(1)));
+        let detail = (maxima > MANY).then_some(SHOWN * period);
+        Self { part, oscillations: maxima / slips, detail }
     }
 
     fn motion(
@@ -111,7 +114,9 @@ impl<'a> Shown<'a> {
 fn title(run: &RunDocument) -> String {
     let name = model_name(&run.parameters.model);
     let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
-        format!(", T = {}", seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period)))
+        let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
+        let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
+        format!(", T = {period}")
     });
     format!("{name}: {}{motion}", run.regime)
 }

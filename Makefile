@@ -14,7 +14,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive judge check outputs bench work-precision figures peers fuzz doc install clean
+.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -38,6 +38,9 @@ check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) test --workspace --locked
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) bench --workspace --locked --no-run
+
+wasm: ## what is to run in a browser compiles for it: documents, figures (rustup's target, or Debian's rustc-web)
+	.ci/wasm
 
 outputs: ## do two builds write the same, but for the changes in tests/outputs: OLD=path of the other program
 	$(CARGO) build --release --locked

@@ -263,7 +263,7 @@ fn any_sweep_is_taken_or_refused() {
 }
 
 fn judge_model(arguments: &ModelArguments) -> bool {
-    arguments.tip.tip_file.is_some() || model::model(arguments).is_ok()
+    arguments.tip.tip_file.is_some() || model::wide_model(arguments).is_ok()
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 10] = [
+const OTHERS: [(&str, &str); 11] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
@@ -72,6 +72,7 @@ const OTHERS: [(&str, &str); 10] = [
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
     ("raster", "raster --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
+    ("raster-boundary", "boundary --tip gaussian --pitch-range 0.5:2:4 --r 1"),
     ("raster-stability", "stability --r 1 --pitch 1 --alpha 0.5"),
     (
         "units",
@@ -196,8 +197,8 @@ fn numbers_are_the_same_in_json_csv_and_npz() {
         let array: Array1<f64> = npz.by_name(name).unwrap();
         bits(array)
     };
-    let columns = csv(&folder, "run.csv", "t,l,x0,velocity");
-    for (name, in_csv) in ["t", "l", "x0", "velocity"].iter().zip(&columns) {
+    let columns = csv(&folder, "run.csv", "t,l,x0,velocity,lag");
+    for (name, in_csv) in ["t", "l", "x0", "velocity", "lag"].iter().zip(&columns) {
         let in_json = column(&document, &format!("/samples/{name}"));
         assert_eq!(&in_json, in_csv, "{name}");
         assert_eq!(in_json, vector(name), "{name}");

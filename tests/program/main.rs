@@ -35,4 +35,5 @@ mod units_command;
 mod verification;
 mod verified_lines;
 mod walls;
+mod wider_law;
 mod written_files;

@@ -138,7 +138,33 @@ fn lines_kept_are_taken_up_where_they_are_whole_and_of_this_raster() {
     folder.refuses(&format!("{line} -o b.json"), &["--output", "another raster"]);
 }
 
-/// PHYSICS table: thresholds and angles, in the document as in the library.
+/// The wider law on the command line: heights in samples, lines that take away less, and the same bytes after a resume.
+#[test]
+fn a_raster_under_the_wider_law_is_one_too() {
+    let folder = Folder::new("raster_wider");
+    let line = "raster --alpha 1.5 --r 1 --depth-limit 3 --pitch 1 --lines 3 --length 15";
+    let limited = folder.prints_json(line);
+    let height = number(&limited["lines"][1]["samples"]["height"][30]);
+    assert!(height.abs() > 1e-3, "{height}");
+    assert_eq!(limited["parameters"]["depth_limit"], 3.0);
+    folder.write("a.json", limited.to_string());
+    let surface = folder.prints_json("surface a.json --range 0:15:31 --y 0.5");
+    assert_eq!(surface["surfaces"][0]["u"][0].as_array().unwrap().len(), 31);
+    let free = folder.prints_json(&line.replace("--depth-limit 3 ", ""));
+    // A triple Gaussian of β = 1 has no volume.
+    assert!(number(&free["volume"]).abs() < 1e-12 && number(&limited["volume"]).abs() < 1e-12);
+    let healed = line.replace("--depth-limit 3", "--tip gaussian --healing-time 5 --inertia 0.2");
+    let healed = folder.prints_json(&format!("{healed} --path zigzag"));
+    let never = -1.5 * 15.0 * 2.0 * std::f64::consts::PI * 3.0;
+    assert!(number(&healed["volume"]) > 0.5 * never, "{}", healed["volume"]);
+    folder.refuses(
+        "raster --alpha -1 --no-spring --pitch 1 --lines 3 --length 15",
+        &["--r", "required"],
+    );
+    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "paper's law"]);
+}
+
+/// Thresholds and angles, in the document as in the library.
 #[test]
 fn thresholds_of_a_raster_are_those_of_the_library() {
     let folder = Folder::new("raster_stability");
@@ -158,6 +184,11 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
     let zigzag = folder.prints_json("stability --tip gaussian --r 1 --pitch 0.5 --path zigzag");
     assert!((number(&zigzag["critical"]["alpha"]) - 0.457_309).abs() < 5e-7);
     assert_eq!(zigzag["critical"]["kappa"], Value::Null);
+    let over = folder.prints_json("boundary --tip gaussian --pitch-range 0.5:1:2 --r 1");
+    for (n, alpha) in [(0, 0.418_787), (1, 0.805_167)] {
+        assert!((number(&over["alpha"][n]) - alpha).abs() < 5e-7);
+    }
+    folder.prints("boundary --tip gaussian --pitch-range 0.5:3:9 --r 1 -o p.csv --plot p.svg");
     for (alpha, stable) in [(0.4, true), (0.44, false)] {
         let line = format!("stability --tip gaussian --r 1 --pitch 0.5 --alpha {alpha}");
         let found = folder.prints_json(&line);
@@ -196,6 +227,8 @@ fn what_no_raster_can_be_made_of_is_refused_with_advice() {
             "raster --alpha 1 --r 1 --pitch 1 --lines 3 --length 10 --sample-at 11",
             ["--sample-at 11", "each line"],
         ),
+        ("boundary --pitch-range -1:1:3 --r 1", ["--pitch-range -1:1:3", "above 0"]),
+        ("boundary --pitch-range 1:2:3", ["--r", "required"]),
         ("stability --r 1 --pitch -1", ["--pitch -1", "above 0"]),
         ("stability --r 1 --path zigzag", ["--pitch", "distance"]),
         ("stability --r 1 --path repeat", ["--alpha", "growth"]),

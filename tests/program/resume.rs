@@ -4,7 +4,8 @@
 use stickslip_outcome::Watched;
 use stickslip_tip::state::{Damaged, State};
 use stickslip_tip::{
-    Force, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Step, TipFunction,
+    Force, MemoryChoice, Model, Noise, Pulse, RunError, STEP_NUMBERS, Scenario, Start, Step,
+    SupportPath, TipFunction, Wider,
 };
 
 fn triple(alpha: f64) -> Model {
@@ -21,8 +22,26 @@ fn cases() -> Vec<(&'static str, Scenario)> {
     let u = x.iter().map(|x| 0.3 * (-(x - 22.0_f64).powi(2)).exp()).collect();
     let noise = Some(Noise { amplitude: 1e-3, spacing: 0.2, seed: 5 });
     let bessel = Model::new(TipFunction::Bessel, 1.1, 1.0).unwrap();
+    let wider =
+        |b, time, mass| Wider { depth_limit: b, healing_time: time, inertia: mass, spring: true };
+    let under = |law, alpha| {
+        Model::under(law, TipFunction::triple_gaussian(1.0, 1.0).unwrap(), alpha, 1.0).unwrap()
+    };
+    let path = SupportPath::new(vec![0.0, 20.0, 30.0, 60.0], vec![0.0, 24.0, 24.0, -3.0]).unwrap();
     let run = Scenario::new;
     vec![
+        (
+            "depth limit",
+            Scenario { kick: 0.05, ..run(under(wider(Some(5.0), None, None), 1.3), 200.0) },
+        ),
+        ("healing", Scenario { kick: 0.05, ..run(under(wider(None, Some(0.2), None), 9.0), 90.0) }),
+        (
+            "path",
+            Scenario {
+                path: Some(path),
+                ..run(under(wider(Some(3.0), Some(9.0), Some(0.2)), 2.0), 60.0)
+            },
+        ),
         ("stick-slip", Scenario { kick: 0.05, ..run(triple(1.2), 900.0) }),
         ("flat start", Scenario { start: Start::Flat, ..run(triple(0.8), 80.0) }),
         ("trapped", Scenario { kick: 0.01, ..run(triple(4.0), 3000.0) }),
@@ -37,13 +56,13 @@ const MEMORIES: [MemoryChoice; 4] =
 
 /// All that a run gives: its steps, counts, what became of it and why its memory.
 #[derive(Debug, PartialEq)]
-struct Told(Vec<[u64; 9]>, String);
+struct Told(Vec<[u64; STEP_NUMBERS]>, String);
 
-fn bits(step: &Step) -> [u64; 9] {
+fn bits(step: &Step) -> [u64; STEP_NUMBERS] {
     step.numbers().map(f64::to_bits)
 }
 
-fn finish(mut running: Watched, mut steps: Vec<[u64; 9]>) -> Told {
+fn finish(mut running: Watched, mut steps: Vec<[u64; STEP_NUMBERS]>) -> Told {
     while let Some(step) = running.step().unwrap() {
         steps.push(bits(&step));
     }

@@ -31,6 +31,7 @@ fn points_are_what_long_runs_come_to() {
             Regime::Steady => "steady",
             Regime::StickSlip => "stick-slip",
             Regime::Trapped => "trapped",
+            Regime::Drifting => "drifting",
             Regime::Transient => "transient",
         };
         assert_eq!(point["regime"], regime, "{point}");

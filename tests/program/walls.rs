@@ -201,6 +201,39 @@ fn a_circle_is_seen_through_a_re_export() {
     assert_eq!(there.arrows()[&vec!["b".to_owned()]].len(), 1);
 }
 
+/// The crates of the workspace that a crate stands on, itself among them.
+fn below(name: &str) -> BTreeSet<String> {
+    let (mut found, mut front) = (BTreeSet::new(), vec![name.to_owned()]);
+    while let Some(name) = front.pop() {
+        let manifest = root().join("crates").join(&name).join("Cargo.toml");
+        let manifest = fs::read_to_string(manifest).unwrap();
+        let needed = manifest.split("[dev-dependencies]").next().unwrap().lines();
+        let ours =
+            needed.filter_map(|line| line.strip_prefix("stickslip-")?.split_once(['.', ' ']));
+        front.extend(ours.map(|(name, _)| name.to_owned()).filter(|name| !found.contains(name)));
+        found.insert(name);
+    }
+    found
+}
+
+/// `make wasm` compiles these two for a browser, which has neither.
+#[test]
+fn documents_and_figures_know_neither_arguments_nor_files() {
+    let crates: BTreeSet<String> = ["documents", "figures"].into_iter().flat_map(below).collect();
+    assert!(crates.contains("tip") && crates.len() > 6, "{crates:?}");
+    for name in crates {
+        let folder = root().join("crates").join(&name);
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        let mut files = vec![];
+        sources(&folder.join("src"), &mut files);
+        let text = |file: &PathBuf| code(&fs::read_to_string(file).unwrap());
+        let all: String = files.iter().map(text).chain([manifest]).collect();
+        for word in ["clap", "tempfile", "std::fs", "std::env", "std::process", "std::net"] {
+            assert!(!all.contains(word), "{name} knows {word}");
+        }
+    }
+}
+
 #[test]
 fn no_file_is_too_long_to_be_one_idea() {
     let mut files = vec![];

@@ -103,6 +103,9 @@ fn a_memory_cut_by_time_does_not_converge() {
         fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
             self.0.groove(at, groove);
         }
+        fn fade(&mut self, _: f64) {
+            unreachable!("nothing heals");
+        }
         fn remember(&mut self, position: &[f64], weight: &[f64]) {
             self.1.push((weight.iter().sum(), position.to_vec(), weight.to_vec()));
             let mut age = 0.0;

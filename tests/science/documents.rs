@@ -2,7 +2,8 @@
 
 use std::io::{self, Read};
 use stickslip_documents::{
-    RegimeName, RunDocument, RunEnd, RunParameters, SweepDocument, WorkDocument, read, read_from,
+    RegimeName, RunDocument, RunEnd, RunParameters, SteadyState, SweepDocument, WorkDocument, read,
+    read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
 
@@ -64,7 +65,7 @@ fn a_run_comes_back_from_its_document() {
     };
     let document = RunDocument::new(
         RunParameters::of(&scenario, None, &[], None),
-        (&scenario.model).into(),
+        SteadyState::of(&scenario.model),
         &[],
         Some((&done.trajectory).into()),
         end,

@@ -11,7 +11,7 @@ use stickslip_documents::{GridName, MemoryName};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required(true)))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required_unless_present("no_spring")))]
 pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,

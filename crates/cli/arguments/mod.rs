@@ -30,7 +30,7 @@ pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use interval::Interval;
-pub(crate) use model::{ModelArguments, TipArguments, TipName};
+pub(crate) use model::{ModelArguments, TipArguments, TipName, WiderArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use raster::RasterArguments;

@@ -11,6 +11,8 @@ pub(crate) enum TipName {
     Gaussian,
     /// The Bessel function J0(x).
     Bessel,
+    /// cos x, for tips without a spring or on a surface that heals.
+    Cosine,
 }
 
 #[derive(Debug, Clone, Args)]
@@ -54,4 +56,29 @@ pub(crate) struct ModelArguments {
     /// Indentation rate given as αc(r) + D, D above the critical one (below, if negative).
     #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub(crate) alpha_above: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) wider: WiderArguments,
+}
+
+/// The wider law: what the paper leaves out.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Wider law")]
+pub(crate) struct WiderArguments {
+    /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b) [default: none].
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    pub(crate) depth_limit: Option<f64>,
+
+    /// Time in which the surface heals, as exp(-t/T), in Γ/k; above 0 [default: never].
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) healing_time: Option<f64>,
+
+    /// Inertia of the tip, in Γ²/k; above 0 [default: none].
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pub(crate) inertia: Option<f64>,
+
+    /// No spring and no support: a particle driven by its own past. There is no --r then, --alpha may be below 0,
+    /// and the start is flat.
+    #[arg(long)]
+    pub(crate) no_spring: bool,
 }

@@ -23,7 +23,7 @@ pub(crate) enum HistoryName {
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required_unless_present("resume")),
+    mut_arg("r", |r| r.required_unless_present_any(["resume", "no_spring"])),
     mut_args(not_on_resume)
 )]
 pub(crate) struct RunArguments {
@@ -139,6 +139,13 @@ const EXAMPLES: &str = "Examples:
     stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:
     stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
+  Under the depth limit (61), on a surface that heals, and a friction loop of trace and retrace:
+    stickslip run --alpha 2.6 --beta 0 --r 1 --depth-limit 20 --kick 0.05 --until 200 -o limited.json
+    stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 --until 200 -o healing.json
+    printf 't,R\n0,0\n20,20\n40,0\n' > path.csv
+    stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
+  A particle that its own past drives: the Lorenz system:
+    stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
   A long run, its samples written as it passes them, that survives a loss of power (errors of the period
   add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint

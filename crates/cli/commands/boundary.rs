@@ -1,10 +1,12 @@
 //! `stickslip boundary`.
 
+mod raster;
+
 use super::figure::{Figure, undrawn};
 use super::job::Job;
 use super::model::tip;
 use super::progress::Progress;
-use crate::arguments::BoundaryArguments;
+use crate::arguments::{BoundaryArguments, Interval};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use std::f64::consts::PI;
@@ -27,11 +29,16 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     ];
     distinct(&written, &read)?;
     let tip = tip(&arguments.tip)?;
-    let range = range(arguments)?;
+    if let Some(pitches) = &arguments.pitch_range {
+        return raster::boundary(arguments, pitches, tip);
+    }
+    let missing = || Failure::input(OPTION, "give the range of r, LO:HI:N");
+    let typed = arguments.r_range.as_ref().ok_or_else(missing)?;
+    let range = range(OPTION, typed, arguments.points)?;
     let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
 
-    let document = document(arguments, &tip, range)?;
+    let document = document(arguments, &tip, typed, range)?;
     if let Some(figure) = plot_onset {
         let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
         figure.write(&onset, &Size::default())?;
@@ -41,19 +48,22 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
 
 const OPTION: &str = "--r-range";
 
-/// First and last r, and how many.
-fn range(arguments: &BoundaryArguments) -> Result<([f64; 2], usize), Failure> {
-    let range = &arguments.r_range;
-    let (low, high) = range.ends(OPTION)?;
+/// First and last, and how many.
+fn range(
+    named: &str,
+    range: &Interval,
+    points: Option<usize>,
+) -> Result<([f64; 2], usize), Failure> {
+    let (low, high) = range.ends(named)?;
     if low <= 0.0 {
-        return Err(range.refused(OPTION, "needs numbers above 0, such as 0.05:3"));
+        return Err(range.refused(named, "needs numbers above 0, such as 0.05:3"));
     }
-    let (option, points) = match (range.points(OPTION)?, arguments.points) {
+    let (option, points) = match (range.points(named)?, points) {
         (Some(_), Some(_)) => {
             let message = "says how many values there are, and --points too: leave one out";
-            return Err(range.refused(OPTION, message));
+            return Err(range.refused(named, message));
         }
-        (Some(points), None) => (OPTION, points),
+        (Some(points), None) => (named, points),
         (None, points) => ("--points", points.unwrap_or(DEFAULT_POINTS)),
     };
     if !(2..=MOST_POINTS).contains(&points) {
@@ -63,7 +73,7 @@ fn range(arguments: &BoundaryArguments) -> Result<([f64; 2], usize), Failure> {
     Ok(([low, high], points))
 }
 
-/// The r asked for, both ends exactly.
+/// The values asked for, both ends exactly.
 fn abscissas([low, high]: [f64; 2], points: usize, spacing: SpacingName) -> Vec<f64> {
     let last = points - 1;
     let between = |i: usize| {
@@ -79,9 +89,10 @@ fn abscissas([low, high]: [f64; 2], points: usize, spacing: SpacingName) -> Vec<
 fn document(
     arguments: &BoundaryArguments,
     tip: &TipFunction,
+    typed: &Interval,
     (range, points): ([f64; 2], usize),
 ) -> Result<BoundaryDocument, Failure> {
-    let refused = |error: StabilityError| arguments.r_range.refused(OPTION, error);
+    let refused = |error: StabilityError| typed.refused(OPTION, error);
     let spacing =
         if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
     let boundary = Boundary::new(tip);

@@ -132,6 +132,8 @@ fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters 
         start: run.start,
         start_position: run.start_position,
         kick: run.kick,
+        support_path: run.support_path,
+        start_velocity: run.start_velocity,
         noise: run.noise,
         initial_surface: run.initial_surface,
         pulses: run.pulses,

@@ -1,22 +1,103 @@
 //! From the model's options to a model.
 
 use super::noise::tell_of_noise;
-use crate::arguments::{ModelArguments, TipArguments, TipName};
+use crate::arguments::{ModelArguments, TipArguments, TipName, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use stickslip_stability as stability;
-use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction};
+use stickslip_tip::{
+    Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction, Wider, WiderError,
+};
 
 /// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
 /// holds the groove.
 const MOST_DETAILS: f64 = 1e5;
 
-/// The model that the options ask for.
-pub(crate) fn model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    let r = arguments
-        .r
-        .ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))?;
-    model_of(tip(&arguments.tip)?, r, arguments.alpha, arguments.alpha_above)
+/// The model that the options ask for, where only the paper's law makes sense, or is known: others are refused by
+/// name.
+pub(crate) fn model(arguments: &ModelArguments, command: &str) -> Result<Model, Failure> {
+    only_papers(arguments, command)?;
+    wide_model(arguments)
+}
+
+/// Refuses the options of the wider law.
+pub(crate) fn only_papers(arguments: &ModelArguments, command: &str) -> Result<(), Failure> {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
+    let given = [
+        ("--depth-limit", depth_limit),
+        ("--healing-time", healing_time),
+        ("--inertia", inertia),
+        ("--no-spring", no_spring.then_some(0.0)),
+        ("--tip cosine", (arguments.tip.tip == Some(TipName::Cosine)).then_some(0.0)),
+    ];
+    match given.into_iter().find(|(_, value)| value.is_some()) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::input(
+            option,
+            format!(
+                "`{command}` knows the paper's law only: leave it out (`run`, `compare`, `stability` and `response` know the wider law)"
+            ),
+        )),
+    }
+}
+
+/// Refuses what has no steady motion: without a support, or with a past that has no end.
+pub(crate) fn refuse_endless(arguments: &ModelArguments) -> Result<(), Failure> {
+    if arguments.wider.no_spring {
+        let message = "nothing drags the tip: there is no steady motion behind a support";
+        return Err(Failure::input("--no-spring", message));
+    }
+    if arguments.tip.tip == Some(TipName::Cosine) && arguments.wider.healing_time.is_none() {
+        let message =
+            "goes on for ever, and so does what it left in steady motion: give --healing-time";
+        return Err(Failure::input("--tip cosine", message));
+    }
+    Ok(())
+}
+
+/// What the options ask for of the wider law.
+pub(crate) fn wider(arguments: &ModelArguments) -> Wider {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
+    Wider { depth_limit, healing_time, inertia, spring: !no_spring }
+}
+
+/// The model that the options ask for, under the wider law too.
+pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
+    let (wider, no_spring) = (wider(arguments), arguments.wider.no_spring);
+    let tip = tip(&arguments.tip)?;
+    if wider.is_papers() && tip != TipFunction::Cosine {
+        return model_of(tip, r(arguments)?, arguments.alpha, arguments.alpha_above);
+    }
+    if let Some(above) = arguments.alpha_above.filter(|_| no_spring) {
+        return Err(Failure::input(
+            format!("--alpha-above {}", Typed(above)),
+            "without a spring there is no onset: give --alpha",
+        ));
+    }
+    if let Some(r) = arguments.r.filter(|_| no_spring) {
+        return Err(Failure::input(
+            format!("--r {}", Typed(r)),
+            "without a spring there is no support that could move: leave it out",
+        ));
+    }
+    let r = if no_spring { 0.0 } else { r(arguments)? };
+    let alpha = alpha((arguments.alpha, arguments.alpha_above), (&wider, &tip), r)?;
+    let named = |option: &str, value: f64| format!("{option} {}", Typed(value));
+    Model::under(wider, tip, alpha, r).map_err(|error| {
+        let option = match error {
+            ModelError::R(r) | ModelError::SupportWithoutSpring(r) => named("--r", r),
+            ModelError::Alpha(alpha) => named("--alpha", alpha),
+            ModelError::Wider(WiderError::DepthLimit(b)) => named("--depth-limit", b),
+            ModelError::Wider(WiderError::HealingTime(time)) => named("--healing-time", time),
+            ModelError::Wider(WiderError::Inertia(mass)) => named("--inertia", mass),
+            ModelError::Cosine => "--tip cosine".into(),
+        };
+        Failure::input(option, error)
+    })
+}
+
+fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
+    arguments.r.ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))
 }
 
 /// The model of this footprint at this r, α given as such or as αc(r) + D.
@@ -26,13 +107,14 @@ pub(crate) fn model_of(
     given: Option<f64>,
     above: Option<f64>,
 ) -> Result<Model, Failure> {
-    let alpha = alpha((given, above), &tip, r)?;
+    let alpha = alpha((given, above), (&Wider::default(), &tip), r)?;
     Model::new(tip, alpha, r).map_err(|error| match error {
         ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
         ModelError::Alpha(_) => match above {
             Some(above) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
             None => Failure::input(format!("--alpha {}", Typed(alpha)), error),
         },
+        other => Failure::Run(other.to_string()),
     })
 }
 
@@ -62,8 +144,13 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
     if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {
         return Err(unused(format!("--beta {}", Typed(beta)), "a tip without side lobes"));
     }
-    if let Some(width) = width.filter(|_| name == TipName::Bessel) {
-        return Err(unused(format!("--width {}", Typed(width)), "--tip bessel"));
+    let endless = match name {
+        TipName::Bessel => Some("--tip bessel"),
+        TipName::Cosine => Some("--tip cosine"),
+        TipName::TripleGaussian | TipName::Gaussian => None,
+    };
+    if let Some((width, name)) = width.zip(endless) {
+        return Err(unused(format!("--width {}", Typed(width)), name));
     }
     let (b, w) = (beta.unwrap_or(1.0), width.unwrap_or(1.0));
     if !(w.is_finite() && w > 0.0) {
@@ -74,6 +161,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
     }
     match name {
         TipName::Bessel => Ok(TipFunction::Bessel),
+        TipName::Cosine => Ok(TipFunction::Cosine),
         TipName::Gaussian => TipFunction::gaussian(w)
             .map_err(|error| Failure::input(format!("--width {}", Typed(w)), error)),
         TipName::TripleGaussian => TipFunction::triple_gaussian(b, w).map_err(|error| {
@@ -129,7 +217,11 @@ fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
 }
 
 /// The α that the options ask for at this r.
-fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result<f64, Failure> {
+fn alpha(
+    asked: (Option<f64>, Option<f64>),
+    (wider, tip): (&Wider, &TipFunction),
+    r: f64,
+) -> Result<f64, Failure> {
     match asked {
         (Some(alpha), None) => Ok(alpha),
         (None, Some(above)) => {
@@ -137,7 +229,12 @@ fn alpha(asked: (Option<f64>, Option<f64>), tip: &TipFunction, r: f64) -> Result
             if !(r.is_finite() && r > 0.0) {
                 return Ok(0.0);
             }
-            let critical = stability::critical(tip, r).map_err(|error| {
+            let found = if wider.is_papers() {
+                stability::critical(tip, r)
+            } else {
+                stability::critical_under(wider, tip, r).map(|found| found.critical)
+            };
+            let critical = found.map_err(|error| {
                 let advice = "give --alpha instead";
                 Failure::input(
                     format!("--alpha-above {}", Typed(above)),

@@ -1,7 +1,7 @@
 //! `stickslip response`.
 
 use super::job::{Job, judge_places};
-use super::model::model;
+use super::model::{refuse_endless, wide_model};
 use super::roots::{complex, failed, judge_count, remarks};
 use super::run::disturbance::warn_of_idle_pulses;
 use super::run::limits::within_range;
@@ -42,7 +42,8 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &ResponseArguments) -> Result<Self, Failure> {
-        let model = model(&arguments.model)?;
+        refuse_endless(&arguments.model)?;
+        let model = wide_model(&arguments.model)?;
         let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
         judge_count("--modes", arguments.modes)?;
         let position = arguments.start_position;

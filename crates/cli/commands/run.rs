@@ -120,7 +120,7 @@ fn job(
 }
 
 fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {
-    Record::new(scenario.model.r(), order.samples.clone(), keeps_history(order), sink)
+    Record::new(scenario, order.samples.clone(), keeps_history(order), sink)
 }
 
 fn keeps_history(order: &Order) -> bool {

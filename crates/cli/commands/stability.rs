@@ -1,19 +1,20 @@
 //! `stickslip stability`.
 
 mod raster;
+mod wider;
 
 use super::job::{Job, judge_places};
-use super::model::{model, tip};
+use super::model::{refuse_endless, tip, wide_model, wider as wider_law};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor, StabilityDocument,
-    StabilityParameters, TrappingDocument,
+    CriticalDocument, FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor,
+    StabilityDocument, StabilityParameters, TrappingDocument,
 };
 use stickslip_stability::{
-    Critical, Spectrum, StabilityError, creep, critical, critical_r, leading_roots, onset_at,
-    roots, trapping_alpha, unstable_count,
+    Critical, OnsetKind, Spectrum, StabilityError, critical, critical_r, leading_roots, roots,
+    unstable_count,
 };
 use stickslip_tip::{Model, TipFunction};
 
@@ -42,10 +43,16 @@ struct Point {
     model: Model,
     /// Whether the two are the same for want of α or r.
     at_critical: bool,
+    /// Whether the critical point is one of linear theory, where that may be otherwise.
+    kind: Option<OnsetKind>,
 }
 
 impl Point {
     fn asked(arguments: &StabilityArguments) -> Result<Self, Failure> {
+        refuse_endless(&arguments.model)?;
+        if !wider_law(&arguments.model).is_papers() {
+            return Self::under_wider_law(arguments);
+        }
         let tip = tip(&arguments.model.tip)?;
         match arguments.solve_for {
             SolveFor::Alpha => Self::for_alpha(&arguments.model, tip),
@@ -61,7 +68,12 @@ impl Point {
             return Err(Failure::input(format!("--r {}", Typed(r)), error));
         }
         if arguments.alpha.is_some() || arguments.alpha_above.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: wide_model(arguments)?,
+                at_critical: false,
+                kind: None,
+            });
         }
         let advice = "give --alpha A for the growth exponents there";
         let at = critical.map_err(|error| {
@@ -82,7 +94,12 @@ impl Point {
             return Err(Failure::input(format!("--alpha {}", Typed(alpha)), error));
         }
         if arguments.r.is_some() {
-            return Ok(Self { critical, model: model(arguments)?, at_critical: false });
+            return Ok(Self {
+                critical,
+                model: wide_model(arguments)?,
+                at_critical: false,
+                kind: None,
+            });
         }
         let advice = "give --r R for the growth exponents there";
         let at = critical.map_err(|error| {
@@ -94,11 +111,16 @@ impl Point {
     fn at(critical: Critical, tip: TipFunction) -> Result<Self, Failure> {
         let model = Model::new(tip, critical.alpha, critical.r)
             .map_err(|error| Failure::Run(error.to_string()))?;
-        Ok(Self { critical: Ok(critical), model, at_critical: true })
+        Ok(Self { critical: Ok(critical), model, at_critical: true, kind: None })
     }
 
     fn is_stable(&self) -> Result<bool, Failure> {
         let advice = "move --alpha or --r a little";
+        if self.has_corner() {
+            // Small oscillations grow above αc, whatever their amplitude.
+            let below = |critical: Critical| self.model.alpha() < critical.alpha;
+            return Ok(!self.at_critical && self.critical.is_ok_and(below));
+        }
         Ok(!self.at_critical
             && unstable_count(&self.model).map_err(|error| failed(&error, advice))? == 0)
     }
@@ -129,17 +151,16 @@ fn spectrum(arguments: &StabilityArguments, model: &Model) -> Result<Spectrum, F
 
 fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDocument, Failure> {
     let Point { critical, model, .. } = point;
-    let spectrum = spectrum(arguments, model)?;
+    let spectrum = if point.has_corner() { wider::none() } else { spectrum(arguments, model)? };
     let asked = arguments.re_above.is_none().then(|| arguments.roots.unwrap_or(DEFAULT_ROOTS));
-    let trapping = trapping_alpha(model.tip(), model.r());
-    let onset = critical.and_then(|critical| onset_at(model.tip(), critical));
+    let (trapping, creep) = wider::trapping(model);
+    let onset = critical.and_then(|critical| wider::onset(model, critical));
     let why = |name: &str, error: Option<StabilityError>| error.map(|e| format!("{name}: {e}"));
     let mut said: Vec<String> = why("critical", critical.err())
         .into_iter()
         .chain(why("onset", onset.err().filter(|_| critical.is_ok())))
         .chain(why("trapping", trapping.err()))
         .collect();
-    let creep = creep(model);
     said.extend(why("trapping", creep.as_ref().err().copied()));
     let rates = creep.as_ref().map(|creep| creep.rates()).unwrap_or_default();
     let attracting = creep.as_ref().ok().and_then(|creep| creep.attracting());
@@ -148,7 +169,11 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
                        trapped here, every stick ends in a slip";
         said.push(message.into());
     }
-    said.extend(remarks(&spectrum, asked, "roots"));
+    if point.has_corner() {
+        said.push(wider::CORNER.into());
+    } else {
+        said.extend(remarks(&spectrum, asked, "roots"));
+    }
     Ok(StabilityDocument {
         format: StabilityDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
@@ -160,7 +185,7 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
             roots: asked,
             re_above: arguments.re_above,
         },
-        critical: critical.as_ref().ok().map(Into::into),
+        critical: critical.as_ref().ok().map(|at| CriticalDocument::of(at, point.kind)),
         stable: point.is_stable()?,
         trapping: TrappingDocument {
             alpha: trapping.ok(),

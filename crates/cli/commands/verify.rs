@@ -86,7 +86,8 @@ fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
 
 /// The samples in the order of time.
 fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
-    let (t, l, x0) = (&run.samples.t, &run.samples.l, &run.samples.x0);
+    let (t, x0) = (&run.samples.t, &run.samples.x0);
+    let l = run.samples.l.as_ref().or(run.samples.lag.as_ref()).unwrap_or(x0);
     let span = scenario.start_time()..=scenario.until;
     if [l.len(), x0.len()] != [t.len(); 2] || t.iter().any(|t| !span.contains(t)) {
         return Err("samples: t, l and x0 do not match each other, or the run".into());
@@ -111,7 +112,7 @@ fn are_of(samples: &[Sample], trajectory: &Trajectory, tolerance: f64) -> Result
     let agree = |sample: &Sample| {
         let Sample { t, l, x0 } = *sample;
         let rounding = ROUNDINGS * f64::EPSILON * (1.0 + l.abs() + x0.abs());
-        let differences = [l - trajectory.l(t), x0 - trajectory.x0(t)];
+        let differences = [l - stickslip_verify::l(trajectory, t), x0 - trajectory.x0(t)];
         differences.iter().all(|difference| difference.abs() <= tolerance + rounding)
     };
     match samples.iter().find(|sample| !agree(sample)) {

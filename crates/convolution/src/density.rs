@@ -71,6 +71,11 @@ impl Density {
         accumulate(sums, excess, &self.window.weights(offset), weight);
     }
 
+    /// All sources so far times a factor.
+    pub fn scale(&mut self, factor: f64) {
+        self.sums.iter_mut().chain(&mut self.excess).for_each(|sum| *sum *= factor);
+    }
+
     /// Copies the cells from `first_cell` on into `out`, with zeros where no source has been.
     pub fn copy_window(&self, first_cell: i64, out: &mut [f64]) {
         let end = first_cell + out.len() as i64;

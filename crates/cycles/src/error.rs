@@ -15,6 +15,11 @@ pub enum CycleError {
         min = super::TOLERANCES.0, max = super::TOLERANCES.1
     )]
     Tolerance(f64),
+    /// A law that cycles do not know yet.
+    #[error(
+        "cycles are those of the paper's law: without a depth limit, healing or inertia, and with a spring; a run finds one that attracts"
+    )]
+    WiderLaw,
     /// A footprint whose past is no state of few numbers.
     #[error("cycles need a footprint that fades; this one does not (J0 falls like 1/√x)")]
     NeverFades,

@@ -38,7 +38,7 @@ impl Orbit {
         let steps = self.mesh.iter().zip(self.lengths()).zip(&self.stages);
         let step = steps.map(|((start, h), displacement)| {
             let t = self.period * start;
-            let step = Step { t, h, extension, displacement: *displacement };
+            let step = Step { t, h, extension, displacement: *displacement, height: None };
             extension = step.extension_at_end(r);
             step
         });

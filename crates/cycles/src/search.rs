@@ -27,6 +27,7 @@ pub enum Settled {
 /// # Errors
 /// A tolerance out of range, or a run that fails.
 pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
+    papers(model)?;
     judge(tolerance)?;
     let critical = match critical(model.tip(), model.r()) {
         Ok(critical) if model.alpha() > critical.alpha => critical,
@@ -126,7 +127,13 @@ fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
     if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
 }
 
+/// Refuses the wider law.
+fn papers(model: &Model) -> Result<(), CycleError> {
+    if model.wider().is_papers() { Ok(()) } else { Err(CycleError::WiderLaw) }
+}
+
 pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
+    papers(model)?;
     judge(tolerance)?;
     Embedding::new(model, tolerance)
 }

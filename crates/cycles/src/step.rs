@@ -42,7 +42,7 @@ impl<'a> LinearStep<'a> {
         (past, past_slope): (PastOfStep<'a>, &Stages),
         (extension, h, d): (f64, f64, &'a Stages),
     ) -> Self {
-        let law = Law { alpha: equation.alpha, r: equation.r };
+        let law = Law { alpha: equation.alpha, r: equation.r, spring: 1.0 };
         let between = OwnGroove::new(&equation.tip, d);
         // What is carved in a unit step: of one of length h it is h times as much.
         let (mut own, mut own_slope) = ([0.0; STAGES], [[0.0; STAGES]; STAGES]);

@@ -3,7 +3,7 @@
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
     ForceTable, MemoryName, ModelParameters, NoiseParameters, Profile, PulseParameters, Software,
-    StartName,
+    StartName, SupportPathParameters,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,6 +52,12 @@ pub struct CompareParameters {
     pub start_position: f64,
     /// D: the tip starts at X - D, in σ.
     pub kick: f64,
+    /// Motion of the support, where it has one of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support_path: Option<SupportPathParameters>,
+    /// Velocity of the tip at the start, in kσ/Γ, where it was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_velocity: Option<f64>,
     /// Noise added to the initial surface.
     pub noise: Option<NoiseParameters>,
     /// Profile added to the initial surface.

@@ -77,21 +77,23 @@ pub use raster::{
     RasterSurfaceDocument, RasterWork,
 };
 pub use raster_stability::{
-    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
+    RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,
+    RasterStabilityDocument, RasterStabilityParameters,
 };
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
 pub use response::{ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples};
-pub use run::{RunDocument, Samples};
+pub use run::{LoopDocument, RunDocument, Samples};
 pub use run_lines::{RunEnd, RunHead, RunLine, SampleLine};
 pub use scenario::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
+    SupportPathParameters,
 };
 pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};
 pub use stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
-    SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
+    OnsetKindName, SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
 };
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,

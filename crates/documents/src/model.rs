@@ -3,7 +3,9 @@
 use crate::Unusable;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError};
+use stickslip_tip::{
+    Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError, Wider,
+};
 
 /// The footprint f(x), x in units of σ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,6 +18,8 @@ pub enum TipDocument {
     },
     /// J0(x).
     Bessel {},
+    /// cos x.
+    Cosine {},
     /// f(x,0) of a footprint f(x,y) in three dimensions, a sum of layers g(x)h(y).
     Footprint {
         /// Its terms.
@@ -67,6 +71,7 @@ impl From<&TipFunction> for TipDocument {
                 Self::Footprint { layers: footprint.layers().iter().map(layer_document).collect() }
             }
             (None, TipFunction::Bessel) => Self::Bessel {},
+            (None, TipFunction::Cosine) => Self::Cosine {},
             (None, tip) => Self::Gaussians { gaussians: gaussian_documents(tip) },
         }
     }
@@ -75,7 +80,7 @@ impl From<&TipFunction> for TipDocument {
 fn gaussian_documents(tip: &TipFunction) -> Vec<GaussianDocument> {
     match tip {
         TipFunction::Gaussians(sum) => sum.terms().iter().map(GaussianDocument::from).collect(),
-        TipFunction::Bessel => vec![],
+        TipFunction::Bessel | TipFunction::Cosine => vec![],
     }
 }
 
@@ -95,6 +100,7 @@ impl TipDocument {
     pub fn tip(&self) -> Result<TipFunction, TipFunctionError> {
         match self {
             Self::Bessel {} => Ok(TipFunction::Bessel),
+            Self::Cosine {} => Ok(TipFunction::Cosine),
             Self::Gaussians { gaussians } => sum_of(gaussians),
             Self::Footprint { layers } => {
                 let layer = |layer: &LayerDocument| -> Result<Layer, TipFunctionError> {
@@ -112,7 +118,7 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
     TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
 }
 
-/// Footprint, α and r.
+/// Footprint, α and r, and what a wider law adds.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ModelParameters {
     /// Footprint f.
@@ -121,14 +127,42 @@ pub struct ModelParameters {
     pub alpha: f64,
     /// D, where α was given as αc(r) + D; dimensionless.
     pub alpha_above: Option<f64>,
-    /// Dimensionless support velocity r (12).
+    /// Dimensionless support velocity r (12); 0 without a spring.
     pub r: f64,
+    /// b of (61), in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T, in Γ/k, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k, where the tip has inertia.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// Whether there is no spring.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub no_spring: bool,
 }
 
 impl ModelParameters {
+    /// Those of the paper's law.
+    pub fn papers(tip: TipDocument, alpha: f64, alpha_above: Option<f64>, r: f64) -> Self {
+        let (depth_limit, healing_time, inertia, no_spring) = (None, None, None, false);
+        Self { tip, alpha, alpha_above, r, depth_limit, healing_time, inertia, no_spring }
+    }
+
     /// Those of a model, and D where its α was given as αc(r) + D.
     pub fn of(model: &Model, alpha_above: Option<f64>) -> Self {
-        Self { tip: model.tip().into(), alpha: model.alpha(), alpha_above, r: model.r() }
+        let Wider { depth_limit, healing_time, inertia, spring } = *model.wider();
+        Self {
+            tip: model.tip().into(),
+            alpha: model.alpha(),
+            alpha_above,
+            r: model.r(),
+            depth_limit,
+            healing_time,
+            inertia,
+            no_spring: !spring,
+        }
     }
 
     /// The model again.
@@ -137,6 +171,12 @@ impl ModelParameters {
     /// No model has such a tip, α or r.
     pub fn model(&self) -> Result<Model, Unusable> {
         let tip = self.tip.tip().map_err(Unusable::new)?;
-        Model::new(tip, self.alpha, self.r).map_err(Unusable::new)
+        Model::under(self.wider(), tip, self.alpha, self.r).map_err(Unusable::new)
+    }
+
+    /// What the wider law adds.
+    pub fn wider(&self) -> Wider {
+        let Self { depth_limit, healing_time, inertia, no_spring, .. } = *self;
+        Wider { depth_limit, healing_time, inertia, spring: !no_spring }
     }
 }

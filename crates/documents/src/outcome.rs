@@ -15,6 +15,8 @@ pub enum RegimeName {
     StickSlip,
     /// The tip creeps logarithmically in its own pit and will not come out.
     Trapped,
+    /// A tip without a spring moves on at one velocity.
+    Drifting,
     /// None of these yet.
     Transient,
 }
@@ -25,6 +27,7 @@ impl From<Regime> for RegimeName {
             Regime::Steady => Self::Steady,
             Regime::StickSlip => Self::StickSlip,
             Regime::Trapped => Self::Trapped,
+            Regime::Drifting => Self::Drifting,
             Regime::Transient => Self::Transient,
         }
     }
@@ -36,6 +39,7 @@ impl std::fmt::Display for RegimeName {
             Self::Steady => "steady",
             Self::StickSlip => "stick-slip",
             Self::Trapped => "trapped",
+            Self::Drifting => "drifting",
             Self::Transient => "transient",
         })
     }

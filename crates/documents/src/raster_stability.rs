@@ -1,7 +1,7 @@
 //! `stickslip/raster-stability`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{ModelParameters, PathName, Software};
+use crate::{ModelParameters, PathName, Software, SpacingName, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::RasterCritical;
@@ -111,6 +111,70 @@ impl Tabular for RasterStabilityDocument {
             ("crest_angle", column(|at| at.crest_angle)),
             ("wavelength_x", column(|at| Some(at.wavelength_x))),
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
+        ]
+    }
+}
+
+/// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterBoundaryDocument {
+    /// "stickslip/raster-boundary"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub parameters: RasterBoundaryParameters,
+    /// Distances of the lines, in σ.
+    pub pitch: Vec<f64>,
+    /// Critical α of one-way lines.
+    pub alpha: Vec<f64>,
+    /// Wave number along the lines there, in 1/σ.
+    pub q: Vec<f64>,
+    /// Wave number across them, in 1/σ.
+    pub kappa: Vec<f64>,
+    /// Between crests and scan axis, in degrees.
+    pub crest_angle: Vec<f64>,
+    /// Critical α of a zigzag; null where none was found.
+    pub alpha_zigzag: Vec<Option<f64>>,
+    /// What a reader should know; empty if there is nothing.
+    pub remarks: Vec<String>,
+}
+
+impl RasterBoundaryDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/raster-boundary";
+}
+
+/// Pitches, and what scans.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterBoundaryParameters {
+    /// Footprint f.
+    pub tip: TipDocument,
+    /// Dimensionless support velocity r (12).
+    pub r: f64,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
+    pub width_y: Option<f64>,
+    /// First and last distance of the lines, in σ.
+    pub pitch_range: [f64; 2],
+    /// How many.
+    pub points: usize,
+    /// How they lie.
+    pub spacing: SpacingName,
+}
+
+impl Tabular for RasterBoundaryDocument {
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![
+            ("pitch", Column::of(&self.pitch)),
+            ("alpha", Column::of(&self.alpha)),
+            ("q", Column::of(&self.q)),
+            ("kappa", Column::of(&self.kappa)),
+            ("crest_angle", Column::of(&self.crest_angle)),
+            ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
         ]
     }
 }

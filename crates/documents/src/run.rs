@@ -8,7 +8,8 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::Trajectory;
+use stickslip_tip::friction::Loop;
+use stickslip_tip::{Support, Trajectory};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -22,9 +23,9 @@ pub struct RunDocument {
     pub software: Software,
     /// Everything that defines the run.
     pub parameters: RunParameters,
-    /// The steady motion at these parameters, whether or not it is stable.
-    pub steady_state: SteadyState,
-    /// l, x0 and x0' at the times asked for.
+    /// The steady motion at these parameters, whether or not it is stable; null without a spring.
+    pub steady_state: Option<SteadyState>,
+    /// l, lag, x0 and x0' at the times asked for.
     pub samples: Samples,
     /// The dense history; null where it was not asked for.
     pub history: Option<History>,
@@ -32,6 +33,9 @@ pub struct RunDocument {
     pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// The closed loops of a support on a path, and the work done in each; where the run keeps its history.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loops: Option<Vec<LoopDocument>>,
     /// The rate of creep, where the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
@@ -57,7 +61,7 @@ impl RunDocument {
     /// The document of a run that became what `end` says; `samples` in the order asked for.
     pub fn new(
         parameters: RunParameters,
-        steady_state: SteadyState,
+        steady_state: Option<SteadyState>,
         samples: &[SampleLine],
         history: Option<History>,
         end: RunEnd,
@@ -72,6 +76,7 @@ impl RunDocument {
             history,
             regime: end.regime,
             oscillation: end.oscillation,
+            loops: None,
             creep: end.creep,
             transient: end.transient,
             remarks: end.remarks,
@@ -87,7 +92,32 @@ impl RunDocument {
     /// The history was left out, or damaged.
     pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
-        self.history.as_ref().ok_or_else(missing)?.trajectory(self.parameters.model.r)
+        let history = self.history.as_ref().ok_or_else(missing)?;
+        let parameters = &self.parameters;
+        if parameters.support_path.is_none() && !parameters.model.no_spring {
+            let (wider, support) = (parameters.model.wider(), Support::Moving(parameters.model.r));
+            return history.under(wider, support);
+        }
+        let scenario = parameters.scenario()?;
+        history.under(*scenario.model.wider(), scenario.support())
+    }
+}
+
+/// A closed loop of the support.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoopDocument {
+    /// Time at which it begins, in Γ/k.
+    pub from: f64,
+    /// Time at which it ends, in Γ/k.
+    pub to: f64,
+    /// ∮ (R - x0)dR, the work that the support does, in kσ².
+    pub work: f64,
+}
+
+impl From<Loop> for LoopDocument {
+    fn from(Loop { from, to, work }: Loop) -> Self {
+        Self { from, to, work }
     }
 }
 
@@ -97,35 +127,53 @@ impl RunDocument {
 pub struct Samples {
     /// Times, in Γ/k.
     pub t: Vec<f64>,
-    /// l = rt - r - x0, in σ.
-    pub l: Vec<f64>,
+    /// l = rt - r - x0, in σ; null for a support on a path of its own, or none.
+    pub l: Option<Vec<f64>>,
+    /// R - x0, the extension of the spring, in σ: the lateral force, in kσ; null without a spring.
+    #[serde(default)]
+    pub lag: Option<Vec<f64>>,
     /// Position of the tip, in σ.
     pub x0: Vec<f64>,
     /// x0', in kσ/Γ, the derivative of the dense history: one order less accurate than x0.
     pub velocity: Vec<f64>,
+    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<f64>>,
+    /// w, the rate of indentation relative to α, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<Vec<f64>>,
 }
 
 impl From<&[SampleLine]> for Samples {
     fn from(samples: &[SampleLine]) -> Self {
         let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();
+        let some = |value: fn(&SampleLine) -> Option<f64>| samples.iter().map(value).collect();
         Self {
             t: column(|s| s.t),
-            l: column(|s| s.l),
+            l: some(|s| s.l),
+            lag: some(|s| s.lag),
             x0: column(|s| s.x0),
             velocity: column(|s| s.velocity),
+            height: some(|s| s.height).filter(|height: &Vec<f64>| !height.is_empty()),
+            weight: some(|s| s.weight).filter(|weight: &Vec<f64>| !weight.is_empty()),
         }
     }
 }
 
 impl Tabular for RunDocument {
     fn columns(&self) -> Vec<Named<'_>> {
-        let Samples { t, l, x0, velocity } = &self.samples;
-        vec![
-            ("t", Column::of(t)),
-            ("l", Column::of(l)),
-            ("x0", Column::of(x0)),
-            ("velocity", Column::of(velocity)),
-        ]
+        let Samples { t, l, lag, x0, velocity, height, weight } = &self.samples;
+        let columns = [
+            ("t", Some(t)),
+            ("l", l.as_ref()),
+            ("x0", Some(x0)),
+            ("velocity", Some(velocity)),
+            ("lag", lag.as_ref()),
+            ("height", height.as_ref()),
+            ("weight", weight.as_ref()),
+        ];
+        let there = columns.into_iter();
+        there.filter_map(|(name, column)| Some((name, Column::of(column?)))).collect()
     }
 
     /// The samples, and the history where it is there.

@@ -6,6 +6,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::{Step, Support, Wider};
 
 /// A line of a run written as it goes on (`.jsonl`): the first says what is run, one follows for each
 /// sample, the last says what became of it. Without a last line the run did not come to an end.
@@ -32,8 +33,8 @@ pub struct RunHead {
     pub software: Software,
     /// Everything that defines the run.
     pub parameters: RunParameters,
-    /// The steady motion at these parameters, whether or not it is stable.
-    pub steady_state: SteadyState,
+    /// The steady motion at these parameters, whether or not it is stable; null without a spring.
+    pub steady_state: Option<SteadyState>,
 }
 
 impl RunHead {
@@ -41,7 +42,7 @@ impl RunHead {
     pub const FORMAT: &'static str = "stickslip/run-lines";
 
     /// The first line of a run with these parameters.
-    pub fn new(parameters: RunParameters, steady_state: SteadyState) -> Self {
+    pub fn new(parameters: RunParameters, steady_state: Option<SteadyState>) -> Self {
         Self {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
@@ -58,12 +59,40 @@ impl RunHead {
 pub struct SampleLine {
     /// Time, in Γ/k.
     pub t: f64,
-    /// l = rt - r - x0, in σ.
-    pub l: f64,
+    /// l = rt - r - x0, in σ; null for a support on a path of its own, or none.
+    pub l: Option<f64>,
+    /// R - x0, the extension of the spring, in σ; null without a spring.
+    #[serde(default)]
+    pub lag: Option<f64>,
     /// Position of the tip, in σ.
     pub x0: f64,
     /// x0', in kσ/Γ, one order less accurate than x0.
     pub velocity: f64,
+    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+    /// w, the rate of indentation relative to α, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+}
+
+impl SampleLine {
+    /// Of a motion at a time within one of its steps.
+    pub fn of(step: &Step, (support, wider): (&Support, &Wider), t: f64) -> Self {
+        let height = step.height(t);
+        Self {
+            t,
+            l: match support {
+                Support::Moving(r) => Some(step.l(*r, t)),
+                Support::Path(_) | Support::None => None,
+            },
+            lag: (*support != Support::None).then(|| step.lag(support, t)),
+            x0: step.position(support, t),
+            velocity: step.velocity(t),
+            height,
+            weight: height.map(|height| wider.weight(height)),
+        }
+    }
 }
 
 /// What became of the run.

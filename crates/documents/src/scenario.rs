@@ -3,7 +3,7 @@
 use crate::{ModelParameters, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Force, MemoryChoice, Noise, Pulse, Scenario, Start};
+use stickslip_tip::{Force, MemoryChoice, Noise, Pulse, Scenario, Start, SupportPath};
 
 /// Everything that defines a run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -17,6 +17,12 @@ pub struct RunParameters {
     pub start_position: f64,
     /// D: the tip starts at X - D, in σ.
     pub kick: f64,
+    /// Motion of the support, where it has one of its own: R less where it starts, straight between the knots.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support_path: Option<SupportPathParameters>,
+    /// Velocity of the tip at the start, in kσ/Γ, where it was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_velocity: Option<f64>,
     /// Noise added to the initial surface.
     pub noise: Option<NoiseParameters>,
     /// Profile added to the initial surface.
@@ -43,6 +49,17 @@ pub struct NoiseParameters {
     pub spacing: f64,
     /// Of the random numbers.
     pub seed: u64,
+}
+
+/// Knots of a path: straight between them.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SupportPathParameters {
+    /// Times from the start of the run, ascending, in Γ/k.
+    pub t: Vec<f64>,
+    /// Displacements of the support from where it starts, in σ.
+    #[serde(rename = "R")]
+    pub displacement: Vec<f64>,
 }
 
 /// A height profile.
@@ -116,6 +133,8 @@ impl RunParameters {
             start: scenario.start.into(),
             start_position: scenario.start_position,
             kick: scenario.kick,
+            support_path: scenario.path.as_ref().map(Into::into),
+            start_velocity: scenario.start_velocity,
             noise: scenario.noise.map(Into::into),
             initial_surface: scenario.profile.clone().map(|(x, u)| Profile { x, u }),
             pulses: pulses.iter().copied().map(Into::into).collect(),
@@ -138,6 +157,8 @@ impl RunParameters {
             start: self.start.into(),
             start_position: self.start_position,
             kick: self.kick,
+            path: self.support_path.as_ref().map(SupportPathParameters::path).transpose()?,
+            start_velocity: self.start_velocity,
             noise: self.noise.as_ref().map(Into::into),
             profile: self.initial_surface.clone().map(|profile| (profile.x, profile.u)),
             force,
@@ -147,6 +168,19 @@ impl RunParameters {
         };
         scenario.validate().map_err(Unusable::new)?;
         Ok(scenario)
+    }
+}
+
+impl From<&SupportPath> for SupportPathParameters {
+    fn from(path: &SupportPath) -> Self {
+        let (t, displacement) = path.knots();
+        Self { t: t.to_vec(), displacement: displacement.to_vec() }
+    }
+}
+
+impl SupportPathParameters {
+    fn path(&self) -> Result<SupportPath, Unusable> {
+        SupportPath::new(self.t.clone(), self.displacement.clone()).map_err(Unusable::new)
     }
 }
 

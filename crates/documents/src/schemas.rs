@@ -2,9 +2,9 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
-    ReproductionDocument, ResponseDocument, RunDocument, RunLine, StabilityDocument,
-    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    FigureDocument, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
+    RasterSurfaceDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
+    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -12,7 +12,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 18] = [
+pub const SCHEMAS: [NamedSchema; 19] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -27,6 +27,7 @@ pub const SCHEMAS: [NamedSchema; 18] = [
     ("raster", || schema_for!(RasterDocument)),
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
     ("raster-stability", || schema_for!(RasterStabilityDocument)),
+    ("raster-boundary", || schema_for!(RasterBoundaryDocument)),
     ("sweep", || schema_for!(SweepDocument)),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),

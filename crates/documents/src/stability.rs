@@ -4,7 +4,7 @@ use crate::table::{Column, Named, Tabular};
 use crate::{ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Certificate, Critical, Criticality, Onset};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -91,6 +91,19 @@ pub struct CriticalDocument {
     pub period: f64,
     /// 2πr/ω, in σ.
     pub wavelength: f64,
+    /// Under the wider law: whether linear theory decides there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<OnsetKindName>,
+}
+
+/// What small deviations obey at the critical point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnsetKindName {
+    /// A linear law.
+    Smooth,
+    /// A law with the corner of |h| in it: alpha is where a small oscillation keeps its amplitude.
+    NonSmooth,
 }
 
 /// The motion x0 ~ (1/p) ln t for ever.
@@ -160,10 +173,15 @@ pub struct OnsetDocument {
     pub lyapunov: f64,
 }
 
-impl From<&Critical> for CriticalDocument {
-    fn from(critical: &Critical) -> Self {
+impl CriticalDocument {
+    /// A critical point, and of which kind it is under the wider law.
+    pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
         let Critical { alpha, r, omega, period, wavelength } = *critical;
-        Self { alpha, r, omega, period, wavelength }
+        let kind = kind.map(|kind| match kind {
+            OnsetKind::Smooth => OnsetKindName::Smooth,
+            OnsetKind::NonSmooth => OnsetKindName::NonSmooth,
+        });
+        Self { alpha, r, omega, period, wavelength, kind }
     }
 }
 

@@ -14,15 +14,32 @@ pub struct SteadyState {
     pub lag: f64,
     /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
     pub surface_behind: Option<f64>,
+    /// h0, the height under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+    /// w0, the rate of indentation relative to α, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+}
+
+impl SteadyState {
+    /// That of a model; `None` where nothing drags the tip, or where its past has no end.
+    pub fn of(model: &Model) -> Option<Self> {
+        let there = model.wider().spring && model.steady_l().is_finite();
+        there.then(|| Self::from(model))
+    }
 }
 
 impl From<&Model> for SteadyState {
     fn from(model: &Model) -> Self {
         let behind = model.steady_surface_behind();
+        let limited = model.wider().depth_limit;
         Self {
             l: model.steady_l(),
             lag: model.steady_lag(),
             surface_behind: behind.is_finite().then_some(behind),
+            height: limited.map(|_| model.steady_height()),
+            weight: limited.map(|_| model.steady_weight()),
         }
     }
 }

@@ -5,11 +5,19 @@ pub(crate) struct Cells<'a> {
     first: i64,
     values: Vec<f64>,
     unvisited: &'a dyn Fn(i64) -> f64,
+    /// What cells not yet visited are worth.
+    scale: f64,
 }
 
 impl<'a> Cells<'a> {
     pub(crate) fn new(unvisited: &'a dyn Fn(i64) -> f64) -> Self {
-        Self { first: 0, values: Vec::new(), unvisited }
+        Self { first: 0, values: Vec::new(), unvisited, scale: 1.0 }
+    }
+
+    /// All cells times a factor.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.scale *= factor;
+        self.values.iter_mut().for_each(|value| *value *= factor);
     }
 
     /// The cells `first` … `first + len - 1`, made if need be.
@@ -22,22 +30,24 @@ impl<'a> Cells<'a> {
     /// One cell, visited or not.
     pub(crate) fn at(&self, cell: i64) -> f64 {
         let visited = usize::try_from(cell - self.first).ok().and_then(|k| self.values.get(k));
-        visited.copied().unwrap_or_else(|| (self.unvisited)(cell))
+        visited.copied().unwrap_or_else(|| self.scale * (self.unvisited)(cell))
     }
 
     fn extend(&mut self, first: i64, end: i64) {
+        let (unvisited, scale) = (self.unvisited, self.scale);
+        let new_cell = |cell: i64| scale * unvisited(cell);
         if self.values.is_empty() {
             self.first = first;
         }
         if first < self.first {
             // Ahead by half of what there is, so that a long retreat costs linear time.
             let ahead = first - self.values.len() as i64 / 2;
-            let new: Vec<f64> = (ahead..self.first).map(self.unvisited).collect();
+            let new: Vec<f64> = (ahead..self.first).map(new_cell).collect();
             self.values.splice(0..0, new);
             self.first = ahead;
         }
         let old_end = self.first + self.values.len() as i64;
-        self.values.extend((old_end..end).map(self.unvisited));
+        self.values.extend((old_end..end).map(new_cell));
     }
 }
 

@@ -11,6 +11,9 @@ pub enum GridError {
     /// r must be finite and > 0.
     #[error("r is {0}: the support velocity must be a finite number > 0")]
     R(f64),
+    /// A depth limit, a healing time or an inertia must be finite and > 0.
+    #[error("{0} is no depth limit, healing time or inertia: these must be finite numbers > 0")]
+    Wider(f64),
     /// The reach of the footprint must be finite and > 0.
     #[error("the footprint's reach is {0}: it must be a finite number > 0")]
     Reach(f64),

@@ -57,10 +57,12 @@ impl<'a> Footprint<'a> {
     }
 }
 
-/// ∫_x^∞ f by Gauss–Legendre quadrature with 16 nodes on 64 panels over the reach: exact to
-/// round-off when f is smooth on the scale reach/32.
+/// ∫_x^∞ f(y) e^{-s(y-x)}dy, with s = 0 unless said otherwise, by Gauss–Legendre quadrature with 16 nodes on 64
+/// panels over the reach: exact to round-off when f is smooth on the scale reach/32.
 pub(crate) struct Tail<'a> {
     footprint: Footprint<'a>,
+    /// s
+    fading: f64,
     rule: GaussLegendre,
     /// Tail at the right edge of each panel.
     right: Vec<f64>,
@@ -72,16 +74,21 @@ impl<'a> Tail<'a> {
     const NODES: NonZeroUsize = NonZeroUsize::MIN.saturating_add(15);
 
     pub(crate) fn new(footprint: Footprint<'a>) -> Self {
+        Self::fading(footprint, 0.0)
+    }
+
+    pub(crate) fn fading(footprint: Footprint<'a>, fading: f64) -> Self {
         let panel = 2.0 * footprint.reach / Self::PANELS as f64;
         let mut tail = Self {
             footprint,
+            fading,
             rule: GaussLegendre::new(Self::NODES),
             right: vec![0.0; Self::PANELS],
             panel,
         };
         for k in (1..Self::PANELS).rev() {
-            let own = tail.integral(tail.edge(k), tail.edge(k + 1));
-            tail.right[k - 1] = tail.right[k] + own;
+            let own = tail.integral(tail.edge(k), tail.edge(k), tail.edge(k + 1));
+            tail.right[k - 1] = tail.right[k] * tail.left_over(panel) + own;
         }
         tail
     }
@@ -90,18 +97,29 @@ impl<'a> Tail<'a> {
         k as f64 * self.panel - self.footprint.reach
     }
 
-    fn integral(&self, from: f64, to: f64) -> f64 {
-        self.rule.integrate(from, to, |x| self.footprint.value(x))
+    /// e^{-s length}
+    fn left_over(&self, length: f64) -> f64 {
+        (-self.fading * length).exp()
     }
 
-    /// ∫_x^∞ f
+    /// Seen from x.
+    fn integral(&self, x: f64, from: f64, to: f64) -> f64 {
+        self.rule.integrate(from, to, |y| self.footprint.value(y) * self.left_over(y - x))
+    }
+
+    /// ∫_x^∞ f(y) e^{-s(y-x)}dy
     pub(crate) fn value(&self, x: f64) -> f64 {
-        let x = x.max(-self.footprint.reach);
-        if x >= self.footprint.reach {
+        let from = x.max(-self.footprint.reach);
+        if from >= self.footprint.reach {
             return 0.0;
         }
+        self.left_over(from - x) * self.value_from(from)
+    }
+
+    fn value_from(&self, x: f64) -> f64 {
         let k = (((x + self.footprint.reach) / self.panel) as usize).min(Self::PANELS - 1);
-        self.right[k] + self.integral(x, self.edge(k + 1))
+        let edge = self.edge(k + 1);
+        self.right[k] * self.left_over(edge - x) + self.integral(x, x, edge)
     }
 }
 

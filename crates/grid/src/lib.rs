@@ -59,6 +59,7 @@ mod theta;
 mod three_point;
 mod uniform;
 mod unknowns;
+mod wider;
 
 pub use error::GridError;
 pub use footprint::Footprint;
@@ -68,3 +69,4 @@ pub use run::{Observer, Request, Run, Work};
 pub use start::Start;
 pub use stepping::Stepping;
 pub use theta::Gaussian;
+pub use wider::{Path, Wider};

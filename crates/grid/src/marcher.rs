@@ -21,15 +21,20 @@ pub(crate) struct Marcher<'a, S> {
     background: Option<&'a Start<'a>>,
     t: f64,
     x0: f64,
+    /// x0', where there is inertia.
+    velocity: f64,
+    /// Cells hold e^{(t - since)/T} times what they stand for.
+    since: f64,
     stages: Vec<Stage>,
     scratch: Scratch,
     work: Work,
 }
 
-/// x0' and the imprint at one stage.
+/// x0', x0'' with inertia, and the imprint at one stage.
 #[derive(Default, Clone)]
 struct Stage {
     velocity: f64,
+    acceleration: f64,
     imprint: Patch,
 }
 
@@ -54,6 +59,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         let stages = vec![Stage::default(); tableau.stages()];
         let (t, x0) = (problem.start.time, problem.start.x0);
         let (scratch, work) = (Scratch::default(), Work::default());
+        let velocity = problem.wider.inertia.map_or(0.0, |(_, velocity)| velocity);
         Self {
             problem,
             scheme,
@@ -64,6 +70,8 @@ impl<'a, S: Scheme> Marcher<'a, S> {
             background,
             t,
             x0,
+            velocity,
+            since: t,
             stages,
             scratch,
             work,
@@ -88,7 +96,8 @@ impl<'a, S: Scheme> Marcher<'a, S> {
 
     fn advance_to(&mut self, target: f64, observe: &mut Observer) -> Result<(), GridError> {
         while !reached(self.t, target) {
-            let h = towards(target, self.t, self.control.step);
+            let end = self.problem.wider.next_knot(self.t).min(target);
+            let h = towards(end, self.t, self.control.step);
             if too_small(h, self.t) && h < target - self.t {
                 return Err(GridError::StepTooSmall { time: self.t, step: h });
             }
@@ -119,31 +128,61 @@ impl<'a, S: Scheme> Marcher<'a, S> {
 
     /// x0 + h Σ weight · velocity, unless that is not finite or a whole reach away: far too long a step.
     fn moved(&self, h: f64, weights: &[f64]) -> Option<f64> {
-        let distance = h * self.velocity(weights);
+        let distance = h * self.slope(weights, |stage| stage.velocity);
         (distance.abs() <= self.problem.footprint.reach()).then_some(self.x0 + distance)
     }
 
-    /// Σ weight · velocity over the stages
-    fn velocity(&self, weights: &[f64]) -> f64 {
-        weights.iter().zip(&self.stages).map(|(w, stage)| w * stage.velocity).sum()
+    /// Σ weight · rate over the stages
+    fn slope(&self, weights: &[f64], rate: impl Fn(&Stage) -> f64) -> f64 {
+        weights.iter().zip(&self.stages).map(|(w, stage)| w * rate(stage)).sum()
     }
 
     /// Stage `i`, at time `t` and position `x`, from the stages before it in a step of length `h`.
     fn evaluate(&mut self, i: usize, t: f64, x: f64, h: f64) {
-        let Scratch { stencil, local, .. } = &mut self.scratch;
-        self.scheme.slope_stencil(x, stencil);
-        local.reset(stencil.first, stencil.values.len());
-        local.values.copy_from_slice(self.cells.range(stencil.first, stencil.values.len()));
-        let (before, rest) = self.stages.split_at_mut(i);
-        for (weight, stage) in self.tableau.a[i].iter().zip(before) {
-            local.add(-self.problem.alpha * h * weight, &stage.imprint);
-        }
-        let slope = stencil.dot(&local.values) + self.background.map_or(0.0, |u0| u0.slope(x));
-        let stage = &mut rest[0];
-        stage.velocity = self.problem.velocity(t, x, slope);
+        let wider = &self.problem.wider;
+        let (left, left_of_start) =
+            (wider.left_after(t - self.since), self.problem.left_of_start(t));
+        self.scheme.slope_stencil(x, &mut self.scratch.stencil);
+        let background = self.background.map_or(0.0, |u0| left_of_start * u0.slope(x));
+        let slope = left * self.read(i, h) + background;
+        let weight = if wider.depth_limit.is_some() {
+            self.scheme.height_stencil(x, &mut self.scratch.stencil);
+            let background = self.background.map_or(0.0, |u0| left_of_start * u0.height(x));
+            wider.weight(left * self.read(i, h) + background)
+        } else {
+            1.0
+        };
+        let force = self.problem.velocity(t, x, slope);
+        let (velocity, acceleration) = match wider.inertia {
+            None => (force, 0.0),
+            Some((mass, _)) => {
+                let before = &self.stages[..i];
+                let gained = self.tableau.a[i].iter().zip(before);
+                let gained: f64 = gained.map(|(a, stage)| a * stage.acceleration).sum();
+                let velocity = self.velocity + h * gained;
+                (velocity, (force - velocity) / mass)
+            }
+        };
+        let stage = &mut self.stages[i];
+        (stage.velocity, stage.acceleration) = (velocity, acceleration);
         self.scheme.imprint(x, &mut stage.imprint);
+        let weight = weight / left;
+        if (weight - 1.0).abs() > 0.0 {
+            stage.imprint.values.iter_mut().for_each(|value| *value *= weight);
+        }
         self.work.right_hand_sides += 1;
         self.work.cells_updated += stage.imprint.values.len() as u64;
+    }
+
+    /// What the cells of stage `i` say by the stencil in the scratch.
+    fn read(&mut self, i: usize, h: f64) -> f64 {
+        let Scratch { stencil, local, .. } = &mut self.scratch;
+        local.reset(stencil.first, stencil.values.len());
+        local.values.copy_from_slice(self.cells.range(stencil.first, stencil.values.len()));
+        for (weight, stage) in self.tableau.a[i].iter().zip(&self.stages[..i]) {
+            local.add(-self.problem.alpha * h * weight, &stage.imprint);
+        }
+        stencil.dot(&local.values)
     }
 
     /// Forms the carved cells in the scratch; returns the error relative to what is allowed.
@@ -170,8 +209,10 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         }
         let allowed = self.stepping.allowed(self.x0, x0);
         let [fifth, third] = [&tableau.error, &tableau.error3]
-            .map(|weights| (h * self.velocity(weights)).abs() / allowed);
-        blend(largest[0].max(fifth), largest[1].max(third))
+            .map(|weights| h * self.slope(weights, |stage| stage.velocity).abs() / allowed);
+        let turned = [&tableau.error, &tableau.error3]
+            .map(|weights| h * self.slope(weights, |stage| stage.acceleration).abs() / allowed);
+        blend(largest[0].max(fifth).max(turned[0]), largest[1].max(third).max(turned[1]))
     }
 
     fn accept(&mut self, h: f64, x0: f64) {
@@ -180,10 +221,16 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         for (cell, du) in cells.iter_mut().zip(&carved.values) {
             *cell += du;
         }
+        self.velocity += h * self.slope(&self.tableau.b, |stage| stage.acceleration);
         self.t += h;
         self.x0 = x0;
         self.work.steps += 1;
-        if self.tableau.first_same_as_last {
+        let knot = self.problem.wider.next_knot(self.t - h) <= self.t;
+        if self.problem.wider.healing_time.is_some() {
+            self.cells.scale(self.problem.wider.left_after(self.t - self.since));
+            self.since = self.t;
+            self.evaluate(0, self.t, x0, h);
+        } else if self.tableau.first_same_as_last && !knot {
             let last = self.stages.len() - 1;
             self.stages.swap(0, last);
         } else {
@@ -196,7 +243,8 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         self.scheme.height_stencil(x, stencil);
         let cells = (stencil.first..).map(|cell| self.cells.at(cell));
         let sum: f64 = stencil.values.iter().zip(cells).map(|(weight, w)| weight * w).sum();
-        sum + self.background.map_or(0.0, |u0| u0.height(x))
+        let left = self.problem.left_of_start(self.t);
+        sum + self.background.map_or(0.0, |u0| left * u0.height(x))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Equations (10) and (11) with their data.
 
-use crate::{Footprint, GridError, Start};
+use crate::{Footprint, GridError, Start, Wider};
 
 /// A tip dragged by a spring over a surface that it carves:
 ///
@@ -11,6 +11,7 @@ pub struct Problem<'a> {
     pub(crate) footprint: Footprint<'a>,
     pub(crate) start: Start<'a>,
     force: Option<&'a dyn Fn(f64) -> f64>,
+    pub(crate) wider: Wider<'a>,
 }
 
 impl<'a> Problem<'a> {
@@ -24,16 +25,30 @@ impl<'a> Problem<'a> {
         footprint: Footprint<'a>,
         start: Start<'a>,
     ) -> Result<Self, GridError> {
-        if !(alpha.is_finite() && alpha >= 0.0) {
+        Self::under(Wider::default(), (alpha, r), footprint, start)
+    }
+
+    /// Under a wider law; without a spring α may be below 0, and r counts for nothing.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a number of the wider law that is not finite or not above 0.
+    pub fn under(
+        wider: Wider<'a>,
+        (alpha, r): (f64, f64),
+        footprint: Footprint<'a>,
+        start: Start<'a>,
+    ) -> Result<Self, GridError> {
+        wider.check()?;
+        if !(alpha.is_finite() && (alpha >= 0.0 || !wider.spring)) {
             return Err(GridError::Alpha(alpha));
         }
-        if !(r.is_finite() && r > 0.0) {
+        if wider.spring && !(r.is_finite() && r > 0.0) {
             return Err(GridError::R(r));
         }
         if !(start.time.is_finite() && start.x0.is_finite()) {
             return Err(GridError::Start { time: start.time, x0: start.x0 });
         }
-        Ok(Self { alpha, r, footprint, start, force: None })
+        Ok(Self { alpha, r, footprint, start, force: None, wider })
     }
 
     /// The same with Fext.
@@ -48,8 +63,18 @@ impl<'a> Problem<'a> {
         &self.start
     }
 
-    /// Right-hand side of (10), given the slope under the tip.
+    /// Right-hand side of (10), given the slope under the tip: the force on it.
     pub(crate) fn velocity(&self, t: f64, x0: f64, slope: f64) -> f64 {
-        self.r * t - x0 - slope + self.force.map_or(0.0, |force| force(t))
+        let pull = match &self.wider.path {
+            _ if !self.wider.spring => 0.0,
+            Some(path) => (path.position)(t) - x0,
+            None => self.r * t - x0,
+        };
+        pull - slope + self.force.map_or(0.0, |force| force(t))
+    }
+
+    /// What is left at t of the surface at the start.
+    pub(crate) fn left_of_start(&self, t: f64) -> f64 {
+        self.wider.left_after(t - self.start.time)
     }
 }

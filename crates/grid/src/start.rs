@@ -1,5 +1,6 @@
 //! Where and when the motion starts, and on what surface.
 
+use crate::Wider;
 use crate::footprint::{Footprint, Tail};
 
 /// t1, x0(t1) and the surface u0 with its slope.
@@ -41,6 +42,42 @@ impl<'a> Start<'a> {
             position - kick,
             move |x| -(alpha / r) * tail.value(x - position),
             move |x| (alpha / r) * footprint.value_within_reach(x - position),
+        )
+    }
+
+    /// The same under a wider law: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the weight that
+    /// this depth under the tip has, and l0 the slope there. On a path the start is at t = 0.
+    #[must_use]
+    pub fn steady_under(
+        wider: &Wider,
+        (alpha, r): (f64, f64),
+        footprint: Footprint<'a>,
+        position: f64,
+        kick: f64,
+    ) -> Self {
+        let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (r * time));
+        let tail = Tail::fading(footprint, fading);
+        let depth = alpha / r * tail.value(0.0);
+        // w e^{w depth/b} = 1 has one root in (0, 1], which halving finds.
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let above = middle > wider.weight(middle * depth);
+            *(if above { &mut high } else { &mut low }) = middle;
+        }
+        let density =
+            alpha / r * if wider.depth_limit.is_some() { 0.5 * (low + high) } else { 1.0 };
+        let slope_at = {
+            let tail = Tail::fading(footprint, fading);
+            move |x: f64| footprint.value_within_reach(x) - fading * tail.value(x)
+        };
+        let lag = r + density * slope_at(0.0);
+        let time = if wider.path.is_some() { 0.0 } else { (position + lag) / r };
+        Self::new(
+            time,
+            position - kick,
+            move |x| -density * tail.value(x - position),
+            move |x| density * slope_at(x - position),
         )
     }
 

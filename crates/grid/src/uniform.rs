@@ -36,31 +36,56 @@ impl FullGrid<'_> {
         u.get(from..from + stencil.values.len()).map(|u| stencil.dot(u))
     }
 
+    /// x0, the cells, and x0' where there is inertia.
     fn start(&self) -> Unknowns {
         let start = &self.problem.start;
         let heights = (0..self.len).map(|k| start.height(self.x(k)));
-        Unknowns(std::iter::once(start.x0).chain(heights).collect())
+        let velocity = self.problem.wider.inertia.map(|(_, velocity)| velocity);
+        Unknowns(std::iter::once(start.x0).chain(heights).chain(velocity).collect())
     }
 
-    fn height(&self, u: &[f64], x: f64) -> f64 {
+    /// w of (61), `None` off the grid.
+    fn weight(&self, u: &[f64], x0: f64, stencil: &mut Patch) -> Option<f64> {
+        if self.problem.wider.depth_limit.is_none() {
+            return Some(1.0);
+        }
+        self.scheme.height_stencil(x0, stencil);
+        self.read(u, stencil).map(|height| self.problem.wider.weight(height))
+    }
+
+    /// u(x) at time t.
+    fn height(&self, t: f64, u: &[f64], x: f64) -> f64 {
         let mut stencil = Patch::default();
         self.scheme.height_stencil(x, &mut stencil);
-        self.read(u, &stencil).unwrap_or_else(|| self.problem.start.height(x))
+        let left = || self.problem.left_of_start(t) * self.problem.start.height(x);
+        self.read(u, &stencil).unwrap_or_else(left)
     }
 }
 
 impl ODE<f64, Unknowns> for FullGrid<'_> {
     fn diff(&self, t: f64, y: &Unknowns, dydt: &mut Unknowns) {
-        let x0 = y.0[0];
+        let (x0, u) = (y.0[0], &y.0[1..=self.len]);
         let mut stencil = self.stencil.borrow_mut();
         self.scheme.slope_stencil(x0, &mut stencil);
-        let slope = self.read(&y.0[1..], &stencil);
+        let slope = self.read(u, &stencil);
+        let weight = self.weight(u, x0, &mut stencil);
         if slope.is_none() && x0.is_finite() {
             self.left.set(Some((t, x0)));
         }
-        dydt.0[0] = self.problem.velocity(t, x0, slope.unwrap_or(f64::NAN));
-        for (k, rate) in dydt.0[1..].iter_mut().enumerate() {
-            *rate = -self.problem.alpha * self.problem.footprint.value(self.x(k) - x0);
+        let force = self.problem.velocity(t, x0, slope.unwrap_or(f64::NAN));
+        dydt.0[0] = force;
+        if let Some((mass, _)) = self.problem.wider.inertia {
+            let velocity = y.0[1 + self.len];
+            dydt.0[0] = velocity;
+            dydt.0[1 + self.len] = (force - velocity) / mass;
+        }
+        let alpha = self.problem.alpha * weight.unwrap_or(f64::NAN);
+        for (k, rate) in dydt.0[1..=self.len].iter_mut().enumerate() {
+            *rate = -alpha * self.problem.footprint.value(self.x(k) - x0);
+        }
+        if let Some(time) = self.problem.wider.healing_time {
+            let rates = dydt.0[1..=self.len].iter_mut();
+            rates.zip(u).for_each(|(rate, u)| *rate -= u / time);
         }
     }
 }
@@ -92,7 +117,11 @@ pub(crate) fn run(
         runner.advance_to(time, observe)?;
         x0.push(runner.solver.y().0[0]);
     }
-    let u = request.points.iter().map(|&x| grid.height(&runner.solver.y().0[1..], x)).collect();
+    let u = request
+        .points
+        .iter()
+        .map(|&x| grid.height(runner.t, &runner.solver.y().0[1..=grid.len], x))
+        .collect();
     Ok(Run { x0, u, work: runner.work })
 }
 
@@ -129,7 +158,8 @@ impl<'g> Runner<'g> {
     fn advance_to(&mut self, target: f64, observe: &mut Observer) -> Result<(), GridError> {
         while !reached(self.t, target) {
             let proposed = self.solver.h();
-            let h = towards(target, self.t, proposed);
+            let end = self.grid.problem.wider.next_knot(self.t).min(target);
+            let h = towards(end, self.t, proposed);
             if too_small(h, self.t) && h < target - self.t {
                 return Err(self.grid.departure(GridError::StepTooSmall { time: self.t, step: h }));
             }

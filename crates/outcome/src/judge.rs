@@ -8,9 +8,10 @@ use crate::{Observer, Oscillation, Outcome, Prospect, Regime, Remark};
 use stickslip_cycles::{DEFAULT_TOLERANCE, small_cycle};
 use stickslip_stability::{Criticality, creep, onset};
 use stickslip_tip::motion::{self, Extremum};
-use stickslip_tip::{InitialSurface, Scenario, Start, Step, Trajectory, stop};
+use stickslip_tip::{InitialSurface, Scenario, Start, Step, Support, Trajectory, stop};
 
 mod extrapolated;
+mod free;
 mod remarks;
 
 /// The last fifth of a run must be near steady motion for the run to count as steady.
@@ -86,6 +87,13 @@ impl Outcome {
 
 impl End<'_> {
     fn outcome(&self) -> Outcome {
+        match self.scenario.support() {
+            Support::Moving(_) => {}
+            Support::Path(_) => {
+                return Outcome::transient(None, None).remarked(Remark::OnAPath);
+            }
+            Support::None => return self.without_spring(),
+        }
         if self.force_acts() {
             return Outcome::transient(None, None).remarked(Remark::ForceActs);
         }
@@ -153,6 +161,10 @@ impl End<'_> {
     /// A tip that hardly moves: trapped, or how long until it slips.
     fn stuck(&self) -> Option<Outcome> {
         let Scenario { model, tolerance, .. } = self.scenario;
+        // Under a depth limit, or where the surface heals, no tip is held for ever.
+        if model.wider().depth_limit.or(model.wider().healing_time).is_some() {
+            return None;
+        }
         if model.tip().reach().is_none() {
             let since = self.extrema.first().map_or(self.start(), |e| e.t.max(self.start()));
             let risen = self.observer.risen();

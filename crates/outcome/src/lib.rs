@@ -36,6 +36,8 @@ pub enum Regime {
     StickSlip,
     /// The tip creeps logarithmically in its own pit and will not come out.
     Trapped,
+    /// A tip without a spring moves on at one velocity.
+    Drifting,
     /// None of these yet: a longer run will tell.
     Transient,
 }

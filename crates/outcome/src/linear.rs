@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 use std::f64::consts::TAU;
-use stickslip_stability::leading_roots;
+use stickslip_stability::{Spectrum, StabilityError, critical, critical_under, leading_roots};
 use stickslip_tip::Model;
 
 /// Whether small deviations from steady motion grow.
@@ -27,7 +27,11 @@ pub(crate) struct Slowest {
 
 impl Linear {
     pub(crate) fn of(model: &Model) -> Self {
-        let Ok(spectrum) = leading_roots(model, 1) else { return Self::Unknown };
+        let spectrum = match leading_roots(model, 1) {
+            Err(StabilityError::Corner) => beside_corner(model),
+            found => found.ok(),
+        };
+        let Some(spectrum) = spectrum else { return Self::Unknown };
         let leading = spectrum.roots.first().copied().unwrap_or(Complex64::new(-1.0, 0.0));
         let rate = leading.re.abs();
         if rate <= spectrum.certificate.largest_error {
@@ -37,4 +41,13 @@ impl Linear {
         let slowest = Slowest { rate, period };
         if leading.re < 0.0 { Self::Stable(slowest) } else { Self::Unstable(slowest) }
     }
+}
+
+/// Where a depth limit has its corner at steady motion there are no exponents; small oscillations grow above another
+/// αc, by about as much as without the limit that far above its own.
+fn beside_corner(model: &Model) -> Option<Spectrum> {
+    let (tip, r) = (model.tip(), model.r());
+    let limited = critical_under(model.wider(), tip, r).ok()?.critical.alpha;
+    let alpha = model.alpha() * critical(tip, r).ok()?.alpha / limited;
+    leading_roots(&Model::new(tip.clone(), alpha, r).ok()?, 1).ok()
 }

@@ -4,7 +4,7 @@ use crate::thinned::Thinned;
 use std::collections::VecDeque;
 use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::state::{Damaged, Reader, State};
-use stickslip_tip::{Model, Step, Trajectory};
+use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
 
 /// l within this distance of l0 is steady;
 const STEADY_WITHIN: f64 = 1e-6;
@@ -18,6 +18,8 @@ const LONGEST_TAIL: usize = 1 << 15;
 #[derive(Debug, Clone)]
 pub struct Observer {
     r: f64,
+    support: Support,
+    wider: Wider,
     steady_l: f64,
     /// l at this distance of l0 is not steady.
     far: f64,
@@ -36,10 +38,13 @@ pub struct Observer {
 impl Observer {
     /// Before the first step.
     #[must_use]
-    pub fn new(model: &Model, tolerance: f64) -> Self {
+    pub fn new(scenario: &Scenario) -> Self {
+        let Scenario { model, tolerance, .. } = scenario;
         let most = model.tip().widths(STEADY_AT_MOST);
         Self {
             r: model.r(),
+            support: scenario.support(),
+            wider: *model.wider(),
             steady_l: model.steady_l(),
             far: STEADY_WITHIN.max((STEADY_TOLERANCES * tolerance).min(most)),
             reaches: 2.0 * model.tip().reach().unwrap_or(0.0),
@@ -124,7 +129,7 @@ impl Observer {
     #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {
         let steps: Vec<Step> = self.tail.iter().copied().collect();
-        (!steps.is_empty()).then(|| Trajectory::new(self.r, steps))
+        (!steps.is_empty()).then(|| Trajectory::under(self.wider, self.support.clone(), steps))
     }
 
     pub(crate) fn save(&self, state: &mut State) {

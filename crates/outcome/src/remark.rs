@@ -37,6 +37,8 @@ pub enum Remark {
         /// When it ends.
         until: f64,
     },
+    /// The support does not move at one velocity.
+    OnAPath,
     /// The surface ahead of the tip is not even.
     UnevenAhead {
         /// Where it ends, in σ.
@@ -85,6 +87,10 @@ impl fmt::Display for Remark {
             Self::ForceToCome { until } => write!(
                 out,
                 "an external force acts after the end of the run, until t = {until:?}: it is not counted with"
+            ),
+            Self::OnAPath => write!(
+                out,
+                "the support moves on a path of its own: there is no motion that the tip could settle to"
             ),
             Self::UnevenAhead { until } => write!(
                 out,

@@ -76,6 +76,7 @@ mod tests {
                 h: 1.0,
                 extension: 0.0,
                 displacement: [0.0; 6],
+                height: None,
             });
         }
         assert!(thinned.steps.len() <= MOST);

@@ -21,7 +21,7 @@ impl<'a> Watched<'a> {
     /// A parameter out of range.
     pub fn new(scenario: &'a Scenario, surface: &'a InitialSurface) -> Result<Self, RunError> {
         let running = Running::new(scenario, surface)?;
-        let observer = Observer::new(&scenario.model, scenario.tolerance);
+        let observer = Observer::new(scenario);
         Ok(Self { scenario, running, observer, surface })
     }
 
@@ -37,7 +37,7 @@ impl<'a> Watched<'a> {
     ) -> Result<Self, RunError> {
         let mut state = state.reader();
         let running = Running::resumed(scenario, surface, &mut state)?;
-        let mut observer = Observer::new(&scenario.model, scenario.tolerance);
+        let mut observer = Observer::new(scenario);
         observer.restore(&mut state)?;
         state.finish()?;
         Ok(Self { scenario, running, observer, surface })
@@ -126,7 +126,7 @@ pub fn judge_trajectory(
     surface: &InitialSurface,
     trajectory: &Trajectory,
 ) -> Outcome {
-    let mut observer = Observer::new(&scenario.model, scenario.tolerance);
+    let mut observer = Observer::new(scenario);
     trajectory.steps().iter().for_each(|step| observer.observe(step));
     judge(scenario, surface, &observer)
 }

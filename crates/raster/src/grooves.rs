@@ -6,7 +6,8 @@
 //!     Û(k) = -α Σ_l ĝ_l(k) Σ_m h_l(y - y_m) ρ̂_m(k)
 //! ```
 //!
-//! with ρ_m the residence density of line m, how long the tip was where. Of it ρ̂_m is kept, up to the band of f: some
+//! with ρ_m the residence density of line m, how long the tip was where, each visit with its weight under a depth limit,
+//! and fading where the surface heals. Of it ρ̂_m is kept, up to the band of f: some
 //! three complex numbers for each width of length.
 
 use crate::line::Line;
@@ -34,6 +35,8 @@ struct Stretch {
 pub(crate) struct Grooves {
     footprint: Footprint,
     alpha: f64,
+    /// What is left of a groove after another line, where the surface heals.
+    left: f64,
     reach_across: f64,
     /// Along x: how far a groove goes beyond where the tip was.
     reach_along: f64,
@@ -77,6 +80,7 @@ impl Grooves {
         let (reach_along, band, supports) = (plan.reach_along(), plan.band(), (0.0, plan.length));
         Self {
             alpha: plan.law.model.alpha(),
+            left: plan.law.model.wider().left_after(plan.duration()),
             reach_across: plan.reach_across(),
             reach_along,
             band,
@@ -103,6 +107,10 @@ impl Grooves {
     }
 
     fn put(&mut self, y: f64, positions: &[f64], weights: &[f64]) {
+        if self.left < 1.0 {
+            let left = self.left;
+            self.rows.iter_mut().flat_map(|row| &mut row.spectrum).for_each(|rho| *rho *= left);
+        }
         let mut density = Density::new(self.stretch.spectra.spacing());
         positions.iter().zip(weights).for_each(|(x, weight)| density.add(*x, *weight));
         let spectrum = self.stretch.spectra.of(&density);
@@ -211,9 +219,9 @@ mod tests {
             let x = from + (to - from) * f64::from(i) / 40.0;
             let nodes = nodes_and_weights().0;
             let displacement = std::array::from_fn(|j| (to - from) / 40.0 * nodes[j]);
-            Step { t, h, extension: t - x, displacement }
+            Step { t, h, extension: t - x, displacement, height: None }
         };
-        Line::new(plan.track(n), 1.0, (0..40).map(step).collect(), Work::default())
+        Line::new(plan.track(n), &plan.law.model, (0..40).map(step).collect(), Work::default())
     }
 
     /// Σ over all lines and all visits.

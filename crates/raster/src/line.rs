@@ -1,7 +1,7 @@
 //! One line that has been scanned.
 
 use crate::path::Track;
-use stickslip_tip::{Step, Trajectory, Work};
+use stickslip_tip::{Model, Step, Support, Trajectory, Work};
 
 /// The motion of the tip along one line. Time is counted from the start of the line.
 #[derive(Debug, Clone)]
@@ -13,13 +13,14 @@ pub struct Line {
 }
 
 impl Line {
-    /// From its steps, in the frame of the line.
+    /// From its steps under the law of a model, in the frame of the line.
     ///
     /// # Panics
     /// Without any step.
     #[must_use]
-    pub fn new(track: Track, r: f64, steps: Vec<Step>, work: Work) -> Self {
-        Self { track, trajectory: Trajectory::new(r, steps), work }
+    pub fn new(track: Track, model: &Model, steps: Vec<Step>, work: Work) -> Self {
+        let trajectory = Trajectory::under(*model.wider(), Support::Moving(model.r()), steps);
+        Self { track, trajectory, work }
     }
 
     /// Where the support goes.
@@ -66,8 +67,19 @@ impl Line {
         self.track.x(r * last.end() - last.extension_at_end(r))
     }
 
-    /// Where the tip was on the surface, and for how long: positions and weights such that
-    /// ∫ g(x0(t))dt = Σ w g(x).
+    /// The height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[must_use]
+    pub fn height(&self, t: f64) -> Option<f64> {
+        self.trajectory.height(t)
+    }
+
+    /// x0' on the surface at the end.
+    pub(crate) fn velocity_at_end(&self) -> f64 {
+        self.velocity(self.trajectory.end())
+    }
+
+    /// Where the tip was on the surface, for how long, and how strongly it indented there: positions and weights such
+    /// that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ `w_j` g(`x_j`), w and T those of the wider law, as the line ends.
     #[must_use]
     pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());

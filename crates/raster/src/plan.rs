@@ -51,6 +51,9 @@ pub enum RasterError {
     /// None, or more than are kept.
     #[error("a raster has between 1 and {MOST_LINES} lines, not {0}")]
     Lines(usize),
+    /// Nothing that could be scanned with.
+    #[error("a raster needs a spring: without one there is no support that goes along lines")]
+    NoSpring,
     /// A footprint without reach.
     #[error("a raster needs a footprint that fades along the lines, as J0 does not")]
     NeverFades,
@@ -94,6 +97,9 @@ impl Plan {
     /// # Errors
     /// The first parameter out of range.
     pub fn validate(&self) -> Result<(), RasterError> {
+        if !self.law.model.wider().spring {
+            return Err(RasterError::NoSpring);
+        }
         let layers = self.footprint.layers().iter();
         if layers.clone().any(|layer| layer.along.reach().is_none()) {
             return Err(RasterError::NeverFades);
@@ -115,7 +121,7 @@ impl Plan {
         if !(1..=MOST_LINES).contains(&self.lines) {
             return Err(RasterError::Lines(self.lines));
         }
-        self.line(0.0, true).validate().map_err(|error| RasterError::Line { line: 1, error })
+        self.line((0.0, 0.0), true).validate().map_err(|error| RasterError::Line { line: 1, error })
     }
 
     /// Line number n, counted from 0.
@@ -130,12 +136,15 @@ impl Plan {
         self.length / self.law.model.r()
     }
 
-    /// The run of a line whose tip starts `ahead` of the support.
-    pub(crate) fn line(&self, ahead: f64, is_first: bool) -> Scenario {
+    /// The run of a line whose tip starts `ahead` of the support, with this velocity if it has inertia.
+    pub(crate) fn line(&self, (ahead, velocity): (f64, f64), is_first: bool) -> Scenario {
+        let has_inertia = self.law.model.wider().inertia.is_some();
         Scenario {
             start: Start::Flat,
             start_position: 0.0,
             kick: -ahead,
+            start_velocity: has_inertia.then_some(velocity),
+            path: None,
             until: self.duration(),
             force: if is_first { self.disturbance.clone() } else { Force::default() },
             ..self.law.clone()

@@ -2,6 +2,7 @@
 
 use crate::grooves::Grooves;
 use crate::line::Line;
+use crate::path::{Path, Track};
 use crate::plan::{Plan, RasterError};
 use stickslip_tip::{InitialSurface, Running, Step, stop};
 
@@ -61,13 +62,7 @@ impl<'a> Scanning<'a> {
         }
         let track = self.plan.track(n);
         let surface = self.surface_ahead();
-        // On a way back the tip stands where it was, ahead of the support that has turned.
-        let ahead = if track.backward || (n > 0 && self.plan.track(n - 1).backward) {
-            self.lines.last().map_or(0.0, |last| track.along(last.x0_at_end()))
-        } else {
-            0.0
-        };
-        let scenario = self.plan.line(ahead, n == 0);
+        let scenario = self.plan.line(self.begins(track), n == 0);
         let failed = |error| RasterError::Line { line: n + 1, error };
         let mut running = Running::new(&scenario, &surface).map_err(failed)?;
         let mut steps: Vec<Step> = vec![];
@@ -77,11 +72,20 @@ impl<'a> Scanning<'a> {
                 return Ok(None);
             }
         }
-        let line = Line::new(track, scenario.model.r(), steps, running.work());
+        let line = Line::new(track, &scenario.model, steps, running.work());
         drop(running);
         self.lines.push(line);
         self.grooves.add(&self.lines);
         Ok(self.lines.last())
+    }
+
+    /// How far ahead of the support the tip starts on a line, and with what velocity, in the frame of the line: on a
+    /// zigzag the tip is where it was, as the support turns.
+    fn begins(&self, track: Track) -> (f64, f64) {
+        match self.lines.last().filter(|_| self.plan.path == Path::Zigzag) {
+            Some(last) => (track.along(last.x0_at_end()), track.sign() * last.velocity_at_end()),
+            None => (0.0, 0.0),
+        }
     }
 
     /// What has been scanned.

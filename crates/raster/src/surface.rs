@@ -36,9 +36,12 @@ impl Scanned {
     }
 }
 
-/// ∫∫ u dx dy after these lines: -α ∫∫f times how long the tip was there, -α (X/r) ∫∫f for each line.
+/// ∫∫ u dx dy after these lines: -α ∫∫f times how long the tip was there, under a depth limit with the weights of the
+/// visits, and less what has healed. By the paper's law -α (X/r) ∫∫f for each line.
 #[must_use]
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
+    let left = plan.law.model.wider().left_after(plan.duration());
     let time = |line: &Line| line.residence().1.iter().sum::<f64>();
-    -plan.law.model.alpha() * plan.footprint.integral() * lines.iter().map(time).sum::<f64>()
+    let all = lines.iter().fold(0.0, |sum, line| sum * left + time(line));
+    -plan.law.model.alpha() * plan.footprint.integral() * all
 }

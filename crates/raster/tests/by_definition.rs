@@ -1,5 +1,5 @@
-//! Rasters against the definition: the full equations (10) and (11) on rows of points, one row for each line, with
-//! Runge-Kutta steps of fixed length. It shares nothing with the library but the formula of the footprint, written out
+//! Rasters against the definition: the full equations (10) and (11), or those of the wider law, on rows of points, one row
+//! for each line, with Runge-Kutta steps of fixed length. It shares nothing with the library but the formula of the footprint, written out
 //! here, and the path of the support.
 //!
 //! u is limited in band, so that points 0.4 apart hold it and the sum of sines over all of them gives its slope
@@ -8,7 +8,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning, volume};
-use stickslip_tip::{Footprint, Gaussian2d, InitialSurface, Model, Relief, Running, TipFunction};
+use stickslip_tip::{
+    Footprint, Gaussian2d, InitialSurface, Model, Relief, Running, TipFunction, Wider,
+};
 
 type Formula = fn(f64, f64) -> f64;
 
@@ -17,15 +19,18 @@ const BEYOND: f64 = 12.0;
 /// Of a Runge-Kutta step; its error is its fourth power.
 const STEP: f64 = 0.002;
 
-/// Position of the tip, and heights on every row.
+/// Position and velocity of the tip, and heights on every row.
 #[derive(Clone)]
 struct State {
     x0: f64,
+    /// Of a tip with inertia.
+    v: f64,
     u: Vec<Vec<f64>>,
 }
 
 struct Definition {
     f: Formula,
+    wider: Wider,
     alpha: f64,
     r: f64,
     length: f64,
@@ -35,11 +40,12 @@ struct Definition {
 }
 
 impl Definition {
-    fn new(f: Formula, alpha: f64, r: f64, (pitch, lines, length): (f64, usize, f64)) -> Self {
+    fn new(f: Formula, model: &Model, (pitch, lines, length): (f64, usize, f64)) -> Self {
         let points = ((length + 2.0 * BEYOND) / SPACING) as usize;
         let x: Vec<f64> = (0..points).map(|i| SPACING * i as f64 - BEYOND).collect();
-        let state = State { x0: 0.0, u: vec![vec![0.0; points]; lines] };
-        Self { f, alpha, r, length, pitch, x, state }
+        let state = State { x0: 0.0, v: 0.0, u: vec![vec![0.0; points]; lines] };
+        let (wider, alpha, r) = (*model.wider(), model.alpha(), model.r());
+        Self { f, wider, alpha, r, length, pitch, x, state }
     }
 
     /// u_x on a row.
@@ -57,20 +63,41 @@ impl Definition {
         self.x.iter().zip(u).map(term).sum()
     }
 
+    /// u on a row.
+    fn height(&self, u: &[f64], at: f64) -> f64 {
+        let pi = std::f64::consts::PI;
+        let term = |(x, u): (&f64, &f64)| {
+            let z = pi * (at - x) / SPACING;
+            if z.abs() < 1e-8 { *u } else { u * z.sin() / z }
+        };
+        self.x.iter().zip(u).map(term).sum()
+    }
+
     fn rate(&self, state: &State, row: usize, support: f64) -> State {
+        let weight = match self.wider.depth_limit {
+            Some(limit) => (-self.height(&state.u[row], state.x0).abs() / limit).exp(),
+            None => 1.0,
+        };
+        let healing = self.wider.healing_time.map_or(0.0, |time| 1.0 / time);
         let carve = |n: usize| {
             let y = self.pitch * (n as f64 - row as f64);
-            self.x.iter().map(|x| -self.alpha * (self.f)(x - state.x0, y)).collect()
+            let at = self.x.iter().zip(&state.u[n]);
+            at.map(|(x, u)| -self.alpha * weight * (self.f)(x - state.x0, y) - healing * u)
+                .collect()
         };
-        let x0 = support - state.x0 - self.slope(&state.u[row], state.x0);
-        State { x0, u: (0..state.u.len()).map(carve).collect() }
+        let force = support - state.x0 - self.slope(&state.u[row], state.x0);
+        let (x0, v) = match self.wider.inertia {
+            Some(mass) => (state.v, (force - state.v) / mass),
+            None => (force, 0.0),
+        };
+        State { x0, v, u: (0..state.u.len()).map(carve).collect() }
     }
 
     /// One line; x0 at the end of every hundredth step.
     fn line(&mut self, n: usize, row: usize, path: Path) -> Vec<(f64, f64)> {
         let track = path.track(n, self.pitch, self.length);
         if path != Path::Zigzag {
-            self.state.x0 = 0.0;
+            (self.state.x0, self.state.v) = (0.0, 0.0);
         }
         let steps = (self.length / self.r / STEP).round() as usize;
         let mut told = vec![];
@@ -96,7 +123,8 @@ impl State {
         let row = |(u, v): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
             u.iter().zip(v).map(|(u, v)| u + by * v).collect()
         };
-        Self { x0: self.x0 + by * rate.x0, u: self.u.iter().zip(&rate.u).map(row).collect() }
+        let v = self.v + by * rate.v;
+        Self { x0: self.x0 + by * rate.x0, v, u: self.u.iter().zip(&rate.u).map(row).collect() }
     }
 }
 
@@ -115,9 +143,8 @@ fn plan(footprint: Footprint, (alpha, r): (f64, f64), path: Path, size: (f64, us
 
 /// Largest differences of x0 on any line and of u on any row.
 fn differences(plan: &Plan, f: Formula) -> (f64, f64) {
-    let (alpha, r) = (plan.law.model.alpha(), plan.law.model.r());
     let rows = if plan.path == Path::Repeat { 1 } else { plan.lines };
-    let mut slow = Definition::new(f, alpha, r, (plan.pitch, rows, plan.length));
+    let mut slow = Definition::new(f, &plan.law.model, (plan.pitch, rows, plan.length));
     let lines = scanned(plan);
     let mut worst_x0 = 0.0_f64;
     for (n, line) in lines.iter().enumerate() {
@@ -183,6 +210,29 @@ fn one_way_lines_are_those_of_the_full_equations() {
 fn zigzag_lines_are_those_of_the_full_equations() {
     judge("gaussian", &plan(round(), (0.9, 1.0), Path::Zigzag, (0.5, 6, 16.0)), gaussian);
     judge("lobed", &plan(lobed_footprint(), (0.6, 1.0), Path::Zigzag, (0.7, 5, 16.0)), lobed);
+}
+
+/// Depth limit, healing and inertia, alone and together: weights of visits, grooves that fade from line to line, and
+/// the velocity with which a tip comes to the turn of a zigzag.
+#[test]
+fn lines_under_the_wider_law_are_those_of_the_full_equations() {
+    let limited = Wider { depth_limit: Some(2.0), ..Wider::default() };
+    let healing = Wider { healing_time: Some(12.0), ..Wider::default() };
+    let heavy = Wider { inertia: Some(0.5), ..Wider::default() };
+    let all = Wider { depth_limit: Some(3.0), healing_time: Some(20.0), ..heavy };
+    for (name, wider, path) in [
+        ("limited", limited, Path::OneWay),
+        ("limited zigzag", limited, Path::Zigzag),
+        ("healing", healing, Path::OneWay),
+        ("heavy zigzag", heavy, Path::Zigzag),
+        ("all", all, Path::Zigzag),
+        ("all repeated", all, Path::Repeat),
+    ] {
+        let mut plan = plan(round(), (0.8, 1.0), path, (0.7, 4, 16.0));
+        let tip = plan.law.model.tip().clone();
+        plan.law.model = Model::under(wider, tip, 0.8, 1.0).unwrap();
+        judge(name, &plan, gaussian);
+    }
 }
 
 #[test]

@@ -1,10 +1,11 @@
-//! What rasters of a round Gaussian write, from below the threshold to lines that stay in their pit.
+//! What rasters write: a round Gaussian from below the threshold to lines that stay in their pit, and the triple Gaussian
+//! under the depth limit of (61).
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use stickslip_raster::{LineRegime, Path, Pattern, Plan, Regime, Scanning, line_regime, pattern};
 use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 fn round() -> Footprint {
     Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap()
@@ -56,4 +57,24 @@ fn what_is_no_ripple_is_called_otherwise() {
     let (regime, found, lines) = written(0.4, Path::Repeat, 0.0);
     assert_eq!((regime, found), (Regime::StuckAtTheEdge, None));
     assert_ne!(lines[0], LineRegime::StuckAtTheEdge);
+}
+
+/// β = 1, α = 1.5, r = 1, b = 3: the angles of an independent prototype.
+#[test]
+fn crests_under_a_depth_limit_stand_as_the_prototype_has_them() {
+    for (pitch, lines, angle) in
+        [(0.25, 200, 28.7), (0.5, 200, 33.8), (1.0, 128, 38.0), (1.5, 128, 41.7)]
+    {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let footprint = Footprint::separable(tip.clone(), 1.0).unwrap();
+        let wider = Wider { depth_limit: Some(3.0), ..Wider::default() };
+        let model = Model::under(wider, tip, 1.5, 1.0).unwrap();
+        let mut plan = Plan::new(footprint, model, Path::OneWay, pitch, lines, 100.0);
+        plan.law.tolerance = 1e-6;
+        let mut scanning = Scanning::new(&plan).unwrap();
+        while scanning.next_line().unwrap().is_some() {}
+        let found = pattern(&plan, scanning.lines()).1.unwrap();
+        println!("{pitch}: {:.1} for {angle}", found.crest_angle);
+        assert!((found.crest_angle - angle).abs() < 2.0, "{pitch}: {found:?}");
+    }
 }

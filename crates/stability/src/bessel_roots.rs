@@ -5,7 +5,7 @@
 
 use super::StabilityError;
 use super::certificate::{Certificate, Region};
-use super::newton::polish;
+use super::newton::{polish, simultaneous};
 use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{Scaled, bessel_root};
 use super::winding::{argument_along, whole};
@@ -189,24 +189,5 @@ impl Branch {
 
 /// The four μ, by simultaneous iteration (Durand and Kerner).
 fn quartic(a: f64, kappa: f64) -> [Complex64; 4] {
-    let coefficients = [2.0 * a, 1.0 + a * a, 2.0 * a, (a - kappa) * (a + kappa)];
-    let value = |z: Complex64| coefficients.iter().fold(Complex64::ONE, |sum, c| sum * z + c);
-    let size = coefficients.iter().zip([1.0, 0.5, 1.0 / 3.0, 0.25]).map(|(c, p)| c.abs().powf(p));
-    let radius = size.fold(0.1, f64::max);
-    let mut mu = [0, 1, 2, 3].map(|k| Complex64::from_polar(radius, 0.4 + 0.5 * PI * f64::from(k)));
-    for _ in 0..300 {
-        let mut moved = 0.0_f64;
-        for i in 0..4 {
-            let others = (0..4).filter(|j| *j != i).map(|j| mu[i] - mu[j]);
-            let step = value(mu[i]) / others.product::<Complex64>();
-            if step.is_finite() {
-                mu[i] -= step;
-                moved = moved.max(step.norm() / (mu[i].norm() + f64::MIN_POSITIVE));
-            }
-        }
-        if moved < 1e-15 {
-            break;
-        }
-    }
-    mu
+    simultaneous([2.0 * a, 1.0 + a * a, 2.0 * a, (a - kappa) * (a + kappa)])
 }

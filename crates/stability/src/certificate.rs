@@ -1,7 +1,7 @@
 //! A certificate that a list of roots is complete.
 
+use super::analytic::Analytic;
 use super::cell::Cell;
-use super::characteristic::Characteristic;
 use num_complex::Complex64;
 
 /// A residual above this, relative to the terms of h, is no root.
@@ -51,13 +51,13 @@ impl Certificate {
     }
 
     pub(super) fn of(
-        h: &Characteristic,
+        h: &impl Analytic,
         region: Region,
         counted: usize,
         roots: &[Complex64],
     ) -> Self {
         let inside: Vec<Complex64> =
-            roots.iter().filter(|z| region.contains(**z)).map(|z| z / h.r).collect();
+            roots.iter().filter(|z| region.contains(**z)).map(|z| z / h.r()).collect();
         let largest =
             |f: &dyn Fn(Complex64) -> f64| inside.iter().map(|z| f(*z)).fold(0.0, f64::max);
         Self {
@@ -65,7 +65,7 @@ impl Certificate {
             counted,
             found: distinct(h, &inside),
             largest_residual: largest(&|z| h.relative_residual(z)),
-            largest_error: h.r * largest(&|z| h.root_error(z, ROUNDOFF)),
+            largest_error: h.r() * largest(&|z| h.root_error(z, ROUNDOFF)),
         }
     }
 }
@@ -77,8 +77,8 @@ impl Region {
 }
 
 /// Entries that are roots, each once: those that lie together count as often as h vanishes there.
-fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
-    let radius = CLUSTER / h.length;
+fn distinct(h: &impl Analytic, zeros: &[Complex64]) -> usize {
+    let radius = CLUSTER / h.length();
     let near = |z: Complex64| move |k: &&Complex64| (*k - z).norm() < radius;
     let mut found = 0;
     for (i, z) in zeros.iter().enumerate() {
@@ -89,7 +89,7 @@ fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
         found += if together == 1 {
             1
         } else {
-            let cell = Cell::square(*z, 3.0 * radius, h.length);
+            let cell = Cell::square(*z, 3.0 * radius, h.length());
             together.min(cell.count(&|z| h.at(z)).unwrap_or(0))
         };
     }

@@ -2,6 +2,7 @@
 //! drag of the tip is nothing, and where they cannot vanish.
 
 use super::StabilityError;
+use super::analytic::Analytic;
 use super::transform::{CurvatureTransform, Scaled};
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -22,15 +23,15 @@ const ROUNDOFF_EXPONENT: f64 = 24.0;
 pub(super) struct Characteristic {
     transform: CurvatureTransform,
     /// λ = rΛ; 1 for creep, whose roots are not times.
-    pub(super) r: f64,
+    r: f64,
     /// The coefficient of Λ: r, or 0 for creep.
     drag: f64,
     /// α/r
     pub(super) ratio: f64,
     /// A length of the order of the tip's width.
-    pub(super) length: f64,
+    length: f64,
     /// Re Λ left of which the roots are not those of the tip but of the round-off in its table.
-    pub(super) leftmost: f64,
+    leftmost: f64,
     bounds: Bounds,
 }
 
@@ -90,9 +91,10 @@ impl Characteristic {
         }
         error
     }
+}
 
-    /// h and h'.
-    pub(super) fn at(&self, lambda: Complex64) -> Scaled {
+impl Analytic for Characteristic {
+    fn at(&self, lambda: Complex64) -> Scaled {
         if self.ratio <= 0.0 {
             let derivative = Complex64::new(self.drag, 0.0);
             return Scaled { value: lambda * self.drag + 1.0, derivative, log_scale: 0.0 };
@@ -106,49 +108,50 @@ impl Characteristic {
         }
     }
 
-    /// |h| over the sum of the sizes of its terms.
-    pub(super) fn relative_residual(&self, lambda: Complex64) -> f64 {
-        let h = self.at(lambda);
-        h.value.norm() / self.size_of_terms(lambda, &h)
-    }
-
-    /// How far round-off in h displaces a root at Λ: the Newton step, and `roundoff` of its terms / |h'|.
-    /// Beside a double root, where h' is small too, no further than h'' allows.
-    pub(super) fn root_error(&self, lambda: Complex64, roundoff: f64) -> f64 {
-        let h = self.at(lambda);
-        let unknown = h.value.norm() + roundoff * self.size_of_terms(lambda, &h);
-        let error = unknown / h.derivative.norm();
-        if error < 1e-9 * lambda.norm() {
-            return error;
-        }
-        let step = 1e-3 / self.length;
-        let far = self.at(lambda + step);
-        let change = far.derivative * (far.log_scale - h.log_scale).exp() - h.derivative;
-        error.min((2.0 * unknown * step / change.norm()).sqrt())
-    }
-
     /// Σ|terms| of h, those of G each by itself: they may cancel.
-    fn size_of_terms(&self, lambda: Complex64, h: &Scaled) -> f64 {
-        let linear = (self.drag * lambda.norm() + 1.0) * (-h.log_scale).exp();
-        let transform = self.ratio * self.transform.size(lambda, h.log_scale);
+    fn size_of_terms(&self, lambda: Complex64, log_scale: f64) -> f64 {
+        let linear = (self.drag * lambda.norm() + 1.0) * (-log_scale).exp();
+        let transform = self.ratio * self.transform.size(lambda, log_scale);
         (linear + transform).max(f64::MIN_POSITIVE)
     }
 
     /// Zeros of rΛ + 1 + (α/r) f''(0)/Λ, or for creep of 1 + (α/r) f''(0)/p, on or above the real axis: those
     /// of h far from 0, where G(Λ) = f''(0)/Λ + O(Λ^{-3}).
-    pub(super) fn algebraic_roots(&self) -> Vec<Complex64> {
+    /// And the root of α = 0.
+    fn likely_roots(&self) -> Vec<Complex64> {
+        let alone = Complex64::new(-1.0 / self.r, 0.0);
         if self.drag <= 0.0 {
-            return vec![Complex64::new(-self.ratio * self.bounds.peak, 0.0)];
+            return vec![alone, Complex64::new(-self.ratio * self.bounds.peak, 0.0)];
         }
         let squared = 1.0 - 4.0 * self.drag * self.ratio * self.bounds.peak;
         let root = Complex64::new(squared, 0.0).sqrt();
         let zeros = [root, -root].map(|root| (root - 1.0) / (2.0 * self.drag));
-        zeros.into_iter().filter(|z| z.im >= 0.0).collect()
+        [alone].into_iter().chain(zeros).filter(|z| z.im >= 0.0).collect()
+    }
+
+    fn r(&self) -> f64 {
+        self.r
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn leftmost(&self) -> f64 {
+        self.leftmost
+    }
+
+    fn left_of_all(&self) -> Option<f64> {
+        (self.ratio <= 0.0).then(|| -2.0 / self.r)
+    }
+
+    fn too_far_apart(&self) -> StabilityError {
+        StabilityError::TooFarApart { alpha: self.ratio * self.r, r: self.r }
     }
 
     /// R such that h has no zero with Re Λ ≥ 0 and |Λ| ≥ R: there |rΛ + 1| ≥ r|Λ|, and |G| is below
     /// ∫|f''| and below (|f''(0)| + ∫|f'''|)/|Λ|. For creep what is left of h is 1.
-    pub(super) fn right_bound(&self) -> f64 {
+    fn right_bound(&self) -> f64 {
         let Bounds { area, variation, .. } = self.bounds;
         if self.drag <= 0.0 {
             return if self.ratio * area < 1.0 { 0.0 } else { self.ratio * variation };
@@ -160,7 +163,7 @@ impl Characteristic {
     ///
     /// For Re Λ < 0, G(Λ) = E(Λ) - G(-Λ) with E the two-sided transform, whose Gaussians fade as
     /// e^{w²(Re² - Im²)/2}, and G(-Λ) is bounded as on the right.
-    pub(super) fn top_bound(&self, left: f64) -> f64 {
+    fn top_bound(&self, left: f64) -> f64 {
         let Bounds { area, variation, terms, .. } = &self.bounds;
         let narrowest = terms.iter().map(|t| t.2).fold(f64::INFINITY, f64::min);
         let fades = |top: f64| {

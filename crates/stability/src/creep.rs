@@ -12,6 +12,7 @@ use super::half_plane::HalfPlane;
 use super::newton::polish;
 use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{CurvatureTransform, Scaled};
+use super::wider;
 use num_complex::Complex64;
 use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, TipFunction};
@@ -45,11 +46,14 @@ impl Creep {
 /// All rates of creep at the α and r of the model, found and counted as [`super::roots`] are.
 ///
 /// # Errors
-/// As [`super::roots`].
+/// As [`super::roots`]; a wider law.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
+    if wider::applies(model) {
+        return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));
+    }
     let Spectrum { roots, certificate } = match model.tip() {
         TipFunction::Bessel => bessel(model.alpha() / model.r()),
-        TipFunction::Gaussians(_) => {
+        TipFunction::Gaussians(_) | TipFunction::Cosine => {
             let h = Characteristic::of_creep(model);
             let unmoved = h.ratio <= 0.0;
             if unmoved { none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }

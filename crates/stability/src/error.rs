@@ -82,4 +82,46 @@ pub enum StabilityError {
     /// p ∫e^{-ps}(-f')ds is nowhere positive: nothing can hold the tip.
     #[error("this tip function cannot trap the tip at any alpha")]
     NoTrapping,
+    /// A tip without a spring is not dragged.
+    #[error(
+        "without a spring there is no steady motion behind a support: the tip rests or walks at a speed of its own"
+    )]
+    NoSupport,
+    /// A tip with a spring does not walk.
+    #[error("a tip on a spring does not walk: its steady motion is that of the support")]
+    Dragged,
+    /// Steady motion on the corner of |h|.
+    #[error(
+        "steady motion leaves the height under this tip at 0, where the depth limit (61) has the corner of |h|: small deviations obey no linear law there, and have no roots"
+    )]
+    Corner,
+    /// The harmonics of |h| did not settle.
+    #[error(
+        "at the depth limit {limit:?} the harmonics of |h| are too large a part of the oscillation for its onset to be found by balancing them: take a larger b"
+    )]
+    Unsettled {
+        /// b
+        limit: f64,
+    },
+    /// J0, whose transforms have branch points on the edge of what can be counted.
+    #[error(
+        "for J0 under this law roots are counted right of its branch points only, on Re λ ≥ {least:?}, not from {bound:?}"
+    )]
+    BranchPoints {
+        /// -1/T, or 0.
+        least: f64,
+        /// The bound asked for.
+        bound: f64,
+    },
+    /// A parameter of the wider law.
+    #[error(transparent)]
+    Wider(#[from] stickslip_tip::WiderError),
+    /// Something that is had under the paper's law only.
+    #[error(
+        "{0} is not had under a depth limit, healing or inertia, but under the paper's law only"
+    )]
+    PapersLawOnly(&'static str),
+    /// A limit asked for where there is none.
+    #[error("{0}")]
+    NoLimit(&'static str),
 }

@@ -1,9 +1,9 @@
 //! The half-plane right of a line: how many zeros of h it has, and where they are.
 
 use super::StabilityError;
+use super::analytic::Analytic;
 use super::cell::Cell;
 use super::certificate::{Certificate, ROUNDOFF, Region};
-use super::characteristic::Characteristic;
 use super::newton::{another, pair, polish};
 use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
@@ -29,25 +29,26 @@ pub(super) struct HalfPlane {
 
 impl HalfPlane {
     /// Counts, moving the edge off a root if need be.
-    pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
-        if !(h.right_bound() * h.length < FARTHEST && (left * h.length).abs() < FARTHEST) {
-            return Err(StabilityError::TooFarApart { alpha: h.ratio * h.r, r: h.r });
+    pub(super) fn counted(h: &impl Analytic, left: f64) -> Result<Self, StabilityError> {
+        if !(h.right_bound() * h.length() < FARTHEST && (left * h.length()).abs() < FARTHEST) {
+            return Err(h.too_far_apart());
         }
-        let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length;
-        let tries = (0..=MOST_SHIFTS).map(|n| Self::counted_at(h, left - shift(n)));
-        let counted = tries.into_iter().find_map(Result::ok);
-        counted.ok_or(StabilityError::RootOnContour { re: left * h.r })
+        let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length();
+        let edges = (0..=MOST_SHIFTS).map(|n| left - shift(n));
+        let mut edges = edges.filter(|edge| *edge >= h.analytic_from());
+        let counted = edges.find_map(|edge| Self::counted_at(h, edge).ok());
+        counted.ok_or(StabilityError::RootOnContour { re: left * h.r() })
     }
 
-    fn counted_at(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
+    fn counted_at(h: &impl Analytic, left: f64) -> Result<Self, StabilityError> {
         // A root -1/r of α = 0 lies within the first term of each, those of α > 0 within the second.
-        let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length);
+        let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length());
         let top = h.top_bound(left);
         let corner = |re, im| Complex64::new(re, im);
         let path = [corner(right, 0.0), corner(right, top), corner(left, top), corner(left, 0.0)];
         // h is real on the real axis: half the contour turns h by half as much.
-        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length))?;
-        let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r })?;
+        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length()))?;
+        let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r() })?;
         Ok(Self { left, right, top, count })
     }
 
@@ -55,10 +56,10 @@ impl HalfPlane {
         Region { re_min: r * self.left, re_max: r * self.right, im_max: r * self.top }
     }
 
-    pub(super) fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
+    pub(super) fn spectrum(&self, h: &impl Analytic) -> Result<Spectrum, StabilityError> {
         let certified = |upper: &[Complex64]| {
-            let roots = with_conjugates(upper, h.r);
-            let certificate = Certificate::of(h, self.region(h.r), self.count, &roots);
+            let roots = with_conjugates(upper, h.r());
+            let certificate = Certificate::of(h, self.region(h.r()), self.count, &roots);
             (roots, certificate)
         };
         let (mut roots, mut certificate) = certified(&self.by_deflation(h));
@@ -73,16 +74,18 @@ impl HalfPlane {
     }
 
     /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted.
-    fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
+    fn by_deflation(&self, h: &impl Analytic) -> Vec<Complex64> {
         let mut upper = Vec::new();
         for start in self.starts(h) {
             if total(&upper) >= self.count || stop::is_asked() {
                 break;
             }
-            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length) else { continue };
+            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length()) else {
+                continue;
+            };
             let is_new = |zero: &Complex64| {
                 let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
-                let apart = 1e-8 * zero.norm().min(1.0 / h.length);
+                let apart = 1e-8 * zero.norm().min(1.0 / h.length());
                 inside && upper.iter().all(|k: &Complex64| (k - zero).norm() > apart)
             };
             let zeros = settled(h, zero).into_iter().filter(is_new);
@@ -93,12 +96,12 @@ impl HalfPlane {
     }
 
     /// The root of α = 0, those of large α, and a grid that widens upwards as the roots do.
-    fn starts(&self, h: &Characteristic) -> Vec<Complex64> {
-        let mut starts = vec![Complex64::new(0.0, 0.8 / h.length), Complex64::new(-1.0 / h.r, 0.0)];
-        starts.extend(h.algebraic_roots());
-        let spacing = 0.8 / h.length;
-        let across = ((self.right.min(2.0 / h.length) - self.left) / spacing).clamp(1.0, 80.0);
-        let up = (self.top.min(2.0 / h.length - self.left) / spacing).clamp(1.0, 80.0);
+    fn starts(&self, h: &impl Analytic) -> Vec<Complex64> {
+        let mut starts = vec![Complex64::new(0.0, 0.8 / h.length())];
+        starts.extend(h.likely_roots());
+        let spacing = 0.8 / h.length();
+        let across = ((self.right.min(2.0 / h.length()) - self.left) / spacing).clamp(1.0, 80.0);
+        let up = (self.top.min(2.0 / h.length() - self.left) / spacing).clamp(1.0, 80.0);
         let mut im = 0.1 * spacing;
         while im < up * spacing {
             let mut re = self.left;
@@ -112,12 +115,12 @@ impl HalfPlane {
     }
 
     /// Zeros with Im Λ ≥ 0 by halving a rectangle that reaches a little below the real axis.
-    pub(super) fn by_halving(&self, h: &Characteristic) -> Result<Vec<Complex64>, StabilityError> {
+    pub(super) fn by_halving(&self, h: &impl Analytic) -> Result<Vec<Complex64>, StabilityError> {
         let at = |z| h.at(z);
         for below in [0.0137, 0.0291, 0.0533] {
             let cell = Cell {
-                length: h.length,
-                lower_left: Complex64::new(self.left, -below / h.length),
+                length: h.length(),
+                lower_left: Complex64::new(self.left, -below / h.length()),
                 upper_right: Complex64::new(self.right, self.top),
             };
             let Ok(count) = cell.count(&at) else { continue };
@@ -127,23 +130,23 @@ impl HalfPlane {
             zeros.retain(|z| z.im >= 0.0);
             return Ok(zeros);
         }
-        Err(StabilityError::RootOnContour { re: self.left * h.r })
+        Err(StabilityError::RootOnContour { re: self.left * h.r() })
     }
 }
 
 /// The half-plane right of a line chosen so that it has at least `count` zeros, if there are so many.
-pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
-    if h.ratio <= 0.0 {
-        return HalfPlane::counted(h, -2.0 / h.r)?.spectrum(h);
+pub(super) fn leading(h: &impl Analytic, count: usize) -> Result<Spectrum, StabilityError> {
+    if let Some(left) = h.left_of_all() {
+        return HalfPlane::counted(h, left)?.spectrum(h);
     }
-    let mut left = -2.0 / h.length;
+    let mut left = -2.0 / h.length();
     loop {
-        left = left.max(h.leftmost);
+        left = left.max(h.leftmost());
         let half_plane = HalfPlane::counted(h, left)?;
-        if half_plane.count >= count || left <= h.leftmost {
+        if half_plane.count >= count || left <= h.leftmost() {
             return half_plane.spectrum(h);
         }
-        left -= 1.0 / h.length;
+        left -= 1.0 / h.length();
     }
 }
 
@@ -154,14 +157,14 @@ fn total(upper: &[Complex64]) -> usize {
 
 /// A zero that Newton's method found, on or above the real axis, and another that is too close to it for
 /// that method.
-fn settled(h: &Characteristic, z: Complex64) -> Vec<Complex64> {
+fn settled(h: &impl Analytic, z: Complex64) -> Vec<Complex64> {
     let above = Complex64::new(z.re, z.im.abs());
     let both = both(h, above).map_or_else(|| vec![snapped(h, above)], Vec::from);
     both.into_iter().filter(|z| z.im >= 0.0).collect()
 }
 
 /// z, on the real axis if it belongs there, or of two zeros too close for Newton's method the nearer one.
-fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
+fn settled_alone(h: &impl Analytic, z: Complex64) -> Complex64 {
     match both(h, z) {
         Some([a, b]) if (a - z).norm() <= (b - z).norm() => a,
         Some([_, b]) => b,
@@ -169,16 +172,16 @@ fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
     }
 }
 
-fn both(h: &Characteristic, z: Complex64) -> Option<[Complex64; 2]> {
-    has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length)).flatten()
+fn both(h: &impl Analytic, z: Complex64) -> Option<[Complex64; 2]> {
+    has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length())).flatten()
 }
 
-fn has_neighbour(h: &Characteristic, z: Complex64) -> bool {
+fn has_neighbour(h: &impl Analytic, z: Complex64) -> bool {
     h.root_error(z, ROUNDOFF) > BESIDE * z.norm()
 }
 
 /// z, moved onto the real axis if it is a real root but for round-off.
-fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
+fn snapped(h: &impl Analytic, z: Complex64) -> Complex64 {
     if z.im.abs() > 1e-6 * z.norm() + h.root_error(z, ROUNDOFF) {
         return z;
     }
@@ -190,6 +193,7 @@ fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::characteristic::Characteristic;
     use super::*;
     use stickslip_tip::{Model, TipFunction};
 

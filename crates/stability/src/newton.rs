@@ -1,7 +1,8 @@
-//! Newton's method for one zero of an analytic function, plain and deflated.
+//! Newton's method for one zero of an analytic function, plain and deflated, and for all zeros of a polynomial.
 
 use super::transform::Scaled;
 use num_complex::Complex64;
+use std::f64::consts::TAU;
 
 /// Iterations before a start is given up.
 const MOST_ITERATIONS: usize = 40;
@@ -106,4 +107,28 @@ pub(super) fn another(
         }
     }
     None
+}
+
+/// The N zeros of z^N + c₁z^{N-1} + … + c_N, by simultaneous iteration (Durand and Kerner).
+pub(super) fn simultaneous<const N: usize>(coefficients: [f64; N]) -> [Complex64; N] {
+    let value = |z: Complex64| coefficients.iter().fold(Complex64::ONE, |sum, c| sum * z + c);
+    let size = (1..=N).zip(coefficients).map(|(k, c)| c.abs().powf(1.0 / k as f64));
+    let radius = size.fold(0.1, f64::max);
+    let start = |k| Complex64::from_polar(radius, 0.4 + TAU / N as f64 * k as f64);
+    let mut zeros: [Complex64; N] = std::array::from_fn(start);
+    for _ in 0..300 {
+        let mut moved = 0.0_f64;
+        for i in 0..N {
+            let others = (0..N).filter(|j| *j != i).map(|j| zeros[i] - zeros[j]);
+            let step = value(zeros[i]) / others.product::<Complex64>();
+            if step.is_finite() {
+                zeros[i] -= step;
+                moved = moved.max(step.norm() / (zeros[i].norm() + f64::MIN_POSITIVE));
+            }
+        }
+        if moved < 1e-15 {
+            break;
+        }
+    }
+    zeros
 }

@@ -1,9 +1,11 @@
 //! All roots λ right of a line, with a certificate that none is missing: of (30), or for J0 of (44).
 
+use super::analytic::Analytic;
 use super::certificate::Certificate;
 use super::characteristic::Characteristic;
 use super::half_plane::{HalfPlane, leading};
 use super::spectrum::Spectrum;
+use super::wider::{self, WiderCharacteristic};
 use super::{StabilityError, bessel_roots};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction};
@@ -19,13 +21,17 @@ use stickslip_tip::{Model, TipFunction};
 ///
 /// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
 /// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
-/// and on it this makes no difference.
+/// and on it this makes no difference. Under a wider law they are had right of these branch points only.
 ///
 /// # Errors
-/// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`].
+/// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`]; [`StabilityError::NoSupport`] and
+/// [`StabilityError::Corner`] where there is no linear theory, [`StabilityError::BranchPoints`].
 pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
     if !bound.is_finite() {
         return Err(StabilityError::Bound(bound));
+    }
+    if let Some(h) = wider_law(model)? {
+        return counted(&h, bound / model.r())?.spectrum(&h);
     }
     if matches!(model.tip(), TipFunction::Bessel) {
         return bessel_roots::spectrum(model, Some(bound));
@@ -44,6 +50,9 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
 /// # Errors
 /// As [`roots`].
 pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityError> {
+    if let Some(h) = wider_law(model)? {
+        return leading(&h, h.degree().map_or(count, |degree| count.min(degree)));
+    }
     if matches!(model.tip(), TipFunction::Bessel) {
         return bessel_roots::spectrum(model, None);
     }
@@ -56,6 +65,9 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
 /// # Errors
 /// As [`roots`]; on the boundary itself the count is that of a line a little to the left.
 pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
+    if let Some(h) = wider_law(model)? {
+        return Ok(counted(&h, 0.0)?.count);
+    }
     if matches!(model.tip(), TipFunction::Bessel) {
         return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
     }
@@ -75,12 +87,29 @@ pub fn certify(
     bound: f64,
     roots: &[Complex64],
 ) -> Result<Certificate, StabilityError> {
+    if let Some(h) = wider_law(model)? {
+        let half_plane = counted(&h, bound / model.r())?;
+        return Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots));
+    }
     if matches!(model.tip(), TipFunction::Bessel) {
         return bessel_roots::certify(model, bound, roots);
     }
     let h = Characteristic::new(model);
     let half_plane = HalfPlane::counted(&h, bound / model.r())?;
     Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
+}
+
+/// The characteristic function of anything but the paper's law.
+fn wider_law(model: &Model) -> Result<Option<WiderCharacteristic>, StabilityError> {
+    wider::applies(model).then(|| wider::characteristic(model)).transpose()
+}
+
+fn counted(h: &WiderCharacteristic, left: f64) -> Result<HalfPlane, StabilityError> {
+    if left < h.analytic_from() {
+        let (least, bound) = (h.analytic_from() * h.r(), left * h.r());
+        return Err(StabilityError::BranchPoints { least, bound });
+    }
+    HalfPlane::counted(h, left)
 }
 
 #[cfg(test)]

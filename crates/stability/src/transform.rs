@@ -44,12 +44,14 @@ enum Kind {
     ClosedForms(Vec<Gaussian>, Origin),
     Quadrature(Panels, Vec<Gaussian>),
     Bessel,
+    Cosine,
 }
 
 impl CurvatureTransform {
     pub(super) fn new(tip: &TipFunction) -> Self {
         let kind = match tip {
             TipFunction::Bessel => Kind::Bessel,
+            TipFunction::Cosine => Kind::Cosine,
             TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
                 Kind::ClosedForms(sum.terms().to_vec(), Origin::of(sum.terms()))
             }
@@ -73,6 +75,18 @@ impl CurvatureTransform {
             Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
             Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
             Kind::Bessel => bessel(lambda),
+            Kind::Cosine => cosine(lambda),
+        }
+    }
+
+    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), where Λ is so small that G(Λ) = Λ(Λφ - f(0)) does not tell it.
+    pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
+        match &self.kind {
+            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+                Some(transform_of_heights(terms, lambda))
+            }
+            Kind::Quadrature(panels, _) => panels.height_near_origin(lambda),
+            _ => None,
         }
     }
 
@@ -89,6 +103,7 @@ impl CurvatureTransform {
             Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
             Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
             Kind::Bessel => bessel(lambda).value.norm(),
+            Kind::Cosine => cosine(lambda).value.norm(),
         }
     }
 }
@@ -151,12 +166,7 @@ impl Origin {
     }
 
     fn at(&self, terms: &[Gaussian], lambda: Complex64) -> Scaled {
-        let (mut transform, mut slope) = (Complex64::ZERO, Complex64::ZERO);
-        for g in terms {
-            let (value, derivative) = laplace(g, lambda);
-            transform += value;
-            slope += derivative;
-        }
+        let (transform, slope) = transform_of_heights(terms, lambda);
         let bracket = lambda * transform - self.height;
         let derivative = bracket + lambda * (transform + lambda * slope);
         Scaled { value: lambda * bracket, derivative, log_scale: 0.0 }
@@ -166,6 +176,12 @@ impl Origin {
         let transform: f64 = terms.iter().map(|g| laplace(g, lambda).0.norm()).sum();
         lambda.norm() * (lambda.norm() * transform + self.size)
     }
+}
+
+/// Σ over Gaussians of f̃, and its derivative.
+fn transform_of_heights(terms: &[Gaussian], lambda: Complex64) -> (Complex64, Complex64) {
+    let each = terms.iter().map(|g| laplace(g, lambda));
+    each.fold((Complex64::ZERO, Complex64::ZERO), |sum, f| (sum.0 + f.0, sum.1 + f.1))
 }
 
 /// f̃ = a w √(π/2) e^{-c²/2w²} erfcx(z) of one Gaussian, and its derivative.
@@ -254,6 +270,14 @@ fn bessel(lambda: Complex64) -> Scaled {
     Scaled { value, derivative, log_scale: 0.0 }
 }
 
+/// G = -Λ/(Λ²+1) for f = cos.
+fn cosine(lambda: Complex64) -> Scaled {
+    let square = lambda * lambda;
+    let value = -lambda / (square + 1.0);
+    let derivative = (square - 1.0) / ((square + 1.0) * (square + 1.0));
+    Scaled { value, derivative, log_scale: 0.0 }
+}
+
 /// √(Λ²+1), positive for positive Λ, with cuts from ±i straight to the left.
 pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
     (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
@@ -269,13 +293,14 @@ mod tests {
             TipFunction::gaussian(1.0).unwrap(),
             TipFunction::triple_gaussian(0.7, 0.4).unwrap(),
             TipFunction::Bessel,
+            TipFunction::Cosine,
         ];
         let points = [(0.0, 0.75), (0.3, 0.2), (-2.0, 1.0), (-3.5, 0.3), (4.0, 7.0), (0.0, 3.0)];
         for tip in &tips {
             let transform = CurvatureTransform::new(tip);
             for lambda in points.map(|(re, im)| Complex64::new(re, im)) {
                 let at = |h: f64| transform.at(lambda + h).value;
-                let h = 1e-3;
+                let h = 5e-4;
                 let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
                 let g = transform.at(lambda);
                 assert!(

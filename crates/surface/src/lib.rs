@@ -4,6 +4,8 @@
 //!     u(x,t) = u0(x) - α ∫_{t1}^t f(x - x0(t'))dt'        (14)
 //! ```
 //!
+//! and under the wider law u0(x) e^{-(t-t1)/T} - α ∫ w(t') e^{-(t-t')/T} f(x - x0(t'))dt'.
+//!
 //! The surface never enters the integration of the tip; here it is read off afterwards, at any x and at
 //! any t of the run, as a sum over the residence of the tip: where it was, and for how long. Heights in
 //! units of kσ²/a, lengths in σ, times in Γ/k.
@@ -78,7 +80,8 @@ impl<'a> Surface<'a> {
             return Err(SurfaceError::OutsideRun { t, start, end });
         }
         let mut u = self.far_behind(t, x)?;
-        let before = |(u, x): (&mut f64, &f64)| *u += self.initial.height(*x);
+        let left = self.trajectory.wider().left_after(t - start);
+        let before = |(u, x): (&mut f64, &f64)| *u += left * self.initial.height(*x);
         u.as_slice_mut().unwrap_or_default().par_iter_mut().zip(x).for_each(before);
         Ok(u)
     }
@@ -105,6 +108,6 @@ impl<'a> Surface<'a> {
 /// The profile (24) of steady motion, -(α/r) ∫_{x-x0}^∞ f, with the tip at x0.
 #[must_use]
 pub fn steady_profile(model: &Model, x0: f64, x: &[f64]) -> Array1<f64> {
-    let depth = model.alpha() / model.r();
-    x.iter().map(|x| -depth * model.tip().tail(x - x0)).collect()
+    let (depth, fading) = (model.steady_density(), model.fading());
+    x.iter().map(|x| -depth * model.tip().fading_tail(x - x0, fading)).collect()
 }

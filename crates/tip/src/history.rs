@@ -1,6 +1,8 @@
 //! The history of the tip: its accepted steps, each a polynomial.
 
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::step::healing;
+use crate::{Support, Wider};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -19,10 +21,21 @@ pub struct Step {
     pub extension: f64,
     /// x0 less its value at the start, at the collocation nodes; the last is the end of the step.
     pub displacement: Stages,
+    /// The height of the surface under the tip, where a depth limit (61) asks for it.
+    pub height: Option<Heights>,
 }
 
-/// How many numbers make a step.
-pub const STEP_NUMBERS: usize = 3 + STAGES;
+/// The height under the tip at the start of a step and at its nodes, in kσ²/a.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heights {
+    /// At its start.
+    pub start: f64,
+    /// At its nodes.
+    pub nodes: Stages,
+}
+
+/// How many numbers make a step: its heights too, NaN where there are none.
+pub const STEP_NUMBERS: usize = 4 + 2 * STAGES;
 
 impl Step {
     /// Time at its end.
@@ -61,26 +74,85 @@ impl Step {
         (t - self.t) / self.h
     }
 
-    /// t, h, extension and displacements: all that it is.
+    /// R(t) - x0(t), the extension of the spring, on its polynomial.
+    #[must_use]
+    pub fn lag(&self, support: &Support, t: f64) -> f64 {
+        let moved = RADAU.value(&self.displacement, self.part(t));
+        self.extension + (support.advance(self.t, t - self.t) - moved)
+    }
+
+    /// x0(t) on its polynomial, for any support.
+    #[must_use]
+    pub fn position(&self, support: &Support, t: f64) -> f64 {
+        match support {
+            Support::Moving(r) => self.x0(*r, t),
+            _ => support.position(t) - self.lag(support, t),
+        }
+    }
+
+    /// The height under the tip at t, on its polynomial, where there is one.
+    #[must_use]
+    pub fn height(&self, t: f64) -> Option<f64> {
+        self.height.map(|height| height.at(self.part(t)))
+    }
+
+    /// t, h, extension, displacements and heights: all that it is.
     #[must_use]
     pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
-        let mut numbers = [0.0; STEP_NUMBERS];
+        let mut numbers = [f64::NAN; STEP_NUMBERS];
         numbers[..3].copy_from_slice(&[self.t, self.h, self.extension]);
-        numbers[3..].copy_from_slice(&self.displacement);
+        let (displacement, heights) = numbers[3..].split_at_mut(STAGES);
+        displacement.copy_from_slice(&self.displacement);
+        if let Some(Heights { start, nodes }) = self.height {
+            heights[0] = start;
+            heights[1..].copy_from_slice(&nodes);
+        }
         numbers
+    }
+
+    /// Whether it is a step: of a finite duration above 0, with finite numbers throughout.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let heights = self.height.into_iter().flat_map(|h| h.nodes.into_iter().chain([h.start]));
+        let numbers = [self.t, self.h, self.extension].into_iter().chain(self.displacement);
+        self.h > 0.0 && numbers.chain(heights).all(f64::is_finite)
     }
 
     /// From its [`numbers`](Self::numbers).
     #[must_use]
-    pub fn from_numbers([t, h, extension, displacement @ ..]: [f64; STEP_NUMBERS]) -> Self {
-        Self { t, h, extension, displacement }
+    pub fn from_numbers([t, h, extension, rest @ ..]: [f64; STEP_NUMBERS]) -> Self {
+        let displacement = std::array::from_fn(|i| rest[i]);
+        let nodes = std::array::from_fn(|i| rest[1 + STAGES + i]);
+        let start = rest[STAGES];
+        let height = (!start.is_nan()).then_some(Heights { start, nodes });
+        Self { t, h, extension, displacement, height }
+    }
+
+    /// With the weights w of its visits under a law.
+    fn weights(&self, wider: &Wider) -> Stages {
+        self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
+    }
+}
+
+impl Heights {
+    /// At the fraction τ of the step.
+    #[must_use]
+    pub fn at(&self, tau: f64) -> f64 {
+        self.start + RADAU.value(&self.rise(), tau)
+    }
+
+    /// What the height has risen by, at the nodes.
+    #[must_use]
+    pub fn rise(&self) -> Stages {
+        self.nodes.map(|height| height - self.start)
     }
 }
 
 /// The dense history of a run: x0(t) at every t of it. What `surface` needs, and no more.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    r: f64,
+    support: Support,
+    wider: Wider,
     steps: Vec<Step>,
 }
 
@@ -98,14 +170,35 @@ impl Trajectory {
     /// Without any step.
     #[must_use]
     pub fn new(r: f64, steps: Vec<Step>) -> Self {
-        assert!(!steps.is_empty(), "a trajectory has at least one step");
-        Self { r, steps }
+        Self::under(Wider::default(), Support::Moving(r), steps)
     }
 
-    /// Support velocity.
+    /// Under a wider law, or for a support that moves otherwise.
+    ///
+    /// # Panics
+    /// Without any step.
+    #[must_use]
+    pub fn under(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
+        assert!(!steps.is_empty(), "a trajectory has at least one step");
+        Self { support, wider, steps }
+    }
+
+    /// Velocity of the support when it starts.
     #[must_use]
     pub fn r(&self) -> f64 {
-        self.r
+        self.support.velocity(self.start())
+    }
+
+    /// What moves the tip.
+    #[must_use]
+    pub fn support(&self) -> &Support {
+        &self.support
+    }
+
+    /// The law under which it moves.
+    #[must_use]
+    pub fn wider(&self) -> &Wider {
+        &self.wider
     }
 
     /// The steps, in order.
@@ -129,13 +222,25 @@ impl Trajectory {
     /// l(t) = rt - r - x0(t). Outside of the run, the polynomials of its first and last step.
     #[must_use]
     pub fn l(&self, t: f64) -> f64 {
-        self.step_at(t).l(self.r, t)
+        self.step_at(t).l(self.r(), t)
+    }
+
+    /// R(t) - x0(t).
+    #[must_use]
+    pub fn lag(&self, t: f64) -> f64 {
+        self.step_at(t).lag(&self.support, t)
     }
 
     /// x0(t).
     #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
-        self.step_at(t).x0(self.r, t)
+        self.step_at(t).position(&self.support, t)
+    }
+
+    /// The height of the surface under the tip, where there is a depth limit.
+    #[must_use]
+    pub fn height(&self, t: f64) -> Option<f64> {
+        self.step_at(t).height(t)
     }
 
     /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.
@@ -145,25 +250,38 @@ impl Trajectory {
     }
 
     /// Where the tip was until time t, and for how long: positions and weights such that
-    /// ∫_{start}^t g(x0(t'))dt' = Σ `w_j` g(`x_j`).
+    /// ∫_{start}^t w(t') e^{-(t-t')/T} g(x0(t'))dt' = Σ `w_j` g(`x_j`), with w and T of the wider law.
     #[must_use]
     pub fn residence(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
-            let origin = self.r * step.t - step.extension;
+            let origin = self.support.position(step.t) - step.extension;
+            let spent = step.weights(&self.wider);
             if step.end() <= t {
                 positions.extend(step.displacement.map(|d| origin + d));
-                weights.extend(RADAU.b().map(|b| b * step.h));
+                let left = self.left(step).into_iter().zip(spent);
+                let since = self.wider.left_after(t - step.end());
+                weights.extend(left.map(|(left, spent)| left * spent * since));
                 continue;
             }
             let part = (t - step.t) / step.h;
             for (node, weight) in GAUSS.as_node_weight_pairs() {
                 let tau = 0.5 * part * (1.0 + node);
                 positions.push(origin + RADAU.value(&step.displacement, tau));
-                weights.push(0.5 * part * step.h * weight);
+                let depth = step.height.map_or(1.0, |height| self.wider.weight(height.at(tau)));
+                let left = depth * self.wider.left_after((part - tau) * step.h);
+                weights.push(0.5 * part * step.h * weight * left);
             }
         }
         (positions, weights)
+    }
+
+    /// What is left, at the end of a step, of what its nodes stand for.
+    fn left(&self, step: &Step) -> Stages {
+        match self.wider.healing_time {
+            None => RADAU.b().map(|b| b * step.h),
+            Some(time) => healing(step.h, time)[STAGES - 1],
+        }
     }
 
     /// The step that holds t.

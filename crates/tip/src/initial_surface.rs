@@ -22,6 +22,8 @@ pub(crate) struct Stretch {
     pub(crate) high: f64,
     /// How far beyond an end a step may go and still count as ending there.
     pub(crate) slack: f64,
+    /// Whether it is level, at 0, as far as a step may look.
+    pub(crate) flat: bool,
     /// The piece of each relief.
     pieces: Vec<Option<usize>>,
 }
@@ -100,6 +102,12 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
+    /// u0 likewise.
+    pub(crate) fn height_on(&self, stretch: &Stretch, x: f64) -> f64 {
+        let told = self.reliefs.iter().zip(&stretch.pieces);
+        told.map(|(relief, piece)| relief.height_on(*piece, x)).sum()
+    }
+
     /// What the rounding of x may amount to in u0', per unit of curvature: 0 where u0 is flat.
     pub(crate) fn rounding(&self, x: f64) -> f64 {
         let textured = self.reliefs.iter().any(|relief| relief.covers(x));
@@ -112,11 +120,13 @@ impl InitialSurface {
         let Piece { low, high, slack, .. } = Piece::EVERYWHERE;
         (stretch.low, stretch.high, stretch.slack) = (low, high, slack);
         stretch.pieces.clear();
+        stretch.flat = true;
         for relief in &self.reliefs {
             let piece = relief.piece(x, forward, accuracy);
             (stretch.low, stretch.high) =
                 (stretch.low.max(piece.low), stretch.high.min(piece.high));
             stretch.slack = stretch.slack.min(piece.slack);
+            stretch.flat &= relief.is_flat_about(&piece, x);
             stretch.pieces.push(piece.index);
         }
     }
@@ -125,7 +135,7 @@ impl InitialSurface {
 impl Stretch {
     /// None entered yet.
     pub(crate) fn nowhere() -> Self {
-        Self { low: 0.0, high: 0.0, slack: 0.0, pieces: vec![] }
+        Self { low: 0.0, high: 0.0, slack: 0.0, flat: false, pieces: vec![] }
     }
 }
 

@@ -14,6 +14,7 @@
 //! `docs/mathematics.md` derives them again.
 
 pub mod collocation;
+pub mod friction;
 pub mod memory;
 pub mod motion;
 pub mod roots;
@@ -28,17 +29,20 @@ mod force;
 mod history;
 mod initial_surface;
 mod integrator;
+mod lambert;
 mod model;
 mod relief;
 mod run;
 mod series;
 mod spline;
+mod support;
+mod wider;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
 pub use eigenvalues::eigenvalues;
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
-pub use history::{STEP_NUMBERS, Step, Trajectory};
+pub use history::{Heights, STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::InitialSurface;
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use memory::MemoryChoice;
@@ -46,4 +50,6 @@ pub use model::{Model, ModelError};
 pub use relief::{Noise, Relief};
 pub use run::{MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, run, run_observed};
 pub use series::SeriesError;
+pub use support::{Support, SupportPath};
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};
+pub use wider::{Wider, WiderError};

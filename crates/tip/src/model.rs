@@ -1,6 +1,7 @@
-//! The model: a tip function and the two numbers α and r that rule the motion.
+//! The model: a tip function, the two numbers α and r, and what a wider law adds to them.
 
-use crate::TipFunction;
+use crate::wider::{Wider, WiderError};
+use crate::{TipFunction, lambert};
 use thiserror::Error;
 
 /// Footprint, indentation rate and support velocity, validated.
@@ -9,6 +10,7 @@ pub struct Model {
     tip: TipFunction,
     alpha: f64,
     r: f64,
+    wider: Wider,
 }
 
 /// A parameter outside its range.
@@ -16,25 +18,49 @@ pub struct Model {
 pub enum ModelError {
     /// α must be finite and ≥ 0.
     #[error(
-        "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0:?}"
+        "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0:?} (below 0 only without a spring)"
     )]
     Alpha(f64),
     /// r must be finite and > 0.
     #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0:?}")]
     R(f64),
+    /// A tip without a spring has no support to be dragged by: r is 0.
+    #[error("without a spring there is no support, and no velocity r of it, not {0:?}")]
+    SupportWithoutSpring(f64),
+    /// cos x has no depth of its own.
+    #[error("the tip cosine has no mean depth, and cannot be under a depth limit")]
+    Cosine,
+    /// A parameter of the wider law.
+    #[error(transparent)]
+    Wider(#[from] WiderError),
 }
 
 impl Model {
     /// # Errors
     /// `alpha` < 0, `r` ≤ 0, or either not finite.
     pub fn new(tip: TipFunction, alpha: f64, r: f64) -> Result<Self, ModelError> {
-        if !(alpha.is_finite() && alpha >= 0.0) {
+        Self::under(Wider::default(), tip, alpha, r)
+    }
+
+    /// Under a wider law. Without a spring α may be below 0, and r is 0.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a parameter of the wider law out of its range.
+    pub fn under(wider: Wider, tip: TipFunction, alpha: f64, r: f64) -> Result<Self, ModelError> {
+        wider.validate()?;
+        if !(alpha.is_finite() && (alpha >= 0.0 || !wider.spring)) {
             return Err(ModelError::Alpha(alpha));
         }
-        if !(r.is_finite() && r > 0.0) {
+        if wider.spring && !(r.is_finite() && r > 0.0) {
             return Err(ModelError::R(r));
         }
-        Ok(Self { tip, alpha, r })
+        if !wider.spring && r.abs() > 0.0 {
+            return Err(ModelError::SupportWithoutSpring(r));
+        }
+        if tip == TipFunction::Cosine && wider.depth_limit.is_some() {
+            return Err(ModelError::Cosine);
+        }
+        Ok(Self { tip, alpha, r, wider })
     }
 
     /// The footprint f.
@@ -55,11 +81,54 @@ impl Model {
         self.r
     }
 
-    /// l0 = α f(0)/r, the value of l = rt - r - x0 in steady motion. (21) prints α/r, which holds
-    /// where f(0) = 1.
+    /// What the wider law adds to the paper's.
+    #[must_use]
+    pub fn wider(&self) -> &Wider {
+        &self.wider
+    }
+
+    /// s = 1/(rT): how fast what a steady tip left fades with the distance from it. 0 without healing.
+    #[must_use]
+    pub fn fading(&self) -> f64 {
+        self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
+    }
+
+    /// w0, the rate of indentation of a tip in steady motion, relative to α: 1 without a depth limit.
+    ///
+    /// With b of (61) the height under the tip is h0 = -(α w0/r)φ, φ = ∫_0^∞ f(y) e^{-sy}dy, and
+    /// w0 = e^{-|h0|/b}, so that w0 = W(c)/c with c = α|φ|/(rb) and Lambert's W.
+    #[must_use]
+    pub fn steady_weight(&self) -> f64 {
+        let Some(limit) = self.wider.depth_limit else { return 1.0 };
+        let depth = self.tip.fading_tail(0.0, self.fading()).abs();
+        let c = self.alpha * depth / (self.r * limit);
+        if c > 0.0 { lambert::w0(c) / c } else { 1.0 }
+    }
+
+    /// h0, the height of the surface under a tip in steady motion.
+    #[must_use]
+    pub fn steady_height(&self) -> f64 {
+        0.0 - self.steady_density() * self.tip.fading_tail(0.0, self.fading())
+    }
+
+    /// α w0/r: what a tip in steady motion indents per length of its way.
+    #[must_use]
+    pub fn steady_density(&self) -> f64 {
+        self.alpha * self.steady_weight() / self.r
+    }
+
+    /// l0, the value of l = rt - r - x0 in steady motion: α f(0)/r. (21) prints α/r, which holds where
+    /// f(0) = 1. Under the wider law (α w0/r)(f(0) - sφ), with the φ of [`steady_weight`](Self::steady_weight).
     #[must_use]
     pub fn steady_l(&self) -> f64 {
-        self.alpha * self.tip.value(0.0) / self.r
+        let apex = self.tip.value(0.0);
+        match self.wider.healing_time {
+            None => self.alpha * self.steady_weight() * apex / self.r,
+            Some(_) => {
+                let fading = self.fading();
+                self.steady_density() * (apex - fading * self.tip.fading_tail(0.0, fading))
+            }
+        }
     }
 
     /// r + l0, the distance by which the tip lags behind the support in steady motion, (23).
@@ -68,10 +137,13 @@ impl Model {
         self.r + self.steady_l()
     }
 
-    /// Height that steady motion leaves far behind the tip, (25).
+    /// Height that steady motion leaves far behind the tip, (25); nothing where the surface heals.
     #[must_use]
     pub fn steady_surface_behind(&self) -> f64 {
+        if self.wider.healing_time.is_some() {
+            return 0.0;
+        }
         // 0.0 - 0.0 is 0.0, where a minus sign would make it -0.0.
-        0.0 - self.alpha / self.r * self.tip.integral()
+        0.0 - self.alpha * self.steady_weight() / self.r * self.tip.integral()
     }
 }

@@ -37,10 +37,14 @@ enum Shape {
 #[derive(Debug, Clone)]
 struct SteadyPast {
     tip: TipFunction,
-    /// α/r
+    /// α/r, times w0 under a depth limit.
     depth: f64,
+    /// s = 1/(rT), 0 where nothing heals.
+    fading: f64,
     position: f64,
+    /// Ahead of it and behind, where it has a slope.
     reach: f64,
+    behind: f64,
 }
 
 /// A stretch of x on which a relief is one smooth function.
@@ -55,6 +59,8 @@ pub(crate) struct Piece {
     pub(crate) index: Option<usize>,
 }
 
+/// No step looks farther (`memory::longest_look`).
+const FARTHEST_LOOK: f64 = 12.0;
 /// A knot within this fraction of an interval counts as reached,
 const AT_A_KNOT: f64 = 1e-9;
 /// or within this many roundings of x; but never within more than this fraction of an interval.
@@ -68,13 +74,16 @@ impl Piece {
 }
 
 impl Relief {
-    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X.
+    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X; under the wider law
+    /// -(α w0/r) ∫_0^∞ f(x-X+y) e^{-sy}dy, s = 1/(rT).
     #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         let tip = model.tip().clone();
         let reach = tip.reach().unwrap_or(f64::INFINITY);
-        let depth = model.alpha() / model.r();
-        Self(Shape::SteadyPast(SteadyPast { tip, depth, position, reach }))
+        let (depth, fading) = (model.steady_density(), model.fading());
+        // Where it fades, the slope goes on behind the reach of f.
+        let behind = if fading > 0.0 { f64::INFINITY } else { reach };
+        Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach, behind }))
     }
 
     /// The cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
@@ -112,10 +121,20 @@ impl Relief {
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         match &self.0 {
-            Shape::SteadyPast(past) => -past.depth * past.tip.tail(x - past.position),
+            Shape::SteadyPast(past) => past.height(x),
             Shape::Spline(spline) if is_inside(spline, x) => spline.value(x),
             Shape::Spline(_) => 0.0,
             Shape::OnLattice(relief) => relief.height(x),
+        }
+    }
+
+    /// That of the function that it is on a piece, wherever x is.
+    pub(crate) fn height_on(&self, piece: Option<usize>, x: f64) -> f64 {
+        match (&self.0, piece) {
+            (Shape::SteadyPast(past), _) => past.height(x),
+            (Shape::Spline(spline), Some(piece)) => spline.jet_on(piece, x).0,
+            (Shape::Spline(_), None) => 0.0,
+            (Shape::OnLattice(relief), _) => relief.height(x),
         }
     }
 
@@ -126,6 +145,7 @@ impl Relief {
     }
 
     /// Those of the function that it is on a piece, wherever x is.
+    #[inline]
     pub(crate) fn slope_and_curvature_on(&self, piece: Option<usize>, x: f64) -> (f64, f64) {
         match (&self.0, piece) {
             (Shape::SteadyPast(past), _) => past.slope_and_curvature(x),
@@ -164,6 +184,15 @@ impl Relief {
         }
     }
 
+    /// Whether it has neither slope nor height as far as a step from x may look, on this piece.
+    pub(crate) fn is_flat_about(&self, piece: &Piece, x: f64) -> bool {
+        match &self.0 {
+            Shape::SteadyPast(past) => x - past.position > past.reach + FARTHEST_LOOK,
+            Shape::Spline(_) => piece.index.is_none(),
+            Shape::OnLattice(_) => false,
+        }
+    }
+
     /// The piece that a tip at x is on, or about to enter if it is at a break; x is known to `accuracy`.
     pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
         let Shape::Spline(spline) = &self.0 else { return Piece::EVERYWHERE };
@@ -178,13 +207,31 @@ impl Relief {
 }
 
 impl SteadyPast {
+    #[inline]
     fn covers(&self, x: f64) -> bool {
-        (x - self.position).abs() < self.reach
+        let ahead = x - self.position;
+        ahead < self.reach && -ahead < self.behind
     }
 
+    /// φ' = sφ - f, of which the height is -depth φ.
+    #[cold]
+    fn fading_slope_and_curvature(&self, x: f64) -> (f64, f64) {
+        let s = self.fading;
+        let steep = self.tip.value(x) - s * self.tip.fading_tail(x, s);
+        (self.depth * steep, self.depth * (self.tip.slope(x) + s * steep))
+    }
+
+    fn height(&self, x: f64) -> f64 {
+        -self.depth * self.tip.fading_tail(x - self.position, self.fading)
+    }
+
+    #[inline]
     fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         if !self.covers(x) {
             return (0.0, 0.0);
+        }
+        if self.fading > 0.0 {
+            return self.fading_slope_and_curvature(x - self.position);
         }
         let slope = self.tip.slope(x - self.position);
         (self.depth * self.tip.value(x - self.position), self.depth * slope)

@@ -207,10 +207,10 @@ impl Reader<'_> {
     pub fn step(&mut self) -> Result<Step, Damaged> {
         let mut numbers = [0.0; STEP_NUMBERS];
         for number in &mut numbers {
-            *number = self.finite()?;
+            *number = f64::from_bits(self.word()?);
         }
         let step = Step::from_numbers(numbers);
-        if step.h > 0.0 { Ok(step) } else { Err(Damaged::OutOfRange) }
+        if step.is_sound() { Ok(step) } else { Err(Damaged::OutOfRange) }
     }
 
     /// Reads steps with their count.

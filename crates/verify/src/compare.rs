@@ -4,7 +4,7 @@ use super::repeat::Witness;
 use super::spread::{Spread, places};
 use std::iter::Peekable;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{InitialSurface, Model, RunError, Step, Trajectory};
+use stickslip_tip::{InitialSurface, Model, RunError, Step, Support, Trajectory};
 
 /// l and heights of order one are not known better than this, whatever the tolerance,
 const ROUND_OFF: f64 = 1e-12;
@@ -48,10 +48,29 @@ impl Difference {
 pub struct Sample {
     /// Time, in Γ/k.
     pub t: f64,
-    /// l(t), in σ.
+    /// l(t), in σ; for a support on a path the lag R - x0, without a spring x0.
     pub l: f64,
-    /// x0(t) = rt - r - l(t), in σ.
+    /// x0(t), in σ.
     pub x0: f64,
+}
+
+/// What a [`Sample`] of a motion has as l.
+#[must_use]
+pub fn l(motion: &Trajectory, t: f64) -> f64 {
+    match motion.support() {
+        Support::Moving(_) => motion.l(t),
+        Support::Path(_) => motion.lag(t),
+        Support::None => motion.x0(t),
+    }
+}
+
+/// The same of a step.
+pub(super) fn l_within(step: &Step, support: &Support, t: f64) -> f64 {
+    match support {
+        Support::Moving(r) => step.l(*r, t),
+        Support::Path(_) => step.lag(support, t),
+        Support::None => step.position(support, t),
+    }
 }
 
 /// Which samples were compared.
@@ -108,7 +127,7 @@ pub(super) fn compare_l(
 ) -> Judgement {
     let mut judgement = Judgement::new(reference.start(), allowed);
     let mut compare = |t: f64| {
-        judgement.take(difference_in_l(t, trajectory.l(t), reference.l(t), allowed));
+        judgement.take(difference_in_l(t, l(trajectory, t), l(reference, t), allowed));
     };
     let end = trajectory.end().min(reference.end());
     for step in trajectory.steps().iter().chain(reference.steps()) {
@@ -125,7 +144,7 @@ pub(super) fn compare_l(
 
 /// Compares samples with the second run as it passes them; neither is kept.
 pub(super) struct AgainstSamples<F, I: Iterator> {
-    r: f64,
+    support: Support,
     samples: F,
     start: f64,
     until: f64,
@@ -136,10 +155,15 @@ pub(super) struct AgainstSamples<F, I: Iterator> {
 }
 
 impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
-    pub(super) fn new(r: f64, samples: F, (start, until): (f64, f64), allowed: f64) -> Self {
+    pub(super) fn new(
+        support: Support,
+        samples: F,
+        (start, until): (f64, f64),
+        allowed: f64,
+    ) -> Self {
         let judgement = Judgement::new(start, allowed);
         let found = ComparedSamples::default();
-        Self { r, samples, start, until, allowed, ahead: None, judgement, found }
+        Self { support, samples, start, until, allowed, ahead: None, judgement, found }
     }
 
     pub(super) fn finish(self) -> (Judgement, ComparedSamples) {
@@ -165,9 +189,9 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
     /// In l, and in x0 = rt - r - l, which is rounded more coarsely the farther the tip has come.
     fn differences(&self, sample: &Sample, step: &Step) -> (Difference, Difference) {
         let Sample { t, l, x0 } = *sample;
-        let in_l = difference_in_l(t, l, step.l(self.r, t), self.allowed);
-        let rounding = DIGITS * (self.r * t).abs();
-        let largest = (x0 - step.x0(self.r, t)).abs();
+        let in_l = difference_in_l(t, l, l_within(step, &self.support, t), self.allowed);
+        let rounding = DIGITS * self.support.position(t).abs();
+        let largest = (x0 - step.position(&self.support, t)).abs();
         (in_l, Difference { largest, at: t, allowed: in_l.allowed + rounding })
     }
 }

@@ -1,7 +1,8 @@
 //! How a small error grows: the distance of two runs that start a little apart.
 
 use super::repeat::Witness;
-use stickslip_tip::{RunError, Scenario, Step};
+use crate::compare::l_within;
+use stickslip_tip::{RunError, Scenario, Step, Support};
 
 /// What becomes of a small disturbance of the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +28,7 @@ const ERRORS: f64 = 30.0;
 
 /// l of a run at the times of all windows.
 pub(super) struct Probes {
-    r: f64,
+    support: Support,
     start: f64,
     end: f64,
     l: Vec<f64>,
@@ -36,7 +37,7 @@ pub(super) struct Probes {
 impl Probes {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let l = Vec::with_capacity(WINDOWS * (TIMES_PER_WINDOW + 1));
-        Self { r: scenario.model.r(), start: scenario.start_time(), end: scenario.until, l }
+        Self { support: scenario.support(), start: scenario.start_time(), end: scenario.until, l }
     }
 
     fn width(&self) -> f64 {
@@ -59,7 +60,7 @@ impl Probes {
 
     fn probe(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
         while let Some(t) = self.due().filter(|t| is_due(*t)) {
-            self.l.push(step.l(self.r, t));
+            self.l.push(l_within(step, &self.support, t));
         }
     }
 

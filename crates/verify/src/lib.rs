@@ -6,7 +6,7 @@ mod growth;
 mod repeat;
 mod spread;
 
-pub use compare::{ComparedSamples, Difference, Sample};
+pub use compare::{ComparedSamples, Difference, Sample, l};
 pub use growth::Growth;
 
 use compare::{AgainstSamples, Judgement, compare_l, compare_u};
@@ -90,7 +90,8 @@ pub fn verify(
     let steps = trajectory.steps().len() as u64;
     let mut kept = Kept::default();
     let (by, growth) = second.run(another(memory, steps), &mut kept)?;
-    let reference = Trajectory::new(scenario.model.r(), kept.steps);
+    let (wider, support) = (*scenario.model.wider(), scenario.support());
+    let reference = Trajectory::under(wider, support, kept.steps);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
     let judgement = compare_l(trajectory, &reference, allowed);
     let u = compare_u(&scenario.model, trajectory, &reference, allowed)?;
@@ -116,7 +117,7 @@ pub fn verify_samples<I: Iterator<Item = Sample>>(
     let mut second = Second::of(scenario, &surface, until, observe);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
     let mut compared =
-        AgainstSamples::new(scenario.model.r(), samples, (scenario.start_time(), until), allowed);
+        AgainstSamples::new(scenario.support(), samples, (scenario.start_time(), until), allowed);
     let (by, growth) = second.run(another(memory, u64::MAX), &mut compared)?;
     let (judgement, found) = compared.finish();
     Ok(second.verification(by, &judgement, None, Some(found), growth))

@@ -3,7 +3,7 @@
 use super::Asked;
 use super::pace::{PATIENCE, Pace};
 use crate::arguments::CompareArguments;
-use crate::commands::model::model;
+use crate::commands::model::wide_model;
 use crate::commands::progress::Progress;
 use crate::commands::run::disturbance::Disturbance;
 use crate::commands::run::limits::within_range;
@@ -35,7 +35,7 @@ pub(super) fn scenario(
     let scenario = Scenario {
         tolerance: arguments.tolerance,
         memory: arguments.memory.into(),
-        ..disturbance.scenario(&arguments.start, model(&arguments.model)?, arguments.until)
+        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, arguments.until)?
     };
     within_range(&arguments.model, &scenario)?;
     scenario.validate().map_err(explained)?;

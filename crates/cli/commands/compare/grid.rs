@@ -8,7 +8,8 @@ use crate::failure::{Failure, Typed};
 use std::ops::ControlFlow;
 use stickslip_documents::{GridDocument, GridName, GridWork};
 use stickslip_grid::{
-    Footprint, Gaussian, GridError, Method, Problem, Request, Run, Start, Stepping, solve_observed,
+    Footprint, Gaussian, GridError, Method, Path, Problem, Request, Run, Start, Stepping, Wider,
+    solve_observed,
 };
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 use stickslip_tip::{InitialSurface, Scenario, TipFunction};
@@ -39,7 +40,9 @@ impl Discretisation {
         let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
             let message = "never fades, and a grid counts f as 0 beyond a reach: compare with a tip \
                            that does, such as triple-gaussian";
-            return Err(Failure::input("--tip bessel", message));
+            let cosine = *tip == TipFunction::Cosine;
+            let option = if cosine { "--tip cosine" } else { "--tip bessel" };
+            return Err(Failure::input(option, message));
         };
         let name = arguments.grid;
         let gaussians: Vec<Gaussian> = sum
@@ -139,8 +142,13 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
     let explain = |error| explain(asked, error);
     let footprint = Footprint::new(&f, discretisation.reach).map_err(explain)?;
     let texture = texture(scenario)?;
-    let start = start(scenario, footprint, texture.as_ref());
-    let problem = Problem::new(model.alpha(), model.r(), footprint, start)
+    let support = scenario.support();
+    let position = |t: f64| support.position(t);
+    let knots = scenario.path.as_ref().map_or(&[][..], |path| path.knots().0);
+    let path = scenario.path.is_some().then_some(Path { position: &position, knots });
+    let law = wider(scenario, path);
+    let start = start(scenario, &law, footprint, texture.as_ref());
+    let problem = Problem::under(law, (model.alpha(), model.r()), footprint, start)
         .map_err(explain)?
         .with_force(&force);
 
@@ -182,16 +190,33 @@ fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
     scenario.initial_surface().map(Some).map_err(|error| Failure::Run(error.to_string()))
 }
 
+/// The law, in the grid's own words.
+fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
+    let stickslip_tip::Wider { depth_limit, healing_time, inertia, spring } =
+        *scenario.model.wider();
+    let velocity = scenario.velocity_at_start();
+    let inertia = inertia.map(|mass| (mass, velocity));
+    Wider { depth_limit, healing_time, inertia, spring, path }
+}
+
 /// The texture is given to the grid as f and the force are: as functions of what the closed equation is given.
 fn start<'a>(
     scenario: &Scenario,
+    law: &Wider,
     footprint: Footprint<'a>,
     texture: Option<&'a InitialSurface>,
 ) -> Start<'a> {
     let (position, kick) = (scenario.start_position, scenario.kick);
     let (alpha, r) = (scenario.model.alpha(), scenario.model.r());
     let start = match scenario.start {
-        stickslip_tip::Start::Steady => Start::steady(alpha, r, footprint, position, kick),
+        stickslip_tip::Start::Steady
+            if scenario.model.wider().is_papers() && scenario.path.is_none() =>
+        {
+            Start::steady(alpha, r, footprint, position, kick)
+        }
+        stickslip_tip::Start::Steady => {
+            Start::steady_under(law, (alpha, r), footprint, position, kick)
+        }
         stickslip_tip::Start::Flat => {
             Start::new(scenario.start_time(), position - kick, |_| 0.0, |_| 0.0)
         }

@@ -34,12 +34,12 @@ pub(super) fn of(
         format_version: FORMAT_VERSION,
         software: Software::this(),
         parameters: ContinueParameters {
-            model: ModelParameters {
-                tip: TipDocument::from(origin.tip()),
-                alpha: first.alpha,
-                alpha_above: arguments.start.model.alpha_above,
-                r: first.r,
-            },
+            model: ModelParameters::papers(
+                TipDocument::from(origin.tip()),
+                first.alpha,
+                arguments.start.model.alpha_above,
+                first.r,
+            ),
             over: arguments.over,
             to: arguments.to,
             switch: arguments.switch,

@@ -1,6 +1,7 @@
 //! The cycle that `cycle` is about and `continue` begins with.
 
 use crate::arguments::{CycleStart, ModelArguments};
+use crate::commands::model::only_papers;
 use crate::commands::model::{model, tip};
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
@@ -21,7 +22,7 @@ impl Start {
     pub(crate) fn asked(arguments: &CycleStart) -> Result<Self, Failure> {
         let tolerance = Self::judge_tolerance(arguments)?;
         let Some(path) = &arguments.from else {
-            return Ok(Self { model: model(&arguments.model)?, period: None, tolerance });
+            return Ok(Self { model: model(&arguments.model, "cycle")?, period: None, tolerance });
         };
         let document: CycleDocument = read_document("--from", path, CycleDocument::FORMAT)?;
         let refused =
@@ -63,7 +64,8 @@ impl Start {
 
 /// A model with what was given in place of its own.
 fn changed(before: &Model, arguments: &ModelArguments) -> Result<Model, Failure> {
-    let ModelArguments { tip: asked, r, alpha, alpha_above } = arguments;
+    only_papers(arguments, "cycle")?;
+    let ModelArguments { tip: asked, r, alpha, alpha_above, .. } = arguments;
     let given = asked.tip.is_some()
         || asked.beta.is_some()
         || asked.width.is_some()

@@ -7,7 +7,7 @@ pub(in crate::commands) use heights::field;
 
 use super::footprint::footprint;
 use super::job::{Job, format};
-use super::model::model;
+use super::model::wide_model;
 use super::run::samples::times;
 use crate::arguments::{Format, RasterArguments, SamplingArguments};
 use crate::failure::{Failure, Typed};
@@ -46,7 +46,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
 
 /// What is to be scanned, and the document's word for it.
 fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
-    let model = model(&arguments.model)?;
+    let model = wide_model(&arguments.model)?;
     let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
     let path = Path::from(arguments.path);
     let pitch = match (arguments.path, arguments.pitch) {
@@ -75,6 +75,7 @@ fn refused(plan: &Plan, error: RasterError) -> Failure {
         RasterError::Pitch { pitch, .. } => format!("--pitch {}", Typed(*pitch)),
         RasterError::Length { length, .. } => format!("--length {}", Typed(*length)),
         RasterError::Lines(lines) => format!("--lines {lines}"),
+        RasterError::NoSpring => "--no-spring".into(),
         RasterError::NeverFades | RasterError::Section => "--tip".into(),
         RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
             return Failure::input(

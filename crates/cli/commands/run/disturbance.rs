@@ -6,7 +6,7 @@ use crate::files::distinct::Named;
 use crate::files::input::{Columns, read_columns, read_profile};
 use crate::message::remark;
 use std::path::Path;
-use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario, Start};
+use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario, Start, SupportPath};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
 const DEFAULT_SEED: u64 = 1;
@@ -39,18 +39,36 @@ impl Disturbance {
     }
 
     /// A run that starts as asked and meets all this, at the tolerance and with the memory of `Scenario::new`.
-    pub(crate) fn scenario(&self, start: &StartArguments, model: Model, until: f64) -> Scenario {
-        let (start, noise) = (begin(start, &model), self.noise.or(default_noise(start.start)));
-        Scenario {
-            start: start.surface,
-            start_position: start.position,
-            kick: start.kick,
+    ///
+    /// # Errors
+    /// The path of the support cannot be read, or is none.
+    pub(crate) fn scenario(
+        &self,
+        start: &StartArguments,
+        model: Model,
+        until: f64,
+    ) -> Result<Scenario, Failure> {
+        let noise = self.noise.or(default_noise(start.choice(model.wider().spring)));
+        let begin = begin(start, &model);
+        Ok(Scenario {
+            start: begin.surface,
+            start_position: begin.position,
+            kick: begin.kick,
+            path: start.support_path.as_deref().map(support_path).transpose()?,
+            start_velocity: start.start_velocity,
             noise,
             profile: self.profile.clone(),
             force: self.force.clone(),
             ..Scenario::new(model, until)
-        }
+        })
     }
+}
+
+/// R(t) from a file.
+fn support_path(path: &Path) -> Result<SupportPath, Failure> {
+    let (t, displacement) = read_columns("--support-path", path, "t,R")?;
+    let named = || format!("--support-path {}", path.display());
+    SupportPath::new(t, displacement).map_err(|error| Failure::input(named(), error))
 }
 
 /// The noise of the paper's simulations, but on a grid on which its slope is small.
@@ -69,8 +87,8 @@ struct Begin {
 /// Surface, position and kick. The paper sets its tip down at X with the spring stretched by r + α/r on the steady
 /// surface, which it takes for flat where f has no volume (docs/corrections.md, 13).
 fn begin(start: &StartArguments, model: &Model) -> Begin {
-    let StartArguments { start, start_position: position, kick } = *start;
-    match start {
+    let StartArguments { start_position: position, kick, .. } = *start;
+    match start.choice(model.wider().spring) {
         StartChoice::Steady => Begin { surface: Start::Steady, position, kick },
         StartChoice::Flat => Begin { surface: Start::Flat, position, kick },
         // Round-off of a sum of Gaussians that cancel.

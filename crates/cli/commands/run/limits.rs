@@ -8,7 +8,9 @@ use stickslip_tip::{Model, Scenario};
 /// Refuses what no run can do justice to, for want of digits.
 pub(crate) fn within_range(arguments: &ModelArguments, scenario: &Scenario) -> Result<(), Failure> {
     let (x, kick, until) = (scenario.start_position, scenario.kick, scenario.until);
-    let (r, lag) = (scenario.model.r(), scenario.model.steady_lag());
+    let r = scenario.model.r();
+    // Without a spring there is none.
+    let lag = if scenario.model.wider().spring { scenario.model.steady_lag() } else { 0.0 };
     let distances = [
         (format!("--start-position {}", Typed(x)), "the tip would start at", x),
         (format!("--kick {}", Typed(kick)), "the tip would be displaced by", kick),

@@ -1,6 +1,6 @@
 //! From the command line to an order: what is run, and what is written of it.
 
-use super::super::model::model;
+use super::super::model::wide_model;
 use super::checkpoint;
 use super::disturbance::{Disturbance, files_read, warn_of_idle};
 use super::limits::within_range;
@@ -108,7 +108,7 @@ fn scenario(arguments: &RunArguments, disturbance: &Disturbance) -> Result<Scena
     Ok(Scenario {
         tolerance: arguments.tolerance,
         memory: arguments.memory.into(),
-        ..disturbance.scenario(&arguments.start, model(&arguments.model)?, until)
+        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, until)?
     })
 }
 
@@ -148,6 +148,11 @@ pub(crate) fn option_at_fault(error: &RunError) -> Option<String> {
         }
         RunError::Modes(_) => "--memory modes".into(),
         RunError::Profile(_) => "--initial-surface".into(),
+        RunError::StartVelocity(v) => format!("--start-velocity {}", Typed(*v)),
+        RunError::Path(_) | RunError::PathWithoutSpring | RunError::PathEnds { .. } => {
+            "--support-path".into()
+        }
+        RunError::NoSteadyStart(_) => "--start steady".into(),
         RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
             return None;
         }

@@ -7,11 +7,12 @@ use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip_documents::{Mark, SampleLine, Times};
-use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Step};
+use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Scenario, Step, Support, Wider};
 
-/// The record of a run with support velocity r.
+/// The record of a run.
 pub(super) struct Record {
-    r: f64,
+    support: Support,
+    wider: Wider,
     times: Times,
     /// Place of each sample in the order asked for, where that is not the order of time.
     places: Vec<usize>,
@@ -34,16 +35,17 @@ pub(super) enum Sink {
 }
 
 /// Of a sample in a journal.
-pub(super) const SAMPLE_NUMBERS: usize = 4;
+pub(super) const SAMPLE_NUMBERS: usize = 7;
 
 /// A step may be as long as the run, and have all of its samples: so many are taken between two looks at the signals.
 const SAMPLES_PER_LOOK: u64 = 1024;
 
 impl Record {
-    pub(super) fn new(r: f64, times: Times, keeps_history: bool, sink: Sink) -> Self {
+    pub(super) fn new(scenario: &Scenario, times: Times, keeps_history: bool, sink: Sink) -> Self {
+        let (support, wider) = (scenario.support(), *scenario.model.wider());
         let (times, places) = times.in_order();
         let steps = keeps_history.then(Vec::new);
-        Self { r, times, places, taken: 0, samples: vec![], steps, sink }
+        Self { support, wider, times, places, taken: 0, samples: vec![], steps, sink }
     }
 
     /// Takes note of a step, unless it is told to stop amid its samples: whether it is done.
@@ -89,13 +91,11 @@ impl Record {
             if self.taken.is_multiple_of(SAMPLES_PER_LOOK) && is_stopped() {
                 return Ok(false);
             }
-            let (l, x0, velocity) = (step.l(self.r, t), step.x0(self.r, t), step.velocity(t));
-            let sample = SampleLine { t, l, x0, velocity };
+            let sample = SampleLine::of(step, (&self.support, &self.wider), t);
             match &mut self.sink {
                 Sink::Lines(stream) => stream.line(&sample)?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
-                    let row: [f64; SAMPLE_NUMBERS] = [t, l, x0, velocity];
-                    journal.write(row).map_err(|error| failed(path, error))?;
+                    journal.write(numbers_of(&sample)).map_err(|error| failed(path, error))?;
                     self.samples.push(sample);
                 }
                 _ => self.samples.push(sample),
@@ -140,8 +140,7 @@ impl Record {
             rows
         } else {
             let (rows, samples) = Rows::resume::<SAMPLE_NUMBERS>(path, mark).map_err(unusable)?;
-            let sample = |[t, l, x0, velocity]: [f64; 4]| SampleLine { t, l, x0, velocity };
-            self.samples.extend(samples.into_iter().map(sample));
+            self.samples.extend(samples.into_iter().map(sample_of));
             self.taken = self.samples.len() as u64;
             let due = |(i, sample): (u64, &SampleLine)| self.times.at(i) == Some(sample.t);
             if !(0..).zip(&self.samples).all(due) {
@@ -154,15 +153,27 @@ impl Record {
     }
 }
 
+/// A sample as a row of a journal, NaN for what is not there.
+fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
+    let SampleLine { t, l, lag, x0, velocity, height, weight } = *sample;
+    let [l, lag, height, weight] = [l, lag, height, weight].map(|x| x.unwrap_or(f64::NAN));
+    [t, l, lag, x0, velocity, height, weight]
+}
+
+fn sample_of([t, l, lag, x0, velocity, height, weight]: [f64; SAMPLE_NUMBERS]) -> SampleLine {
+    let there = |x: f64| (!x.is_nan()).then_some(x);
+    let [l, lag, height, weight] = [l, lag, height, weight].map(there);
+    SampleLine { t, l, lag, x0, velocity, height, weight }
+}
+
 const OTHER_ROWS: &str = "its rows are not those of the run";
 
 /// Whether steps lead to time t, each beginning where the one before ends, round-off aside.
 fn follow_each_other(steps: &[Step], t: f64) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);
-    let lasts = |step: &Step| step.h > 0.0 && step.numbers().iter().all(|x| x.is_finite());
     let follows = |pair: &[Step]| same(pair[1].t, pair[0].end());
     let leads = steps.last().is_none_or(|last| same(last.end(), t));
-    steps.iter().all(lasts) && steps.windows(2).all(follows) && leads
+    steps.iter().all(Step::is_sound) && steps.windows(2).all(follows) && leads
 }
 
 /// A journal for the checkpoint at `path`, of rows of so many numbers.

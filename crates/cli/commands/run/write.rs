@@ -10,8 +10,10 @@ use crate::failure::Failure;
 use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
-use stickslip_documents::{Array, Named, Order, RunDocument, RunFormat, RunHead, Tabular};
-use stickslip_tip::{InitialSurface, Scenario, Trajectory};
+use stickslip_documents::{
+    Array, Named, Order, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
+};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory, friction};
 
 /// What the run is written to.
 pub(super) enum Target {
@@ -25,7 +27,7 @@ pub(super) enum Target {
 pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
-            stream.line(&RunHead::new(order.parameters.clone(), (&scenario.model).into()))
+            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
         }
         Sink::Memory | Sink::Journal(..) => Ok(()),
     }
@@ -47,7 +49,8 @@ pub(super) fn all(
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
     let steps = integrated.record.steps.take();
-    let trajectory = steps.map(|steps| Trajectory::new(scenario.model.r(), steps));
+    let (wider, support) = (*scenario.model.wider(), scenario.support());
+    let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
@@ -63,11 +66,14 @@ pub(super) fn all(
             let samples = &integrated.record.samples;
             let mut document = RunDocument::new(
                 order.parameters.clone(),
-                (&scenario.model).into(),
+                SteadyState::of(&scenario.model),
                 samples,
                 trajectory.as_ref().filter(|_| order.history).map(Into::into),
                 end.clone(),
             );
+            let on_path = trajectory.as_ref().filter(|_| scenario.path.is_some());
+            document.loops =
+                on_path.map(|t| friction::loops(t).into_iter().map(Into::into).collect());
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found =

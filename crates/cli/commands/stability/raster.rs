@@ -3,7 +3,7 @@
 use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
 use crate::commands::job::Job;
-use crate::commands::model::{model_of, tip};
+use crate::commands::model::{model_of, only_papers, tip};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, PathName, RasterGrowth, RasterStabilityDocument,
@@ -18,6 +18,7 @@ const WAVE_NUMBERS: u32 = 200;
 const SHOWN: f64 = 0.4;
 
 pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
+    only_papers(&arguments.model, "stability --pitch")?;
     let tip = tip(&arguments.model.tip)?;
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let path = arguments.path.unwrap_or(PathName::OneWay);

@@ -3,7 +3,8 @@
 use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
-    HeightMap, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
+    HeightMap, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
+    RasterSurfaceDocument,
 };
 
 impl Product for RasterDocument {
@@ -57,6 +58,25 @@ impl Product for RasterStabilityDocument {
             .maybe("crests to scan axis", angle)
             .remarks(&self.remarks)
             .next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
+    }
+}
+
+impl Product for RasterBoundaryDocument {
+    fn told(&self) -> Told {
+        let ends = |v: &[f64]| {
+            let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
+            format!("{first} to {last}")
+        };
+        let pitches = self.pitch.len();
+        Told::new(format!(
+            "αc from {} at {pitches} pitches from {}",
+            ends(&self.alpha),
+            ends(&self.pitch)
+        ))
+        .row("αc one-way", format!("from {}", ends(&self.alpha)))
+        .row("crests to scan axis", format!("from {} °", ends(&self.crest_angle)))
+        .remarks(&self.remarks)
+        .next(again("-o pitch.csv --plot pitch.svg"))
     }
 }
 

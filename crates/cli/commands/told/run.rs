@@ -3,7 +3,8 @@
 use super::{Told, again, digits};
 use crate::commands::verify::kept;
 use stickslip_documents::{
-    ModelParameters, OscillationDocument, RegimeName, RunDocument, RunEnd, to_its_digits,
+    LoopDocument, ModelParameters, OscillationDocument, RegimeName, RunDocument, RunEnd,
+    to_its_digits,
 };
 
 /// What is told of a run that became what `end` says.
@@ -15,10 +16,14 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told 
         Some(found) => oscillation(told, found),
         None => told,
     };
-    let creep = end.creep.as_ref();
+    let worked = |loops: &Vec<LoopDocument>| {
+        loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
+    };
+    let told = told.maybe("work of a loop", document.loops.as_ref().and_then(worked));
+    let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
     let told = told
         .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
-        .row("l of steady motion", format!("{} σ", digits(document.steady_state.l, 7)))
+        .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
         .remarks(&end.remarks);
     if end.regime != RegimeName::Transient {
         return told.next(again("-o run.json --plot run.svg"));

@@ -98,9 +98,9 @@ impl Samples<'_> {
         let failed = |flaw| self.flaw.replace(Some(flaw));
         let lines = Lines::of(self.file).and_then(|mut lines| lines.head().map(|_| lines));
         let mut lines = lines.map_err(failed).ok();
-        (0..self.number)
-            .map_while(move |_| lines.as_mut()?.sample().map_err(failed).ok())
-            .map(|line| Sample { t: line.t, l: line.l, x0: line.x0 })
+        (0..self.number).map_while(move |_| lines.as_mut()?.sample().map_err(failed).ok()).map(
+            |line| Sample { t: line.t, l: line.l.or(line.lag).unwrap_or(line.x0), x0: line.x0 },
+        )
     }
 }
 

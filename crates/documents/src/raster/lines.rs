@@ -5,7 +5,7 @@ use crate::{History, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
-use stickslip_tip::{STEP_NUMBERS, Step, Trajectory, Work, nodes_and_weights};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Work, nodes_and_weights};
 
 /// One line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -43,6 +43,9 @@ pub struct RasterSamples {
     pub lag: Vec<f64>,
     /// x0', in kσ/Γ: one order less accurate than x0.
     pub velocity: Vec<f64>,
+    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<f64>>,
 }
 
 /// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and goes to
@@ -68,6 +71,10 @@ pub struct LineHistory {
     pub extension: Vec<f64>,
     /// x0 less its value at the start of the step, at the nodes, in σ.
     pub displacement: Vec<Vec<f64>>,
+    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, where there is a
+    /// depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<Vec<f64>>>,
 }
 
 /// A finished line of a raster under way.
@@ -76,8 +83,11 @@ pub struct LineHistory {
 pub struct KeptLine {
     /// Counted from 0.
     pub index: usize,
-    /// The numbers of each step, all of them: what follows is the same to the last bit.
-    pub steps: Vec<[f64; STEP_NUMBERS]>,
+    /// Start, duration, extension and displacements of each step, to the last bit.
+    pub steps: Vec<[f64; 3 + STAGES]>,
+    /// The heights of each step, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heights: Option<Vec<Vec<f64>>>,
     /// Accepted steps, rejected ones, and Newton iterations.
     pub work: [u64; 3],
 }
@@ -91,6 +101,11 @@ impl RasterLine {
             x0: column(&|t| line.x0(t)),
             lag: column(&|t| line.lag(t)),
             velocity: column(&|t| line.velocity(t)),
+            height: times
+                .iter()
+                .map(|t| line.height(*t))
+                .collect::<Option<_>>()
+                .filter(|_| !times.is_empty()),
         };
         Self { y: line.track().y, samples, regime: line_regime(plan, line).into() }
     }
@@ -98,18 +113,8 @@ impl RasterLine {
 
 impl LineHistory {
     fn of(trajectory: &Trajectory) -> Self {
-        let History { t, extension, displacement, .. } = trajectory.into();
-        Self { t, extension, displacement }
-    }
-
-    fn trajectory(
-        &self,
-        (nodes, weights): (&[f64], &[f64]),
-        r: f64,
-    ) -> Result<Trajectory, Unusable> {
-        let Self { t, extension, displacement } = self.clone();
-        let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
-        History { nodes, weights, t, extension, displacement }.trajectory(r)
+        let History { t, extension, displacement, height, .. } = trajectory.into();
+        Self { t, extension, displacement, height }
     }
 
     /// Line `n` of a plan.
@@ -120,14 +125,17 @@ impl LineHistory {
         n: usize,
         work: Work,
     ) -> Result<Line, Unusable> {
-        let r = plan.law.model.r();
-        let found = self.trajectory((nodes, weights), r);
+        let Self { t, extension, displacement, height } = self.clone();
+        let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
+        let model = &plan.law.model;
+        let history = History { nodes, weights, t, extension, displacement, height };
+        let found = history.under(*model.wider(), Support::Moving(model.r()));
         let found = found.map_err(|error| Unusable::new(format!("line {}: {error}", n + 1)))?;
         let (start, end, duration) = (found.start(), found.end(), plan.duration());
         if n >= plan.lines || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
             return Err(Unusable::new(format!("line {} is none of this raster", n + 1)));
         }
-        Ok(Line::new(plan.track(n), r, found.steps().to_vec(), work))
+        Ok(Line::new(plan.track(n), model, found.steps().to_vec(), work))
     }
 }
 
@@ -159,14 +167,20 @@ impl RasterHistory {
         let displacement: Vec<Vec<f64>> =
             lines().flat_map(|line| line.displacement.clone()).collect();
         let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();
-        vec![
+        let height: Vec<Vec<f64>> =
+            lines().filter_map(|line| line.height.as_ref()).flatten().cloned().collect();
+        let mut arrays = vec![
             ("history_nodes", Array::vector(&self.nodes)),
             ("history_weights", Array::vector(&self.weights)),
             ("history_steps", Array::vector(steps)),
             ("history_t", Array::vector(t)),
             ("history_extension", Array::vector(extension)),
             ("history_displacement", Array::matrix(&displacement)),
-        ]
+        ];
+        if !height.is_empty() {
+            arrays.push(("history_height", Array::matrix(&height)));
+        }
+        arrays
     }
 }
 
@@ -174,9 +188,15 @@ impl KeptLine {
     /// Line `index`, counted from 0.
     #[must_use]
     pub fn of(index: usize, line: &Line) -> Self {
-        let Work { steps, rejected, newton_iterations } = line.work();
-        let work = [steps, rejected, newton_iterations];
-        Self { index, steps: line.trajectory().steps().iter().map(Step::numbers).collect(), work }
+        let Work { steps: done, rejected, newton_iterations } = line.work();
+        let steps = line.trajectory().steps();
+        let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
+        Self {
+            index,
+            steps: steps.iter().map(numbers).collect(),
+            heights: steps.iter().map(heights).collect(),
+            work: [done, rejected, newton_iterations],
+        }
     }
 
     /// The line again.
@@ -184,18 +204,48 @@ impl KeptLine {
     /// # Errors
     /// It is none of this plan.
     pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
-        if self.steps.is_empty() {
-            return Err(Unusable::new(format!("line {} has no steps", self.index + 1)));
-        }
-        let steps: Vec<Step> = self.steps.iter().map(|step| Step::from_numbers(*step)).collect();
+        let steps = self.steps().ok_or_else(|| {
+            Unusable::new(format!("line {} has no steps, or no heights of them", self.index + 1))
+        })?;
         let [done, rejected, newton_iterations] = self.work;
         let work = Work { steps: done, rejected, newton_iterations };
-        let r = plan.law.model.r();
         let (nodes, weights) = nodes_and_weights();
-        let history = LineHistory::of(&Trajectory::new(r, steps.clone()));
-        history.line((&nodes, &weights), plan, self.index, work)?;
-        Ok(Line::new(plan.track(self.index), r, steps, work))
+        let line = Line::new(plan.track(self.index), &plan.law.model, steps, work);
+        LineHistory::of(line.trajectory()).line((&nodes, &weights), plan, self.index, work)?;
+        Ok(line)
     }
+
+    /// `None` if there are none, or not as many heights.
+    fn steps(&self) -> Option<Vec<Step>> {
+        let steps = self.steps.iter().map(step);
+        let steps: Vec<Step> = match &self.heights {
+            None => steps.collect(),
+            Some(heights) if heights.len() == self.steps.len() => {
+                let with = |(step, heights): (Step, &Vec<f64>)| {
+                    let (start, nodes) = heights.split_first()?;
+                    let nodes = nodes.try_into().ok()?;
+                    Some(Step { height: Some(Heights { start: *start, nodes }), ..step })
+                };
+                steps.zip(heights).map(with).collect::<Option<_>>()?
+            }
+            Some(_) => return None,
+        };
+        (!steps.is_empty()).then_some(steps)
+    }
+}
+
+/// All of a step but its heights.
+fn numbers(step: &Step) -> [f64; 3 + STAGES] {
+    let mut numbers = [0.0; 3 + STAGES];
+    numbers[..3].copy_from_slice(&[step.t, step.h, step.extension]);
+    numbers[3..].copy_from_slice(&step.displacement);
+    numbers
+}
+
+/// The step again.
+fn step(numbers: &[f64; 3 + STAGES]) -> Step {
+    let [t, h, extension, displacement @ ..] = *numbers;
+    Step { t, h, extension, displacement, height: None }
 }
 
 impl From<LineRegime> for LineRegimeName {

@@ -106,12 +106,8 @@ fn scale(document: &BoundaryDocument) -> ScaleName {
 /// That of the first point.
 fn models(document: &BoundaryDocument) -> Vec<ModelParameters> {
     let first = document.r.first().zip(document.alpha.first());
-    let model = |(r, alpha): (&f64, &f64)| ModelParameters {
-        tip: document.parameters.tip.clone(),
-        alpha: *alpha,
-        alpha_above: None,
-        r: *r,
-    };
+    let tip = &document.parameters.tip;
+    let model = |(r, alpha): (&f64, &f64)| ModelParameters::papers(tip.clone(), *alpha, None, *r);
     first.map(model).into_iter().collect()
 }
 

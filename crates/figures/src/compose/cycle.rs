@@ -31,8 +31,8 @@ impl Drawn for CycleDocument {
         let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
         let ripple = ripple(self, &model, &motion)?;
         figure.panels = vec![
-            against(L, l, steady, &format!("steady state, l₀ = {}", short(steady))),
-            against(VELOCITY, velocity, r, &format!("support, r = {}", short(r))),
+            against(L, l, Some(&(steady, format!("steady state, l₀ = {}", short(steady))))),
+            against(VELOCITY, velocity, Some(&(r, format!("support, r = {}", short(r))))),
         ];
         figure.panels.extend(ripple);
         Ok(figure)

@@ -148,7 +148,7 @@ mod tests {
             }
             let (t, h, extension) = (i as f64, 1.0, i as f64 - x0);
             x0 += displacement[STAGES - 1];
-            Step { t, h, extension, displacement }
+            Step { t, h, extension, displacement, height: None }
         };
         Trajectory::new(1.0, (0..steps).map(step).collect())
     }

@@ -8,6 +8,12 @@ pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
 pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
 /// Of the tip.
 pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
+/// Of a spring whose end moves on a path: the lateral force.
+pub(super) const LAG: (&str, &str) = ("t (Γ/k)", "R − x₀ (σ)");
+/// Of a tip without a spring.
+pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
+/// Of the support.
+pub(super) const WAY: &str = "R (σ)";
 /// Of what pushes it.
 pub(super) const FORCE: (&str, &str) = ("t (Γ/k)", "F_{ext} (kσ)");
 /// Of the surface.

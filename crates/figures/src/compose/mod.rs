@@ -21,9 +21,9 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
-    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable,
-    read_from, told,
+    PanelDocument, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
+    RasterSurfaceDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
+    SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -73,7 +73,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 13] = [
+pub const FORMATS: [&str; 14] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -86,6 +86,7 @@ pub const FORMATS: [&str; 13] = [
     RasterDocument::FORMAT,
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
+    RasterBoundaryDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -110,6 +111,7 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),
         RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
         RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
+        RasterBoundaryDocument::FORMAT => boxed::<RasterBoundaryDocument>(source, &format),
         FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
         _ => Err(Unusable::new(format_args!(
             "format is {}; a picture is there for {}",

@@ -1,11 +1,12 @@
 //! Growth of ripples from line to line.
 
 use super::drawn::{Drawn, View};
-use super::tip::model_name;
+use super::tip::{model_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip_documents::{
-    CurveDocument, FigureDocument, PanelDocument, RasterStabilityDocument, StyleName,
+    CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument, RasterStabilityDocument,
+    StyleName,
 };
 
 impl Drawn for RasterStabilityDocument {
@@ -32,6 +33,24 @@ impl Drawn for RasterStabilityDocument {
         let mut phase = PanelDocument::new("", ("q (1/σ)", "phase from line to line"));
         phase.curves = vec![CurveDocument::new(StyleName::Line, "", q, &growth.phase)];
         figure.panels = vec![factor, phase];
+        Ok(figure)
+    }
+}
+
+impl Drawn for RasterBoundaryDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let parameters = &self.parameters;
+        let title = format!("{}, r = {}", tip_name(&parameters.tip), short(parameters.r));
+        let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);
+        let mut threshold = PanelDocument::new("", ("pitch (σ)", "critical α"));
+        let one_way = CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha);
+        let mut zigzag = CurveDocument::new(StyleName::Dashed, "zigzag", &self.pitch, &[]);
+        zigzag.y = self.alpha_zigzag.clone();
+        threshold.curves = vec![one_way, zigzag];
+        let mut angle = PanelDocument::new("", ("pitch (σ)", "crest to scan axis (°)"));
+        angle.curves =
+            vec![CurveDocument::new(StyleName::Line, "", &self.pitch, &self.crest_angle)];
+        figure.panels = vec![threshold, angle];
         Ok(figure)
     }
 }

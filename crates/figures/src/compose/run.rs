@@ -4,17 +4,17 @@ mod ground;
 
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
-use super::labels::{FORCE, L, NATURAL, VELOCITY};
+use super::labels::{FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
 use super::tip::model_name;
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
 use stickslip_documents::{
     CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters,
-    StyleName,
+    StyleName, to_its_digits,
 };
 use stickslip_surface::Surface;
-use stickslip_tip::{Scenario, Step, Trajectory};
+use stickslip_tip::{Scenario, Step, Support, Trajectory};
 
 /// From so many oscillations on their envelope is drawn, and the last of them beside it.
 const MANY: usize = 50;
@@ -22,6 +22,8 @@ const SHOWN: f64 = 6.0;
 /// Points of a force, and of each pulse.
 const FORCE_POINTS: usize = 2000;
 const PULSE_POINTS: usize = 120;
+/// Of a friction loop.
+const LOOP_POINTS: u32 = 4000;
 
 impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
@@ -36,22 +38,23 @@ impl Drawn for RunDocument {
         }
         let trajectory = self.trajectory()?;
         let part = Part::of(&trajectory, view.x_range);
-        let r = trajectory.r();
-        let (l, velocity) = (move |step: &Step, t| step.l(r, t), |step: &Step, t| step.velocity(t));
-        let shown = Shown::of(self, part, &l);
-        let steady = self.steady_state.l;
+        let (support, velocity) = (trajectory.support(), |step: &Step, t| step.velocity(t));
+        let first = |step: &Step, t: f64| match support {
+            Support::Moving(r) => step.l(*r, t),
+            Support::Path(_) => step.lag(support, t),
+            Support::None => step.position(support, t),
+        };
+        let (labels, name) = match support {
+            Support::Moving(_) => (L, "l(t)"),
+            Support::Path(_) => (LAG, "R(t) - x₀(t)"),
+            Support::None => (POSITION, "x₀(t)"),
+        };
+        let shown = Shown::of(self, part, &first);
         let mut rows = vec![
-            shown.motion(
-                &trajectory,
-                (L, &l, "l(t)"),
-                (steady, format!("steady state, l₀ = {}", short(steady))),
-            ),
-            shown.motion(
-                &trajectory,
-                (VELOCITY, &velocity, "ẋ₀(t)"),
-                (r, format!("support, r = {}", short(r))),
-            ),
+            shown.motion(&trajectory, (labels, &first, name), steady(self)),
+            shown.motion(&trajectory, (VELOCITY, &velocity, "ẋ₀(t)"), dragged(self)),
         ];
+        rows.extend(loops(&trajectory, part.span).map(|panel| (panel, None)));
         rows.extend(force(&self.parameters, part.span).map(|panel| (panel, None)));
         rows.push(surfaces(&self.parameters.scenario()?, &trajectory, shown)?);
         figure.columns = if shown.detail.is_some() { COLUMNS } else { 1 };
@@ -71,6 +74,7 @@ const COLUMNS: usize = 3;
 #[derive(Debug, Clone, Copy)]
 struct Shown<'a> {
     part: Part<'a>,
+    /// Periods, in which there may be several slips.
     oscillations: usize,
     detail: Option<f64>,
 }
@@ -80,70 +84,104 @@ type Row = (PanelDocument, Option<PanelDocument>);
 
 impl<'a> Shown<'a> {
     fn of(run: &RunDocument, part: Part<'a>, l: Quantity) -> Self {
-        let oscillations = part.maxima(l);
-        let mean = (part.span.1 - part.span.0) / oscillations.max(1) as f64;
-        let period = run.oscillation.as_ref().map_or(mean, |o| o.period);
-        Self { part, oscillations, detail: (oscillations > MANY).then_some(SHOWN * period) }
+        let maxima = part.maxima(l);
+        let mean = (part.span.1 - part.span.0) / maxima.max(1) as f64;
+        let (period, slips) =
+            run.oscillation.as_ref().map_or((mean, 1), |o| (o.period, o.slips.max(1)));
+        let detail = (maxima > MANY).then_some(SHOWN * period);
+        Self { part, oscillations: maxima / slips, detail }
     }
 
     fn motion(
         &self,
         trajectory: &Trajectory,
         (labels, of, name): ((&str, &str), Quantity, &str),
-        (constant, constant_name): (f64, String),
+        level: Option<Level>,
     ) -> Row {
         let Some(length) = self.detail else {
-            return (against(labels, self.part.line(name, of), constant, &constant_name), None);
+            return (against(labels, self.part.line(name, of), level.as_ref()), None);
         };
         let name = format!("{name}, lowest to highest");
         let band = self.part.envelope(&name, of, self.oscillations);
         let end = self.part.tail(trajectory, length);
-        let mut detail = against(labels, end.line("at the end", of), constant, "");
+        let nameless = level.as_ref().map(|(value, _)| (*value, String::new()));
+        let mut detail = against(labels, end.line("at the end", of), nameless.as_ref());
         detail.x_range = Some([end.span.0, end.span.1]);
-        (against(labels, band, constant, &constant_name), Some(detail))
+        (against(labels, band, level.as_ref()), Some(detail))
     }
 }
 
 fn title(run: &RunDocument) -> String {
     let name = model_name(&run.parameters.model);
     let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
-        format!(", T = {}", seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period)))
+        let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
+        let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
+        format!(", T = {period}")
     });
     format!("{name}: {}{motion}", run.regime)
+}
+
+/// A constant, and its name.
+pub(super) type Level = (f64, String);
+
+/// l0, where the support moves steadily.
+fn steady(run: &RunDocument) -> Option<Level> {
+    let steady = run.steady_state.as_ref().filter(|_| run.parameters.support_path.is_none())?;
+    Some((steady.l, format!("steady state, l₀ = {}", short(steady.l))))
+}
+
+/// r, likewise.
+fn dragged(run: &RunDocument) -> Option<Level> {
+    let moves = run.parameters.support_path.is_none() && !run.parameters.model.no_spring;
+    let r = run.parameters.model.r;
+    moves.then(|| (r, format!("support, r = {}", short(r))))
+}
+
+/// The lag against the way of the support, on a path: the friction loop.
+fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocument> {
+    let Support::Path(path) = trajectory.support() else { return None };
+    let even =
+        (0..=LOOP_POINTS).map(|i| from + (to - from) * f64::from(i) / f64::from(LOOP_POINTS));
+    let knots = path.knots().0.iter().copied().filter(|t| (from..=to).contains(t));
+    let mut t: Vec<f64> = even.chain(knots).collect();
+    t.sort_by(f64::total_cmp);
+    let way: Vec<f64> = t.iter().map(|t| trajectory.support().position(*t)).collect();
+    let lag: Vec<f64> = t.iter().map(|t| trajectory.lag(*t)).collect();
+    let mut panel = PanelDocument::new("", (WAY, LAG.1));
+    panel.curves = vec![CurveDocument::new(StyleName::Line, "lateral force", &way, &lag)];
+    Some(panel)
 }
 
 /// A curve against time with a constant.
 pub(super) fn against(
     labels: (&str, &str),
     curve: CurveDocument,
-    constant: f64,
-    constant_name: &str,
+    level: Option<&Level>,
 ) -> PanelDocument {
     let mut panel = PanelDocument::new("", labels);
     panel.natural = NATURAL;
     let ends: Vec<f64> = curve.x.first().into_iter().chain(curve.x.last()).copied().collect();
-    let level = vec![constant; ends.len()];
-    panel.curves = vec![curve, CurveDocument::new(StyleName::Dashed, constant_name, &ends, &level)];
+    panel.curves = vec![curve];
+    if let Some((level, name)) = level {
+        let level = vec![*level; ends.len()];
+        panel.curves.push(CurveDocument::new(StyleName::Dashed, name, &ends, &level));
+    }
     panel
 }
 
 /// l and the velocity at the samples.
 fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
-    let (samples, steady, r) = (&run.samples, run.steady_state.l, run.parameters.model.r);
+    let samples = &run.samples;
     let curve = |name, y| CurveDocument::new(StyleName::Line, name, &samples.t, y);
+    let first = match (&samples.l, &samples.lag) {
+        (Some(l), _) => (L, curve("l(t), samples", l)),
+        (None, Some(lag)) => (LAG, curve("R(t) - x₀(t), samples", lag)),
+        (None, None) => (POSITION, curve("x₀(t), samples", &samples.x0)),
+    };
+    let velocity = curve("ẋ₀(t), samples", &samples.velocity);
     vec![
-        against(
-            L,
-            curve("l(t), samples", &samples.l),
-            steady,
-            &format!("steady state, l₀ = {}", short(steady)),
-        ),
-        against(
-            VELOCITY,
-            curve("ẋ₀(t), samples", &samples.velocity),
-            r,
-            &format!("support, r = {}", short(r)),
-        ),
+        against(first.0, first.1, steady(run).as_ref()),
+        against(VELOCITY, velocity, dragged(run).as_ref()),
     ]
 }
 
@@ -184,7 +222,8 @@ fn surfaces(
     let Some(length) = shown.detail else {
         return Ok((ground.lines(all, true, shown.oscillations)?, None));
     };
-    let length = length * trajectory.r();
+    let end_velocity = trajectory.support().velocity(end).abs();
+    let length = length * end_velocity.max(0.01);
     let detail = ground.lines((tip - length, tip + MARGIN), false, 0)?;
     Ok((ground.envelope(all, length / SHOWN, shown.oscillations)?, Some(detail)))
 }

@@ -66,7 +66,7 @@ fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
     let (alpha, alpha_above) = (first(&parameters.alpha), first(&parameters.alpha_above));
     let model = |tip: &stickslip_documents::TipDocument| {
         let (alpha, r) = (alpha.or(alpha_above)?, *parameters.r.first()?);
-        Some(ModelParameters { tip: tip.clone(), alpha, alpha_above, r })
+        Some(ModelParameters::papers(tip.clone(), alpha, alpha_above, r))
     };
     parameters.tips.first().and_then(model).into_iter().collect()
 }

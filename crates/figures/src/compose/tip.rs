@@ -10,6 +10,7 @@ const SAME: f64 = 1e-9;
 pub(crate) fn tip_name(tip: &TipDocument) -> String {
     match tip {
         TipDocument::Bessel {} => "f = J₀(x)".into(),
+        TipDocument::Cosine {} => "f = cos x".into(),
         TipDocument::Footprint { .. } => "f(x, y) of a file".into(),
         TipDocument::Gaussians { gaussians } => gaussians_name(gaussians),
     }

@@ -47,7 +47,7 @@ impl End<'_> {
     /// A small cycle has the amplitude that the leading order at onset gives it.
     fn may_be_a_cycle(&self, amplitude: f64) -> bool {
         let model = &self.scenario.model;
-        if amplitude > self.small() {
+        if amplitude > self.small() || !model.wider().is_papers() {
             return true;
         }
         let onset = onset(model.tip(), model.r());

@@ -6,6 +6,7 @@ impl End<'_> {
     pub(super) fn remarks(&self, regime: Regime) -> Vec<Remark> {
         let Scenario { model, force, .. } = self.scenario;
         let mut remarks = vec![];
+        let is_papers = model.wider().is_papers();
         if let (Linear::Unstable(Slowest { rate, .. }), true) = (self.linear, self.is_undisturbed())
         {
             remarks.push(Remark::RoundOffGrows { rate });
@@ -14,10 +15,12 @@ impl End<'_> {
             Regime::StickSlip if matches!(self.linear, Linear::Stable(_)) => {
                 remarks.push(Remark::SteadyToo);
             }
-            Regime::StickSlip if creep(model).is_ok_and(|creep| creep.attracting().is_some()) => {
+            Regime::StickSlip
+                if is_papers && creep(model).is_ok_and(|creep| creep.attracting().is_some()) =>
+            {
                 remarks.push(Remark::TrappedToo);
             }
-            Regime::Steady => {
+            Regime::Steady if is_papers => {
                 let onset = onset(model.tip(), model.r());
                 let below = |onset: &stickslip_stability::Onset| {
                     onset.criticality == Criticality::Subcritical

@@ -36,17 +36,16 @@ impl Sorted {
     }
 }
 
-/// f'(y) and f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
-fn slope_and_curvature(terms: &Sorted, y: f64) -> (f64, f64) {
+/// f(y), f'(y) and f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
+fn derivatives(terms: &Sorted, y: f64) -> [f64; 3] {
     let scaled = |g: &Gaussian| (y - g.center) / g.width;
-    let near = terms.about(y).iter().map(|g| (g, scaled(g)));
-    near.filter(|(_, z)| z.abs() < WIDTHS_INTEGRATED).fold(
-        (0.0, 0.0),
-        |(slope, curvature), (g, z)| {
-            let value = g.amplitude / g.width * (-0.5 * z * z).exp();
-            (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
-        },
-    )
+    let near =
+        terms.about(y).iter().map(|g| (g, scaled(g))).filter(|(_, z)| z.abs() < WIDTHS_INTEGRATED);
+    near.fold([0.0; 3], |[height, slope, curvature], (g, z)| {
+        let value = g.amplitude / g.width * (-0.5 * z * z).exp();
+        let curvature = curvature + (z * z - 1.0) * value / g.width;
+        [height + value * g.width, slope - z * value, curvature]
+    })
 }
 
 /// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip; near Λ = 0 of
@@ -56,7 +55,9 @@ pub(super) struct Panels {
     width: f64,
     /// Nodes within a panel, from its start.
     offsets: Vec<f64>,
-    /// Weight times f' at every node, panel by panel.
+    /// Weight times f at every node, panel by panel.
+    height: Vec<f64>,
+    /// Weight times f' likewise.
     slope: Vec<f64>,
     /// Weight times f'' likewise.
     curvature: Vec<f64>,
@@ -81,18 +82,19 @@ impl Panels {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let starts = (0..panels as u32).map(|i| f64::from(i) * width);
         let terms = &Sorted::new(terms);
-        let (slope, curvature): (Vec<f64>, Vec<f64>) = starts
+        let weighted: Vec<[f64; 3]> = starts
             .flat_map(|start| {
                 let node = |(x, w): (&f64, &(f64, f64))| {
-                    let (slope, curvature) = slope_and_curvature(terms, start + x);
-                    (0.5 * width * w.1 * slope, 0.5 * width * w.1 * curvature)
+                    derivatives(terms, start + x).map(|f| 0.5 * width * w.1 * f)
                 };
                 offsets.iter().zip(&pairs).map(node).collect::<Vec<_>>()
             })
-            .unzip();
+            .collect();
+        let [height, slope, curvature] =
+            [0, 1, 2].map(|order: usize| weighted.iter().map(|f| f[order]).collect::<Vec<f64>>());
         let area = |weighted: &[f64]| weighted.iter().map(|v| v.abs()).sum::<f64>();
         let by_parts_below = area(&curvature) / area(&slope).max(f64::MIN_POSITIVE);
-        Self { width, offsets, slope, curvature, by_parts_below, largest_lambda }
+        Self { width, offsets, height, slope, curvature, by_parts_below, largest_lambda }
     }
 
     pub(super) fn serves(&self, lambda: Complex64) -> bool {
@@ -106,6 +108,13 @@ impl Panels {
         let slope = self.integral(&self.slope, lambda);
         let derivative = slope.value + lambda * slope.derivative;
         Scaled { value: lambda * slope.value, derivative, ..slope }
+    }
+
+    /// ∫f e^{-Λy}dy and its derivative, where [`Self::at`] is by parts.
+    pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
+        let is_near = lambda.norm() < self.by_parts_below && self.serves(lambda);
+        let unscaled = |f: Scaled| (f.value * f.log_scale.exp(), f.derivative * f.log_scale.exp());
+        is_near.then(|| unscaled(self.integral(&self.height, lambda)))
     }
 
     /// Σ|terms| of [`Self::at`] times e^{-`log_scale`}.

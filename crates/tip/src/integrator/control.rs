@@ -84,7 +84,7 @@ impl Control {
 
     /// Accepts a step of length h, or says what length to try instead, from two signs of its error: the
     /// defect with which its stage polynomial starts (its velocity less the true one), and its error as
-    /// an interpolant.
+    /// an interpolant; and from an error `beside` of anything else that a step determines.
     ///
     /// As long as the groove's `stiffness` is small against 1/h, the error follows from the defect, which
     /// is δ N(τ)/N(0), N vanishing at the nodes. Where it is large, the stages are exact, velocities are
@@ -95,6 +95,7 @@ impl Control {
         (defect, interpolation): (f64, f64),
         h: f64,
         stiffness: f64,
+        beside: f64,
     ) -> Result<(), f64> {
         if self.fixed {
             return Ok(());
@@ -105,6 +106,8 @@ impl Control {
         let from_defect = strayed.abs() + WEIGHT_OF_CHANGE * change.abs();
         let soft = 1.0 / (1.0 + RADAU.defect_to_error * h * stiffness);
         let error = soft * RADAU.defect_to_error * from_defect + (1.0 - soft) * interpolation;
+        // A NaN of either stays one.
+        let error = if beside > error || beside.is_nan() { beside } else { error };
         let ratio = (self.target() / error.max(1e-300)).powf(1.0 / f64::from(ORDER_WITHIN_A_STEP));
         // An error that is NaN has the largest shrinkage: max and clamp would let it pass.
         let factor = if ratio.is_nan() { LARGEST_SHRINKAGE } else { SAFETY * ratio };

@@ -4,22 +4,25 @@
 //! groove is what the memory knows of the past plus the step's own indentation, the Butcher matrix
 //! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
 
+mod ahead;
 mod control;
-mod linear_system;
+mod corner;
+mod error;
 mod saved;
 mod stage_equations;
 
 use crate::collocation::{RADAU, STAGES, Stages};
-use crate::history::Step;
+use crate::history::{Heights, Step};
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
 use crate::roots::zero_between;
 use crate::step;
 use crate::tip_function::Apex;
-use crate::{Force, InitialSurface, Model};
+use crate::{Force, InitialSurface, Model, Support};
 use control::Control;
-use stage_equations::{Solution, StageEquations};
-use thiserror::Error;
+use corner::Corner;
+pub use error::IntegrationError;
+use stage_equations::{Begin, Solution, StageEquations};
 
 /// What the integrator did, in counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -32,43 +35,19 @@ pub struct Work {
     pub newton_iterations: u64,
 }
 
-/// Why a run could not go on.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum IntegrationError {
-    /// The step length fell to the round-off of t.
-    #[error(
-        "at t = {t}: the tolerance {tolerance:e} cannot be met, the step length fell to {h:e}; ask for a larger tolerance, or for smoother forces and surfaces"
-    )]
-    StepTooSmall {
-        /// Time reached.
-        t: f64,
-        /// Last step length tried.
-        h: f64,
-        /// Tolerance asked for.
-        tolerance: f64,
-    },
-    /// The tip came back to where it had been so long ago that the memory no longer knows it.
-    #[error(
-        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
-    )]
-    Forgotten {
-        /// Time reached.
-        t: f64,
-        /// Distance over which the past is kept.
-        kept: f64,
-    },
-}
-
 /// The state of a tip under way, and all that acts on it.
 pub struct Integrator<'a, M> {
     model: &'a Model,
     apex: Apex,
     surface: &'a InitialSurface,
     force: &'a Force,
+    support: Support,
     memory: M,
     control: Control,
     t: f64,
-    /// rt - x0
+    /// When it started.
+    start: f64,
+    /// R - x0
     extension: f64,
     velocity: f64,
     /// u_xx at the tip: minus the stiffness that the groove adds.
@@ -77,6 +56,8 @@ pub struct Integrator<'a, M> {
     limits_from_before: (f64, f64),
     /// Of u0, where the step under way began.
     stretch: Stretch,
+    /// Of |h|, where there is a depth limit.
+    corner: Option<Corner>,
     last: Option<Step>,
     work: Work,
 }
@@ -89,7 +70,7 @@ const MOST_ROUNDINGS: usize = 64;
 
 impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
-    /// remembered but what `memory` brings along.
+    /// remembered but what `memory` brings along. With inertia it starts at the velocity r.
     pub fn new(
         model: &'a Model,
         surface: &'a InitialSurface,
@@ -99,24 +80,45 @@ impl<'a, M: Memory> Integrator<'a, M> {
         tolerance: f64,
     ) -> Self {
         let (t, extension) = start;
-        let (slope, curvature) = surface.slope_and_curvature(model.r() * t - extension);
+        let support = if model.wider().spring { Support::Moving(model.r()) } else { Support::None };
         let control = Control::new(tolerance);
-        Self {
+        let integrator = Self {
             model,
             apex: Apex::new(model.tip(), (ENOUGH * control.target()).max(f64::EPSILON)),
+            corner: None,
             surface,
             force,
+            support,
             memory,
             control,
             t,
+            start: t,
             extension,
-            velocity: -slope + extension + force.value(t),
-            curvature,
-            limits_from_before: (slope, force.value(t)),
+            velocity: 0.0,
+            curvature: 0.0,
+            limits_from_before: (0.0, 0.0),
             stretch: Stretch::nowhere(),
             last: None,
             work: Work::default(),
+        };
+        integrator.set_off(model.r())
+    }
+
+    /// Where it is, with what surface and forces make of that; with inertia at this velocity.
+    fn set_off(mut self, velocity: f64) -> Self {
+        let (x, wider) = (self.position(), self.model.wider());
+        let (slope, curvature) = self.surface.slope_and_curvature(x);
+        let pull = if wider.spring { self.extension } else { 0.0 };
+        let force = self.force.value(self.t);
+        let drift = -slope + pull + force;
+        self.velocity = if wider.inertia.is_some() { velocity } else { drift };
+        self.curvature = curvature;
+        self.limits_from_before = (slope, force);
+        if wider.depth_limit.is_some() {
+            let height = self.surface.height(x);
+            self.corner = Corner::of(self.model, height, self.control.target());
         }
+        self
     }
 
     /// Steps of this length only, without error control: for observing the order of convergence.
@@ -124,6 +126,13 @@ impl<'a, M: Memory> Integrator<'a, M> {
     pub fn with_fixed_step(mut self, h: f64) -> Self {
         self.control.fix(h);
         self
+    }
+
+    /// On a support that moves otherwise, and is where it was; with inertia from this velocity.
+    #[must_use]
+    pub fn moved_by(mut self, support: Support, velocity: f64) -> Self {
+        self.support = support;
+        self.set_off(velocity)
     }
 
     /// Time reached.
@@ -157,7 +166,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
         self.enter_stretch();
         let limit = self.length_limit();
-        let end = self.force.next_break(self.t).min(until);
+        let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));
+        let end = breaks.min(until);
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
             // The difference of two representable times: t loses nothing as it grows.
@@ -186,6 +196,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
                     self.work.rejected += 1;
                     h = shorter;
                 }
+                // Once: where both sides end at once, the step was too long to tell.
+                Err(Retry::OtherSide) => h *= if self.turn() { 1.0 } else { 0.3 },
                 // A step that round-off keeps from becoming shorter would be tried for ever.
                 Err(Retry::ToKnot(shorter)) => {
                     h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
@@ -198,7 +210,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
     fn enter_stretch(&mut self) {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
-        let slope = self.surface.slope_and_curvature_on(&self.stretch, x).0;
+        if self.model.wider().inertia.is_some() {
+            return;
+        }
+        let slope = self.relief_slope();
         let force = self.force.value(self.t.next_up());
         self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
     }
@@ -210,7 +225,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let enough = ENOUGH * self.control.target();
         let (surface, force) = ((self.surface, &self.stretch), self.force);
         let model = (self.model, &self.apex);
-        let equations = StageEquations::new(model, surface, force, (self.t, h, self.extension));
+        let mass = self.model.wider().inertia;
+        let inertia = mass.map(|mass| step::Inertia::new(mass, h, self.velocity));
+        let begin = self.begin(h);
+        let equations = StageEquations::new(model, surface, force, begin, inertia.as_ref());
         let look = longest_look(self.model.tip());
         let solved = equations.solve(&mut self.memory, guess, enough, look);
         self.work.newton_iterations += solved.iterations;
@@ -224,10 +242,28 @@ impl<'a, M: Memory> Integrator<'a, M> {
         if let Some(tau) = self.leaves(&displacement) {
             return Err(Retry::ToKnot(tau * h));
         }
+        let heights = self.heights(&solution);
+        if let Some((corner, heights)) = self.corner.as_ref().zip(heights.as_ref()) {
+            corner.passed(heights, (self.t, h))?;
+        }
         let stiffness = (1.0 + self.curvature).max(0.0);
         let signs = self.signs_of_error(&displacement, h);
-        self.control.judge(signs, h, stiffness).map_err(Retry::Shorter)?;
-        Ok(self.accept(h, &solution))
+        let beside = self.error_of_heights(heights.as_ref(), h);
+        self.control.judge(signs, h, stiffness, beside).map_err(Retry::Shorter)?;
+        Ok(self.accept(h, &solution, heights))
+    }
+
+    /// What a step of length h begins with.
+    fn begin(&self, h: f64) -> Begin {
+        Begin {
+            t: self.t,
+            h,
+            x: self.position(),
+            extension: self.extension,
+            velocity: self.support.velocity(self.t),
+            side: self.corner.map_or(0.0, |corner| corner.side),
+            age: self.t - self.start,
+        }
     }
 
     /// The fraction of the step at which the tip leaves the stretch, if it does.
@@ -258,16 +294,21 @@ impl<'a, M: Memory> Integrator<'a, M> {
         (step::defect(displacement, h, self.velocity), self.last.map_or(0.0, before))
     }
 
-    fn accept(&mut self, h: f64, solution: &Solution) -> Step {
+    fn accept(&mut self, h: f64, solution: &Solution, height: Option<Heights>) -> Step {
         let displacement = solution.displacement;
-        let step = Step { t: self.t, h, extension: self.extension, displacement };
-        self.memory.remember(&displacement, &RADAU.b().map(|b| b * h));
+        let step = Step { t: self.t, h, extension: self.extension, displacement, height };
+        if let Some(time) = self.model.wider().healing_time {
+            self.memory.fade((-h / time).exp());
+        }
+        self.memory.remember(&displacement, &solution.spent);
+        self.extension = step.extension_at_end(self.support.velocity(self.t));
+        if let Some((corner, height)) = self.corner.as_mut().zip(height) {
+            corner.arrive(&height, (step.t, h));
+        }
         self.t = step.end();
-        self.extension = step.extension_at_end(self.model.r());
         self.velocity = step::velocity_at_end(&displacement, h);
         self.curvature = solution.curvature_at_end;
-        let slope = self.surface.slope_and_curvature_on(&self.stretch, self.position()).0;
-        self.limits_from_before = (slope, self.force.value(self.t.next_down()));
+        self.limits_from_before = (self.relief_slope(), self.force.value(self.t.next_down()));
         self.last = Some(step);
         self.work.steps += 1;
         step
@@ -275,32 +316,16 @@ impl<'a, M: Memory> Integrator<'a, M> {
 
     /// x0 now.
     fn position(&self) -> f64 {
-        self.model.r() * self.t - self.extension
+        self.support.position(self.t) - self.extension
     }
 
-    /// The last stage polynomial continued, where it can be trusted to; else a straight line.
-    fn predict(&self, h: f64, longest: f64) -> Stages {
-        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.h) {
-            let guess = RADAU.continued(&last.displacement, h / last.h);
-            if guess.iter().all(|d| d.abs() < longest) {
-                return guess;
-            }
+    /// u0' at the tip, as much of it as is left.
+    fn relief_slope(&self) -> f64 {
+        let slope = self.surface.slope_and_curvature_on(&self.stretch, self.position()).0;
+        match self.model.wider().healing_time {
+            None => slope,
+            Some(_) => slope * self.model.wider().left_after(self.t - self.start),
         }
-        RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
-    }
-
-    /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
-    fn length_limit(&self) -> f64 {
-        let stretch = &self.stretch;
-        let speed = self.velocity.abs().max(1e-300);
-        let ahead = if self.velocity >= 0.0 {
-            stretch.high - self.position()
-        } else {
-            self.position() - stretch.low
-        };
-        let longest = step::longest_displacement(self.model.tip().band());
-        let distance = longest.min(1.2 * ahead.max(stretch.slack));
-        self.force.longest_step(self.t).min(distance / speed)
     }
 }
 
@@ -308,6 +333,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
 enum Retry {
     /// It erred too much.
     Shorter(f64),
-    /// It passed a knot of u0: it is to end there.
+    /// It passed a knot of u0, or the corner of |h|: it is to end there.
     ToKnot(f64),
+    /// It began at the corner of |h|, and went the other way.
+    OtherSide,
 }

@@ -12,6 +12,7 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
             state.number(number);
         }
         state.steps(self.last.iter());
+        self.corner.iter().for_each(|corner| corner.save(state));
         let Work { steps, rejected, newton_iterations } = self.work;
         [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));
         self.control.save(state);
@@ -23,6 +24,12 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         (self.velocity, self.curvature) = (state.finite()?, state.finite()?);
         self.limits_from_before = (state.finite()?, state.finite()?);
         self.last = state.steps()?.pop();
+        if let Some(corner) = &mut self.corner {
+            corner.restore(state)?;
+        }
+        if self.last.is_some_and(|last| last.height.is_some() != self.corner.is_some()) {
+            return Err(Damaged::OutOfRange);
+        }
         self.work = Work {
             steps: state.count()?,
             rejected: state.count()?,

@@ -1,10 +1,13 @@
-//! The s equations for the tip's displacement at the nodes of one step, and their Newton iteration.
+//! The equations for the tip's displacement at the nodes of one step, and their Newton iteration; under a
+//! depth limit for the heights under the tip too.
 
-use super::linear_system::Factors;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Memory};
-use crate::step::{Equations, Law, OwnGroove};
+use crate::step::{
+    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove,
+    OwnHeight,
+};
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 
@@ -16,7 +19,39 @@ pub(super) struct StageEquations<'a> {
     stretch: &'a Stretch,
     /// Position of the tip at the start of the step.
     x: f64,
-    equations: Equations,
+    equations: Equations<'a>,
+    depth: Option<Depth>,
+    left: Option<Left>,
+}
+
+/// What a step begins with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Begin {
+    pub(super) t: f64,
+    pub(super) h: f64,
+    /// Position of the tip.
+    pub(super) x: f64,
+    /// R - x0
+    pub(super) extension: f64,
+    /// Velocity of the support.
+    pub(super) velocity: f64,
+    /// Side of the corner of |h|.
+    pub(super) side: f64,
+    /// Time since the start of the run.
+    pub(super) age: f64,
+}
+
+/// What is left at the stages of what there was when the step, and when the run, began.
+struct Left {
+    past: Stages,
+    relief: Stages,
+}
+
+/// Displacements, and heights where there is a depth limit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unknowns {
+    pub(super) displacement: Stages,
+    pub(super) height: Stages,
 }
 
 /// How an iteration ended.
@@ -28,6 +63,10 @@ pub(super) struct Solved {
 
 pub(super) struct Solution {
     pub(super) displacement: Stages,
+    /// Heights at the nodes.
+    pub(super) height: Option<Stages>,
+    /// For how long, as it were, the tip indented at each node: what is left of it at the end of the step.
+    pub(super) spent: Stages,
     /// u_xx at the last node.
     pub(super) curvature_at_end: f64,
 }
@@ -40,31 +79,61 @@ const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 
 /// What one look at the groove tells.
 struct Look {
-    /// d - hAv
-    residual: Stages,
-    past_curvature: Stages,
-    u0_curvature: Stages,
+    known: Known,
     own: OwnGroove,
+    own_height: OwnHeight,
+    missed: Missed,
+}
+
+impl Look {
+    fn nothing() -> Self {
+        let zero = [0.0; STAGES];
+        Self {
+            known: Known::nothing(),
+            own: OwnGroove::nothing(),
+            own_height: OwnHeight::nothing(),
+            missed: Missed { displacement: zero, height: zero },
+        }
+    }
+}
+
+/// The Jacobian, factored: one of the two.
+struct Jacobian {
+    plain: Option<Factors>,
+    limited: Option<LimitedFactors>,
 }
 
 impl<'a> StageEquations<'a> {
-    /// For the step (t, h) that begins with the spring extended by the third number, rt - x0.
+    /// For the step that begins so.
     #[inline]
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
         (surface, stretch): (&'a InitialSurface, &'a Stretch),
         force: &Force,
-        (t, h, extension): (f64, f64, f64),
+        begin: Begin,
+        inertia: Option<&'a Inertia>,
     ) -> Self {
-        let law = Law::of(model);
+        let Begin { t, h, x, extension, velocity, side, age } = begin;
+        let (law, wider) = (Law { r: velocity, ..Law::of(model) }, model.wider());
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
         let mut pull = law.pull(extension, h);
         for (pull, c) in pull.iter_mut().zip(RADAU.c) {
             *pull += force.value((t + h * c).min(last));
         }
-        let x = model.r() * t - extension;
-        Self { model, apex, surface, stretch, x, equations: Equations::new(law, h, pull) }
+        let mut equations = Equations::new(law, h, pull);
+        if let Some(time) = wider.healing_time {
+            equations = equations.with_healing(time);
+        }
+        if let Some(inertia) = inertia {
+            equations = equations.with_inertia(inertia);
+        }
+        let left = wider.healing_time.map(|_| {
+            let past = RADAU.c.map(|c| wider.left_after(h * c));
+            Left { past, relief: past.map(|left| left * wider.left_after(age)) }
+        });
+        let depth = wider.depth_limit.map(|limit| Depth { limit, side });
+        Self { model, apex, surface, stretch, x, equations, depth, left }
     }
 
     /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
@@ -72,29 +141,33 @@ impl<'a> StageEquations<'a> {
     pub(super) fn solve(
         &self,
         memory: &mut impl Memory,
-        guess: Stages,
+        guess: Unknowns,
         enough: f64,
         most: f64,
     ) -> Solved {
-        let mut displacement = guess;
+        let Unknowns { mut displacement, mut height } = guess;
         let mut previous = f64::INFINITY;
         let mut ratio = 1.0;
-        let mut factors = None;
+        let mut jacobian = Jacobian { plain: None, limited: None };
         let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
+        let mut look = Look::nothing();
         for iterations in 1..=MOST_ITERATIONS {
-            let look = self.look(memory, &displacement);
+            self.look(memory, (&displacement, &height), &mut look);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
-                factors = Factors::of(self.equations.jacobian(
-                    &look.past_curvature,
-                    &look.u0_curvature,
-                    &look.own,
-                ));
+                self.factor(&mut jacobian, &look, &height);
             }
-            let Some(factors) = &factors else { return Solved { iterations, solution: None } };
-            let correction = factors.solve(&look.residual);
-            let size = correction.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-            for (d, c) in displacement.iter_mut().zip(correction) {
+            let Some(correction) = jacobian.corrections(&look.missed) else {
+                return Solved { iterations, solution: None };
+            };
+            let mut size = largest(&correction.displacement);
+            for (d, c) in displacement.iter_mut().zip(correction.displacement) {
                 *d -= c;
+            }
+            if self.depth.is_some() {
+                for (height, c) in height.iter_mut().zip(correction.height) {
+                    *height -= c;
+                    size = size.max(c.abs() / height.abs().max(1.0));
+                }
             }
             let in_range = displacement.iter().all(|d| d.abs() <= most);
             // The next correction would be smaller by this ratio at least.
@@ -103,8 +176,7 @@ impl<'a> StageEquations<'a> {
                 return Solved { iterations, solution: None };
             }
             if ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
-                let curvature_at_end = look.curvature_at_end(self.model.alpha());
-                let solution = Some(Solution { displacement, curvature_at_end });
+                let solution = Some(self.solution(displacement, height, &look.known));
                 return Solved { iterations, solution };
             }
             previous = size;
@@ -112,24 +184,82 @@ impl<'a> StageEquations<'a> {
         Solved { iterations: MOST_ITERATIONS, solution: None }
     }
 
-    fn look(&self, memory: &mut impl Memory, d: &Stages) -> Look {
-        let (mut past_slope, mut past_curvature) = ([0.0; STAGES], [0.0; STAGES]);
-        memory.groove(d, &mut Groove::new(&mut past_slope, &mut past_curvature));
-        let own = OwnGroove::near(self.apex, self.model.tip(), d);
-        let (mut u0_slope, mut u0_curvature) = ([0.0; STAGES], [0.0; STAGES]);
-        for i in 0..STAGES {
-            (u0_slope[i], u0_curvature[i]) =
-                self.surface.slope_and_curvature_on(self.stretch, self.x + d[i]);
+    fn solution(&self, displacement: Stages, height: Stages, known: &Known) -> Solution {
+        let end = STAGES - 1;
+        let mut spent = self.equations.carving()[end];
+        if let Some(depth) = &self.depth {
+            let weights = depth.weights(&height);
+            spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= weight);
         }
-        let velocity = self.equations.velocity(d, &past_slope, &u0_slope, &own);
-        let residual = self.equations.residual(d, &velocity);
-        Look { residual, past_curvature, u0_curvature, own }
+        let past = self.model.alpha() * known.past_curvature[end];
+        let curvature_at_end = known.relief_curvature[end] - past;
+        let height = self.depth.map(|_| height);
+        Solution { displacement, height, spent, curvature_at_end }
+    }
+
+    /// Factors the Jacobian afresh.
+    fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
+        let known = &look.known;
+        if let Some(depth) = &self.depth {
+            let own = (&look.own, &look.own_height);
+            jacobian.limited = depth.factors(&self.equations, height, known, own);
+            return;
+        }
+        let (past, relief) = (&known.past_curvature, &known.relief_curvature);
+        let matrix: Matrix = self.equations.jacobian(past, relief, &look.own);
+        jacobian.plain = Factors::of(matrix);
+    }
+
+    #[inline]
+    fn look(&self, memory: &mut impl Memory, (d, height): (&Stages, &Stages), look: &mut Look) {
+        let Look { known, own, own_height, missed } = look;
+        self.know(memory, d, known);
+        *own = OwnGroove::near(self.apex, self.model.tip(), d);
+        if let Some(depth) = &self.depth {
+            *own_height = OwnHeight::near(self.apex, self.model.tip(), d);
+            *missed = depth.missed(&self.equations, (d, height), known, (own, own_height));
+            return;
+        }
+        let velocity = self.equations.velocity(d, &known.past_slope, &known.relief_slope, own);
+        missed.displacement = self.equations.residual(d, &velocity);
+    }
+
+    /// What memory and surface tell at these displacements.
+    #[inline]
+    fn know(&self, memory: &mut impl Memory, d: &Stages, known: &mut Known) {
+        let mut groove = Groove::new(&mut known.past_slope, &mut known.past_curvature);
+        if self.depth.is_some() {
+            groove = groove.with_height(&mut known.past_height);
+        }
+        memory.groove(d, &mut groove);
+        if !self.stretch.flat {
+            let relief = known.relief_slope.iter_mut().zip(&mut known.relief_curvature);
+            for ((slope, curvature), d) in relief.zip(d) {
+                (*slope, *curvature) =
+                    self.surface.slope_and_curvature_on(self.stretch, self.x + d);
+            }
+        }
+        if self.depth.is_some() {
+            known.relief_height = d.map(|d| self.surface.height_on(self.stretch, self.x + d));
+        }
+        if let Some(left) = &self.left {
+            known.fade(&left.past, &left.relief);
+        }
     }
 }
 
-impl Look {
-    /// u_xx at the last node.
-    fn curvature_at_end(&self, alpha: f64) -> f64 {
-        self.u0_curvature[STAGES - 1] - alpha * self.past_curvature[STAGES - 1]
+impl Jacobian {
+    /// `None` where it is singular.
+    #[inline]
+    fn corrections(&self, missed: &Missed) -> Option<Missed> {
+        if let Some(limited) = &self.limited {
+            return Some(limited.corrections(missed));
+        }
+        let displacement = self.plain.as_ref()?.solve(&missed.displacement);
+        Some(Missed { displacement, height: [0.0; STAGES] })
     }
+}
+
+fn largest(values: &Stages) -> f64 {
+    values.iter().fold(0.0, |m: f64, value| m.max(value.abs()))
 }

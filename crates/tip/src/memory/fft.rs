@@ -120,6 +120,15 @@ impl Fft {
         direct::add(self.pending.iter().copied(), &self.tip, (self.position, at), groove);
     }
 
+    /// All weights times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.pending.iter_mut().for_each(|(_, weight)| *weight *= factor);
+        self.density.scale(factor);
+        let first = self.field.first_cell();
+        self.convolver.convolve(&self.density, first, &mut self.field);
+        self.heights.iter_mut().for_each(|heights| heights.current = false);
+    }
+
     /// Moves what is pending into the density, and the field to where the tip is now.
     fn fold(&mut self) -> Lattice {
         for (position, weight) in self.pending.drain(..) {

@@ -1,4 +1,4 @@
-//! What a memory does: it remembers visits, and tells the groove.
+//! What a memory does: it remembers visits, lets them fade, and tells the groove.
 
 use crate::TipFunction;
 
@@ -7,6 +7,9 @@ pub trait Memory {
     /// Remembers visits: the tip spent the time `weight[j]` at `position[j]`, and now stands at the last of
     /// these positions. A time may be multiplied by how strongly the tip indented then.
     fn remember(&mut self, position: &[f64], weight: &[f64]);
+
+    /// Lets all that it remembers count by this factor, at most 1: a surface heals.
+    fn fade(&mut self, factor: f64);
 
     /// Tells the groove at the points x = tip + `at`, each at most [`longest_look`] from the tip.
     fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>);
@@ -33,6 +36,13 @@ impl<'a> Groove<'a> {
     #[must_use]
     pub fn with_height(self, height: &'a mut [f64]) -> Self {
         Self { height: Some(height), ..self }
+    }
+
+    /// All of it times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        let height = self.height.iter_mut().flat_map(|height| height.iter_mut());
+        let told = self.slope.iter_mut().chain(self.curvature.iter_mut()).chain(height);
+        told.for_each(|told| *told *= factor);
     }
 
     /// Nothing carved.

@@ -1,7 +1,8 @@
 //! All that the past does to the tip: the groove that it left.
 //!
 //! A memory has two verbs: it is told of visits, where the tip was and for how long, and tells the groove
-//! about a place: height, slope and curvature of ∫ f(x - x0(t'))dt'. It is indifferent to time: what the tip
+//! about a place: height, slope and curvature of ∫ f(x - x0(t'))dt'. (Where the surface heals, a third lets
+//! all of it fade.) It is indifferent to time: what the tip
 //! left at a distance beyond the reach of f is out of sight, what it left nearby is never forgotten.
 //!
 //! Three sums give the groove: `direct`, the definition; `fft`, a convolution; `modes`, a few exponentials.

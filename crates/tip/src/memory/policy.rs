@@ -1,5 +1,6 @@
 //! Which sum over the past is in use: the one place that decides between `direct`, `fft` and `modes`.
 
+mod fading;
 mod saved;
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
@@ -10,6 +11,7 @@ use super::modes::{Fit, FitError, Modes};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
+use fading::Fading;
 use std::sync::Arc;
 
 /// The memory of a run: one record of the past, and the sum over it that was chosen.
@@ -26,6 +28,9 @@ pub struct Policy {
     accuracy: f64,
     record: Option<Record>,
     now: Now,
+    fading: Fading,
+    /// Room for weights in the measure of the sums.
+    measured: Vec<f64>,
 }
 
 /// The sum in use.
@@ -54,21 +59,23 @@ impl Policy {
             MemoryChoice::Fft => with_fft(&tip, nothing(), None),
             MemoryChoice::Modes => with_modes(&tip, Fit::cached(&tip, accuracy)?, nothing()),
         };
-        Ok(Self { tip, choice, accuracy, record, now })
+        Ok(Self { tip, choice, accuracy, record, now, fading: Fading::default(), measured: vec![] })
     }
 
     /// The definition.
     #[must_use]
     pub fn direct(tip: TipFunction) -> Self {
         let record = Some(Record::whole(&tip));
-        Self { tip, choice: MemoryChoice::Direct, accuracy: 0.0, record, now: Now::Direct }
+        let (choice, fading) = (MemoryChoice::Direct, Fading::default());
+        Self { tip, choice, accuracy: 0.0, record, now: Now::Direct, fading, measured: vec![] }
     }
 
     /// The convolution.
     #[must_use]
     pub fn fft(tip: TipFunction) -> Self {
         let (record, now) = with_fft(&tip, std::iter::empty(), None);
-        Self { tip, choice: MemoryChoice::Fft, accuracy: 0.0, record, now }
+        let (choice, fading) = (MemoryChoice::Fft, Fading::default());
+        Self { tip, choice, accuracy: 0.0, record, now, fading, measured: vec![] }
     }
 
     /// The sum of these exponentials, however good it is.
@@ -79,7 +86,8 @@ impl Policy {
         tip.reach().ok_or(FitError::NeverFades)?;
         let accuracy = fit.wanted();
         let (record, now) = with_modes(&tip, fit, std::iter::empty());
-        Ok(Self { tip, choice: MemoryChoice::Modes, accuracy, record, now })
+        let (choice, fading) = (MemoryChoice::Modes, Fading::default());
+        Ok(Self { tip, choice, accuracy, record, now, fading, measured: vec![] })
     }
 
     /// Which sum is in use, and why.
@@ -103,6 +111,8 @@ impl Policy {
     pub fn forgotten(&self) -> Option<f64> {
         match &self.now {
             Now::Fft(fft, _) => fft.forgotten(),
+            // They hold wherever the tip goes, and need no record.
+            Now::Modes(modes, _) if modes.fit().retreat().is_infinite() => None,
             Now::Direct | Now::Modes(..) => self.record.as_ref().and_then(Record::forgotten),
         }
     }
@@ -147,8 +157,9 @@ impl Policy {
     }
 }
 
-impl Memory for Policy {
-    fn remember(&mut self, position: &[f64], weight: &[f64]) {
+impl Policy {
+    /// Visits of these weights in the measure of the sums.
+    fn remember_scaled(&mut self, position: &[f64], weight: &[f64]) {
         if let Some(record) = &mut self.record {
             record.remember(position, weight);
         }
@@ -170,7 +181,8 @@ impl Memory for Policy {
         self.decide();
     }
 
-    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
+    /// The groove in the measure of the sums.
+    fn groove_scaled(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         match (&mut self.now, &self.record) {
             (Now::Fft(fft, _), _) => fft.groove(at, groove),
             (Now::Modes(_, Retreats { fft: Some(fft), .. }), _) => fft.groove(at, groove),
@@ -186,6 +198,30 @@ impl Memory for Policy {
                 }
             }
             (Now::Direct | Now::Modes(..), None) => unreachable!("they have a record"),
+        }
+    }
+}
+
+impl Memory for Policy {
+    fn remember(&mut self, position: &[f64], weight: &[f64]) {
+        let Some(left) = self.fading.left() else { return self.remember_scaled(position, weight) };
+        let mut measured = std::mem::take(&mut self.measured);
+        measured.clear();
+        measured.extend(weight.iter().map(|weight| weight / left));
+        self.remember_scaled(position, &measured);
+        self.measured = measured;
+    }
+
+    fn fade(&mut self, factor: f64) {
+        if let Some(scale) = self.fading.by(factor) {
+            self.scale(scale);
+        }
+    }
+
+    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
+        self.groove_scaled(at, groove);
+        if let Some(left) = self.fading.left() {
+            groove.scale(left);
         }
     }
 }

@@ -173,6 +173,14 @@ impl Record {
         }
     }
 
+    /// All weights times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.nodes.iter_mut().for_each(|(_, weight)| *weight *= factor);
+        if let Kept::Gathered(bins) = &mut self.kept {
+            bins.moments.iter_mut().flatten().for_each(|moment| *moment *= factor);
+        }
+    }
+
     /// Displacements from the tip, and weights, of all that is kept.
     pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         let bins = match &self.kept {

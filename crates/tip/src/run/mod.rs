@@ -60,7 +60,8 @@ pub fn run_observed(
     let (work, memory) = (running.work(), running.memory());
     let memory_reason = running.memory_reason();
     drop(running);
-    let trajectory = Trajectory::new(scenario.model.r(), steps);
+    let wider = *scenario.model.wider();
+    let trajectory = Trajectory::under(wider, scenario.support(), steps);
     let initial_surface = surface;
     Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted })
 }

@@ -27,7 +27,8 @@ impl<'a> Running<'a> {
             scenario.new_memory()?,
             start,
             scenario.tolerance,
-        );
+        )
+        .moved_by(scenario.support(), scenario.velocity_at_start());
         Ok(Self { scenario, integrator })
     }
 

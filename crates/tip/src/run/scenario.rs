@@ -4,7 +4,9 @@ use crate::integrator::IntegrationError;
 use crate::memory::{FitError, MemoryChoice, Policy, accuracy_needed};
 use crate::series::SeriesError;
 use crate::state::Damaged;
-use crate::{Force, InitialSurface, Model, Noise};
+use crate::support::PathError;
+use crate::{Force, InitialSurface, Model, Noise, Support, SupportPath, TipFunction};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What the tip finds when it starts.
@@ -27,6 +29,10 @@ pub struct Scenario {
     pub start_position: f64,
     /// The tip starts at X - kick, so that l is `kick` above its start value.
     pub kick: f64,
+    /// A motion of the support of its own, from t = 0 on; `None`: it moves with r.
+    pub path: Option<SupportPath>,
+    /// Velocity V of a tip with inertia at the start; `None`: r on a steady start, 0 on a flat one.
+    pub start_velocity: Option<f64>,
     /// Noise added to the initial surface.
     pub noise: Option<Noise>,
     /// Profile (x, u) added to the initial surface.
@@ -50,6 +56,30 @@ pub enum RunError {
     /// The kick is not finite.
     #[error("the kick must be a finite number, not {0:?}")]
     Kick(f64),
+    /// The start velocity is not finite, or means nothing.
+    #[error(
+        "a start velocity of {0:?}: it must be a finite number, and only a tip with inertia has one of its own (without, the surface and the forces decide)"
+    )]
+    StartVelocity(f64),
+    /// The path of the support cannot be taken.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A path for a support that is not there.
+    #[error("without a spring there is no support that could move on a path")]
+    PathWithoutSpring,
+    /// The path ends before the run does.
+    #[error(
+        "the path of the support ends at t = {end:?}, before the end of the run at {until:?}: end the run there, or go on with the path"
+    )]
+    PathEnds {
+        /// Its last time.
+        end: f64,
+        /// End asked for.
+        until: f64,
+    },
+    /// There is no steady motion to start from.
+    #[error("{0}")]
+    NoSteadyStart(&'static str),
     /// The run would end before it begins.
     #[error("the run starts at t = {start:?}: it must end after that, not at {until:?}")]
     Until {
@@ -130,6 +160,8 @@ impl Scenario {
             start: Start::Steady,
             start_position: 14.0,
             kick: 0.0,
+            path: None,
+            start_velocity: None,
             noise: None,
             profile: None,
             force: Force::default(),
@@ -139,14 +171,43 @@ impl Scenario {
         }
     }
 
-    /// Time t1 at which the run starts.
+    /// Time t1 at which the run starts: when the support, moving with r, is where it is to be then; 0 for one
+    /// that moves on a path, or where there is none.
     #[must_use]
     pub fn start_time(&self) -> f64 {
+        if self.path.is_some() || !self.model.wider().spring {
+            return 0.0;
+        }
         (self.start_position + self.start_extension()) / self.model.r()
     }
 
-    /// rt - x0 at the start, before the kick.
+    /// What pulls the tip along.
+    #[must_use]
+    pub fn support(&self) -> Support {
+        match &self.path {
+            _ if !self.model.wider().spring => Support::None,
+            Some(path) => {
+                let start = self.start_position + self.start_extension();
+                Support::Path(Arc::new(path.clone().starting_at(start)))
+            }
+            None => Support::Moving(self.model.r()),
+        }
+    }
+
+    /// Velocity with which a tip with inertia starts.
+    #[must_use]
+    pub fn velocity_at_start(&self) -> f64 {
+        self.start_velocity.unwrap_or(match self.start {
+            Start::Steady => self.model.r(),
+            Start::Flat => 0.0,
+        })
+    }
+
+    /// R - x0 at the start, before the kick.
     pub(super) fn start_extension(&self) -> f64 {
+        if !self.model.wider().spring {
+            return -self.start_position;
+        }
         match self.start {
             Start::Steady => self.model.steady_lag(),
             Start::Flat => 0.0,
@@ -173,8 +234,51 @@ impl Scenario {
     }
 
     fn noise_range(&self) -> (f64, f64) {
-        let last = (self.model.r() * self.until).max(self.start_position);
+        let last = self.farthest().max(self.start_position);
         (self.start_position - NOISE_BEYOND, last + NOISE_BEYOND)
+    }
+
+    /// Where the support goes at the farthest.
+    fn farthest(&self) -> f64 {
+        match self.support() {
+            Support::Moving(r) => r * self.until,
+            Support::None => self.start_position,
+            Support::Path(path) => {
+                let (_, displacement) = path.knots();
+                let most = displacement.iter().copied().fold(0.0, f64::max);
+                self.start_position + self.start_extension() + most
+            }
+        }
+    }
+
+    /// What the wider law asks of a start.
+    fn validate_wider(&self) -> Result<(), RunError> {
+        let wider = self.model.wider();
+        if let Some(path) = &self.path {
+            if !wider.spring {
+                return Err(RunError::PathWithoutSpring);
+            }
+            if path.end() < self.until {
+                return Err(RunError::PathEnds { end: path.end(), until: self.until });
+            }
+        }
+        if let Some(v) = self.start_velocity
+            && !(v.is_finite() && (wider.inertia.is_some() || v.abs() <= 0.0))
+        {
+            return Err(RunError::StartVelocity(v));
+        }
+        if self.start == Start::Steady && !wider.spring {
+            return Err(RunError::NoSteadyStart(
+                "without a spring nothing drags the tip: it starts on a flat surface",
+            ));
+        }
+        let endless = *self.model.tip() == TipFunction::Cosine && wider.healing_time.is_none();
+        if self.start == Start::Steady && endless {
+            return Err(RunError::NoSteadyStart(
+                "the tip cosine goes on for ever, and so does what it left in steady motion: start on a flat surface, or let the surface heal",
+            ));
+        }
+        Ok(())
     }
 
     /// # Errors
@@ -193,8 +297,9 @@ impl Scenario {
         if !(TOLERANCES.0..=TOLERANCES.1).contains(&self.tolerance) {
             return Err(RunError::Tolerance(self.tolerance));
         }
+        self.validate_wider()?;
         let textured = self.noise.is_some() || self.profile.is_some();
-        let last = if textured { self.model.r() * until } else { 0.0 };
+        let last = if textured { self.farthest() } else { 0.0 };
         let x = self.start_position.abs().max(last);
         if f64::EPSILON * x > SHARE_OF_ROUNDING * self.tolerance {
             return Err(RunError::TooFar { x, tolerance: self.tolerance });

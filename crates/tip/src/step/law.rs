@@ -1,23 +1,29 @@
 //! The velocity of the tip, and the equations that it makes for the stages of a step.
 
+use super::healing::healing;
+use super::inertia::Inertia;
 use super::own::{Matrix, OwnGroove, carving};
 use crate::Model;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
-/// (15) as a function of where the tip is: v = α g - u0' + p - d, with g = ∫ f' over the past.
+/// The force on a tip, (15), as a function of where it is: α g - u0' + p - κd, with g = ∫ f' over the past.
+/// Without inertia it is the tip's velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
     /// α
     pub alpha: f64,
-    /// r
+    /// Velocity of the support: r, where it does not change.
     pub r: f64,
+    /// κ: 1, or 0 without a spring.
+    pub spring: f64,
 }
 
 impl Law {
     /// That of a model.
     #[must_use]
     pub fn of(model: &Model) -> Self {
-        Self { alpha: model.alpha(), r: model.r() }
+        let spring = if model.wider().spring { 1.0 } else { 0.0 };
+        Self { alpha: model.alpha(), r: model.r(), spring }
     }
 
     /// The pull of the support where the tip stood when the step began: its spring was extended by
@@ -25,57 +31,108 @@ impl Law {
     #[must_use]
     #[inline]
     pub fn pull(&self, extension: f64, h: f64) -> Stages {
-        RADAU.c.map(|c| extension + self.r * h * c)
+        RADAU.c.map(|c| self.spring * (extension + self.r * h * c))
     }
 
     /// Velocity at a displacement d under the pull p, on a relief of this slope.
     #[must_use]
     #[inline]
     pub fn velocity(&self, pull: f64, d: f64, relief: f64, groove: f64) -> f64 {
-        pull - d - relief + self.alpha * groove
+        pull - self.spring * d - relief + self.alpha * groove
     }
 
     /// ∂v/∂d, where relief and groove have these curvatures.
     #[must_use]
     #[inline]
     pub fn velocity_slope(&self, relief: f64, groove: f64) -> f64 {
-        self.alpha * groove - relief - 1.0
+        self.alpha * groove - relief - self.spring
     }
 }
 
 /// The equations of one step, d = hAv.
 #[derive(Debug, Clone)]
-pub struct Equations {
+pub struct Equations<'a> {
     law: Law,
     h: f64,
-    /// rt - x0(start) and forces at the nodes: all of the velocity that does not depend on d.
+    /// κ(R - x0(start)) and forces at the nodes: all of the velocity that does not depend on d.
     pull: Stages,
-    /// hA
+    /// hA, or what healing makes of it.
     carving: Matrix,
+    heals: bool,
+    inertia: Option<&'a Inertia>,
 }
 
-impl Equations {
+impl<'a> Equations<'a> {
     /// Of a step of length h under this pull.
     #[must_use]
     #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
-        Self { law, h, pull, carving: carving(h) }
+        Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
     }
 
-    /// v at the stages. `past` and `relief` are the slopes of what was carved before the step and of what the
-    /// surface held before the run.
+    /// On a surface that heals in this time.
+    #[must_use]
+    pub fn with_healing(mut self, time: f64) -> Self {
+        (self.carving, self.heals) = (healing(self.h, time), true);
+        self
+    }
+
+    /// With a tip of this inertia, in a step of the same length.
+    #[must_use]
+    pub fn with_inertia(self, inertia: &'a Inertia) -> Self {
+        Self { inertia: Some(inertia), ..self }
+    }
+
+    /// How much of what each stage leaves is there at each stage; the last row is what stays.
+    #[must_use]
+    pub fn carving(&self) -> &Matrix {
+        &self.carving
+    }
+
+    /// α times that.
+    #[must_use]
+    pub fn indenting(&self) -> Matrix {
+        if self.heals {
+            return self.carving.map(|row| row.map(|b| self.law.alpha * b));
+        }
+        carving(self.law.alpha * self.h)
+    }
+
+    /// α
+    pub(super) fn alpha(&self) -> f64 {
+        self.law.alpha
+    }
+
+    /// The force at the stages: v without inertia. `past` and `relief` are the slopes of what was carved before
+    /// the step and of what the surface held before the run.
     #[must_use]
     #[inline]
     pub fn velocity(&self, d: &Stages, past: &Stages, relief: &Stages, own: &OwnGroove) -> Stages {
+        self.velocity_with(&self.carving, d, (past, relief), own)
+    }
+
+    /// The same where what each stage leaves is another matrix.
+    #[must_use]
+    #[inline]
+    pub(super) fn velocity_with(
+        &self,
+        carving: &Matrix,
+        d: &Stages,
+        (past, relief): (&Stages, &Stages),
+        own: &OwnGroove,
+    ) -> Stages {
         let mut groove = *past;
-        own.add_slope(&self.carving, &mut groove);
+        own.add_slope(carving, &mut groove);
         std::array::from_fn(|i| self.law.velocity(self.pull[i], d[i], relief[i], groove[i]))
     }
 
-    /// d - hAv
+    /// d - hAv, or what inertia makes of it.
     #[must_use]
     #[inline]
     pub fn residual(&self, d: &Stages, velocity: &Stages) -> Stages {
+        if let Some(inertia) = self.inertia {
+            return inertia.residual(d, velocity);
+        }
         let carried = apply(&RADAU.a, velocity);
         std::array::from_fn(|i| d[i] - self.h * carried[i])
     }
@@ -84,20 +141,42 @@ impl Equations {
     #[must_use]
     #[inline]
     pub fn jacobian(&self, past: &Stages, relief: &Stages, own: &OwnGroove) -> Matrix {
+        self.jacobian_with(&self.indenting(), (past, relief), own)
+    }
+
+    /// The same where what each stage indents is another matrix.
+    #[must_use]
+    #[inline]
+    pub(super) fn jacobian_with(
+        &self,
+        indenting: &Matrix,
+        (past, relief): (&Stages, &Stages),
+        own: &OwnGroove,
+    ) -> Matrix {
         let mut derivatives = [[0.0; STAGES]; STAGES];
         for (i, row) in derivatives.iter_mut().enumerate() {
             row[i] = self.law.velocity_slope(relief[i], past[i]);
         }
-        own.add_derivatives(&carving(self.law.alpha * self.h), &mut derivatives);
+        own.add_derivatives(indenting, &mut derivatives);
         let mut jacobian = [[0.0; STAGES]; STAGES];
-        for (i, row) in jacobian.iter_mut().enumerate() {
-            row[i] = 1.0;
-            for (a, derivatives) in RADAU.a[i].iter().zip(&derivatives) {
-                let factor = self.h * a;
+        jacobian.iter_mut().enumerate().for_each(|(i, row)| row[i] = 1.0);
+        self.less_carried(jacobian, &derivatives)
+    }
+
+    /// A matrix less hA times one of derivatives of the force.
+    #[inline]
+    pub(super) fn less_carried(&self, mut matrix: Matrix, derivatives: &Matrix) -> Matrix {
+        let (carried, h) = match self.inertia {
+            None => (&RADAU.a, self.h),
+            Some(inertia) => (inertia.carried(), 1.0),
+        };
+        for (row, carried) in matrix.iter_mut().zip(carried) {
+            for (a, derivatives) in carried.iter().zip(derivatives) {
+                let factor = h * a;
                 row.iter_mut().zip(derivatives).for_each(|(entry, d)| *entry -= factor * d);
             }
         }
-        jacobian
+        matrix
     }
 }
 
@@ -119,7 +198,7 @@ mod tests {
     #[test]
     fn the_jacobian_is_that_of_the_residual() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let law = Law { alpha: 1.3, r: 0.8 };
+        let law = Law { alpha: 1.3, r: 0.8, spring: 1.0 };
         for (h, length) in [(0.4, 0.3), (3.0, 2.5), (0.01, -1.0)] {
             let equations = Equations::new(law, h, law.pull(0.9, h));
             let d: Stages = RADAU.c.map(|c| length * c * (1.0 - 0.4 * c));
@@ -152,7 +231,7 @@ mod tests {
     #[test]
     fn the_polynomial_of_the_apex_gives_the_same_equations() {
         let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
-        let (apex, law) = (Apex::new(&tip, 1e-14), Law { alpha: 1.3, r: 0.8 });
+        let (apex, law) = (Apex::new(&tip, 1e-14), Law { alpha: 1.3, r: 0.8, spring: 1.0 });
         let equations = Equations::new(law, 0.5, law.pull(0.9, 0.5));
         // Near, and beyond where any polynomial holds.
         for length in [0.1, 1.0, 30.0] {

@@ -44,6 +44,11 @@ pub fn carving(factor: f64) -> Matrix {
 }
 
 impl OwnGroove {
+    /// Not yet known.
+    pub(crate) fn nothing() -> Self {
+        Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] }
+    }
+
     /// Under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
@@ -67,6 +72,15 @@ impl OwnGroove {
         Self { slope, curvature }
     }
 
+    /// `f'(d_i - d_k)`
+    pub(super) fn slopes(&self) -> Matrix {
+        let mut slopes = [[0.0; STAGES]; STAGES];
+        for (slope, (i, k)) in self.slope[..IDLE].iter().zip(PAIRS) {
+            (slopes[i][k], slopes[k][i]) = (*slope, -slope);
+        }
+        slopes
+    }
+
     /// Adds `Σ_k b_ik f'(d_i - d_k)`.
     #[inline]
     pub fn add_slope(&self, b: &Matrix, groove: &mut Stages) {
@@ -85,6 +99,52 @@ impl OwnGroove {
             derivatives[i][k] -= to_i;
             derivatives[k][k] += to_k;
             derivatives[k][i] -= to_k;
+        }
+    }
+}
+
+/// f at `d_i - d_k`: the height of the groove that the step carves, `Σ_k b_ik f(d_i - d_k)`.
+#[derive(Debug, Clone, Copy)]
+pub struct OwnHeight {
+    value: Pairs,
+    apex: f64,
+}
+
+impl OwnHeight {
+    /// Not yet known.
+    pub(crate) fn nothing() -> Self {
+        Self { value: [0.0; PAIRS.len()], apex: 0.0 }
+    }
+
+    /// Under stages at these displacements.
+    #[must_use]
+    pub fn new(tip: &TipFunction, d: &Stages) -> Self {
+        let value = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));
+        Self { value, apex: tip.value(0.0) }
+    }
+
+    /// The same by the polynomial of the apex, where that holds.
+    pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
+        let mut value = [0.0; PAIRS.len()];
+        if apex.values(&PAIRS.map(|(i, k)| d[i] - d[k]), &mut value) {
+            return Self { value, apex: value[IDLE] };
+        }
+        Self::new(tip, d)
+    }
+
+    /// `f(d_i - d_k)`
+    pub(super) fn values(&self) -> Matrix {
+        let mut values = [[self.apex; STAGES]; STAGES];
+        for (value, (i, k)) in self.value[..IDLE].iter().zip(PAIRS) {
+            (values[i][k], values[k][i]) = (*value, *value);
+        }
+        values
+    }
+
+    /// Adds `Σ_k b_ik f(d_i - d_k)`.
+    pub(super) fn add(&self, b: &Matrix, height: &mut Stages) {
+        for (height, (b, values)) in height.iter_mut().zip(b.iter().zip(self.values())) {
+            *height += b.iter().zip(values).map(|(b, value)| b * value).sum::<f64>();
         }
     }
 }

@@ -1,4 +1,4 @@
-//! f' near the apex, as the polynomial that its Taylor series is there.
+//! f and f' near the apex, as the polynomials that their Taylor series are there.
 
 use super::TipFunction;
 
@@ -9,6 +9,9 @@ pub(crate) struct Apex {
     /// `c_k`, and `(2k+1) c_k` for f''.
     slope: [f64; MOST_TERMS],
     curvature: [f64; MOST_TERMS],
+    /// f(0), and `c_k/(2k+2)` for f.
+    top: f64,
+    value: [f64; MOST_TERMS],
     /// `lengths[n]` is how far n + 1 terms reach.
     lengths: [f64; MOST_TERMS],
 }
@@ -23,6 +26,8 @@ impl Apex {
         let mut apex = Self {
             slope: [0.0; MOST_TERMS],
             curvature: [0.0; MOST_TERMS],
+            top: tip.value(0.0),
+            value: [0.0; MOST_TERMS],
             lengths: [0.0; MOST_TERMS],
         };
         let taylor = tip.taylor(2 * MOST_TERMS);
@@ -30,6 +35,7 @@ impl Apex {
             let degree = (2 * k + 1) as f64;
             apex.slope[k] = (degree + 1.0) * taylor[2 * k + 2];
             apex.curvature[k] = degree * apex.slope[k];
+            apex.value[k] = taylor[2 * k + 2];
         }
         let size = tip.derivative_bound(1).max(f64::MIN_POSITIVE);
         let mut log_factorial = 0.0;
@@ -70,6 +76,18 @@ impl Apex {
         true
     }
 
+    /// f at all of `d`; false where one is too far out.
+    pub(crate) fn values<const N: usize>(&self, d: &[f64; N], value: &mut [f64; N]) -> bool {
+        let Some(terms) = self.terms(d) else { return false };
+        let y = d.map(|d| d * d);
+        *value = [0.0; N];
+        for c in self.value[..terms].iter().rev() {
+            value.iter_mut().zip(&y).for_each(|(value, y)| *value = *value * y + c);
+        }
+        value.iter_mut().zip(y).for_each(|(value, y)| *value = *value * y + self.top);
+        true
+    }
+
     /// Terms that reach the farthest of them.
     fn terms(&self, d: &[f64]) -> Option<usize> {
         let farthest = d.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
@@ -103,9 +121,17 @@ mod tests {
                     let d = [length * (1.0 - 1e-12), -0.7 * length, 0.1 * length, 0.0];
                     let (mut slope, mut curvature) = ([0.0; 4], [0.0; 4]);
                     assert!(apex.slopes_and_curvatures(&d, &mut slope, &mut curvature));
+                    let mut value = [0.0; 4];
+                    assert!(apex.values(&d, &mut value));
                     for i in 0..4 {
                         let (f1, f2) = tip.slope_and_curvature(d[i]);
                         let allowed = (error + 1e-13) * size;
+                        let miss = (value[i] - tip.value(d[i])).abs();
+                        assert!(
+                            miss < allowed * length.max(1.0),
+                            "{tip:?} {error} {} {miss}",
+                            d[i]
+                        );
                         assert!(
                             (slope[i] - f1).abs() < allowed,
                             "{tip:?} {error} {} {f1} {}",

@@ -2,15 +2,18 @@
 
 mod apex;
 mod bessel;
+mod cosine;
+mod error;
+mod fading;
 mod gaussian;
 mod scale;
 pub(crate) mod table;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
+pub use error::TipFunctionError;
 pub use gaussian::{Gaussian, GaussianSum};
 pub use scale::{BAND_OF_A_GAUSSIAN, widths};
-use thiserror::Error;
 
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,116 +22,12 @@ pub enum TipFunction {
     Gaussians(GaussianSum),
     /// J0(x), the analytically tractable example of section IV.C.
     Bessel,
+    /// cos x: a tip whose surface keeps one wave. Without a spring, and with α < 0, it is the Lorenz system.
+    Cosine,
 }
 
 /// Products of three numbers within this and their inverses are finite.
 const LARGEST: f64 = 1e100;
-
-/// Why a footprint was refused.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum TipFunctionError {
-    /// No Gaussian, or none with an amplitude other than 0.
-    #[error(
-        "the tip function is zero everywhere: give at least one Gaussian with an amplitude other than 0"
-    )]
-    Zero,
-    /// A Gaussian with a parameter that is not finite.
-    #[error("Gaussian number {index}: amplitude, center and width must be finite numbers")]
-    NotFinite {
-        /// Counted from 1.
-        index: usize,
-    },
-    /// A Gaussian whose width is not positive.
-    #[error("Gaussian number {index} has width {width}: a width must be above 0")]
-    Width {
-        /// Counted from 1.
-        index: usize,
-        /// As given.
-        width: f64,
-    },
-    /// A Gaussian whose numbers, multiplied with each other, leave floating point.
-    #[error(
-        "Gaussian number {index}: amplitude and center may be at most {largest:e} in size, the width between {smallest:e} and {largest:e}",
-        smallest = 1.0 / LARGEST, largest = LARGEST
-    )]
-    OutOfRange {
-        /// Counted from 1.
-        index: usize,
-    },
-    /// A Gaussian off the origin without its mirror image.
-    #[error(
-        "the tip function is not even: the Gaussian at center {center} lacks a twin of the same amplitude and width at {mirror}",
-        mirror = -center
-    )]
-    NotEven {
-        /// Center of the Gaussian that stands alone.
-        center: f64,
-    },
-    /// A two-dimensional Gaussian off the line y = 0 without its mirror image.
-    #[error(
-        "the tip function is not even in y: the Gaussian at center {center}, center_y {center_y} lacks a twin of the same amplitude and widths at center_y {mirror}"
-    )]
-    NotEvenAcross {
-        /// Center in x of the Gaussian that stands alone.
-        center: f64,
-        /// Its center in y.
-        center_y: f64,
-        /// Where its twin should be.
-        mirror: f64,
-    },
-    /// A table of f(x,y) that is no full grid.
-    #[error(
-        "the table has {points} rows, no full grid of its {x} values of x and {y} values of y: give every x for every y, each once"
-    )]
-    TableGrid {
-        /// Rows given.
-        points: usize,
-        /// Distinct x.
-        x: usize,
-        /// Distinct y.
-        y: usize,
-    },
-    /// Side lobes that are not finite.
-    #[error("beta is {0:?}: it must be a finite number")]
-    Beta(f64),
-    /// A table with too few or too many rows.
-    #[error("the table has {found} rows: between {min} and {max} are needed")]
-    TableLength {
-        /// Rows given.
-        found: usize,
-        /// Fewest that define a shape.
-        min: usize,
-        /// Most that are taken; thin the table above that.
-        max: usize,
-    },
-    /// A table entry that is not finite.
-    #[error("row {row} of the table is not a pair of finite numbers")]
-    TableNotFinite {
-        /// Counted from 1.
-        row: usize,
-    },
-    /// A table whose x do not increase.
-    #[error("row {row} of the table has x = {x}: x must increase from row to row")]
-    TableUnsorted {
-        /// Counted from 1.
-        row: usize,
-        /// As given.
-        x: f64,
-    },
-    /// A table that does not begin at x = 0.
-    #[error("the table starts at x = {0}: it must start at x = 0 (f is even, so x ≥ 0 is enough)")]
-    TableStart(f64),
-    /// A table whose last value is not small.
-    #[error(
-        "the table does not decay: its last value is {ratio:.1e} of its largest, at most {most:.0e} will do; sample further out"
-    )]
-    TableDecay {
-        /// |f at the last x| / max |f|.
-        ratio: f64,
-        /// Largest ratio accepted.
-        most: f64,
-    },
-}
 
 impl TipFunction {
     /// (48): exp(-ξ²/2) - β/2 (exp(-(ξ+2)²/2) + exp(-(ξ-2)²/2)) with ξ = x/`width`.
@@ -179,7 +78,7 @@ impl TipFunction {
     pub fn of_footprint(footprint: Footprint) -> Self {
         match footprint.path().clone() {
             Self::Gaussians(sum) => Self::Gaussians(sum.with_footprint(footprint)),
-            Self::Bessel => Self::Bessel,
+            other => other,
         }
     }
 
@@ -188,7 +87,7 @@ impl TipFunction {
     pub fn footprint(&self) -> Option<&Footprint> {
         match self {
             Self::Gaussians(sum) => sum.footprint(),
-            Self::Bessel => None,
+            Self::Bessel | Self::Cosine => None,
         }
     }
 
@@ -198,6 +97,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.value(x),
             Self::Bessel => libm::j0(x),
+            Self::Cosine => cosine::value(x),
         }
     }
 
@@ -209,10 +109,12 @@ impl TipFunction {
 
     /// f'(x) and f''(x), which share their costly part.
     #[must_use]
+    #[inline]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         match self {
             Self::Gaussians(sum) => sum.slope_and_curvature(x),
             Self::Bessel => bessel::slope_and_curvature(x),
+            Self::Cosine => cosine::slope_and_curvature(x),
         }
     }
 
@@ -221,6 +123,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.taylor(degree),
             Self::Bessel => bessel::taylor(degree),
+            Self::Cosine => cosine::taylor(degree),
         }
     }
 
@@ -229,7 +132,7 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.derivative_bound(n),
             // J0 is the mean of cosines of wave numbers up to 1.
-            Self::Bessel => 1.0,
+            Self::Bessel | Self::Cosine => 1.0,
         }
     }
 
@@ -239,6 +142,21 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.tail(x),
             Self::Bessel => bessel::tail(x),
+            // Its mean value, as if it faded slowly.
+            Self::Cosine => cosine::tail(x),
+        }
+    }
+
+    /// ∫_0^∞ f(x+y) e^{-sy}dy, s ≥ 0: the profile of steady motion over a surface that heals, s = 1/(rT).
+    #[must_use]
+    pub fn fading_tail(&self, x: f64, s: f64) -> f64 {
+        if s <= 0.0 {
+            return self.tail(x);
+        }
+        match self {
+            Self::Gaussians(sum) => sum.terms().iter().map(|g| fading::gaussian(g, x, s)).sum(),
+            Self::Bessel => fading::bessel(x, s),
+            Self::Cosine => cosine::fading(x, s),
         }
     }
 
@@ -254,6 +172,8 @@ impl TipFunction {
         match self {
             Self::Gaussians(sum) => sum.fourier(q),
             Self::Bessel => bessel::fourier(q),
+            // Two lines, at ±1.
+            Self::Cosine => 0.0,
         }
     }
 
@@ -263,7 +183,7 @@ impl TipFunction {
     pub fn reach(&self) -> Option<f64> {
         match self {
             Self::Gaussians(sum) => Some(sum.reach()),
-            Self::Bessel => None,
+            Self::Bessel | Self::Cosine => None,
         }
     }
 
@@ -272,7 +192,7 @@ impl TipFunction {
     pub fn band(&self) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.band(),
-            Self::Bessel => 1.0,
+            Self::Bessel | Self::Cosine => 1.0,
         }
     }
 }
@@ -290,6 +210,7 @@ mod tests {
             TipFunction::gaussian(2.0).unwrap(),
             TipFunction::table(&x, &f).unwrap(),
             TipFunction::Bessel,
+            TipFunction::Cosine,
         ]
     }
 

@@ -87,7 +87,9 @@ impl Ground<'_> {
             band.low = Some(columns.iter().map(|c| Some(c.1)).collect());
             panel.curves.push(band);
         }
-        let mut rest = CurveDocument::new(StyleName::Line, "", &x[ahead..], &u[ahead..]);
+        // From the last ripple on, so that the two are seen to be one.
+        let joint = x.partition_point(|x| *x < self.tip - GROOVE - wavelength);
+        let mut rest = CurveDocument::new(StyleName::Line, "", &x[joint..], &u[joint..]);
         rest.colour = Some(ColourName::Blue);
         panel.curves.push(rest);
         panel.x_range = Some([range.0, range.1]);

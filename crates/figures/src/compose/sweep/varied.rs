@@ -65,7 +65,7 @@ impl Phase {
             (RegimeName::StickSlip, Some(2)) => Self::TwoSlips,
             (RegimeName::StickSlip, _) => Self::MoreSlips,
             (RegimeName::Trapped, _) => Self::Trapped,
-            (RegimeName::Transient, _) => Self::Unsettled,
+            (RegimeName::Transient | RegimeName::Drifting, _) => Self::Unsettled,
         })
     }
 

@@ -9,6 +9,11 @@ const SHARE: f64 = 0.025;
 /// of them is that much at a time.
 const WIDTHS: f64 = 2.0;
 
+/// Heights are forgotten more slowly than slopes, by about this factor.
+const HEIGHTS: f64 = 4.0;
+/// Exponentials do not fit much better than this: heights alone do not ask for more.
+const FINEST: f64 = 2.5e-14;
+
 /// The largest error ε of f' that moves the tip by a small part of the tolerance.
 ///
 /// ε shifts the force by α ε times the time spent within reach. A tip that moves on at about r spends
@@ -16,13 +21,21 @@ const WIDTHS: f64 = 2.0;
 /// stiffness 1. A tip that sticks for a time T feels α ε T, but the groove that it made meanwhile has the
 /// stiffness α T |f''(0)|: it is shifted by ε/|f''(0)|, however long T is.
 ///
+/// Under a depth limit b an error of the height, which is α times that of f for a time, changes the rate of
+/// indentation by its part of b: where α is above b, that counts for more.
+///
 /// In quarter decades, so that runs alike share a fit.
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
     let width = model.tip().widths(1.0);
-    let moving = WIDTHS * width * model.alpha() / model.r();
+    // Without a support its own force moves the tip.
+    let speed = if model.wider().spring { model.r() } else { 1.0 };
+    let moving = WIDTHS * width * model.alpha().abs() / speed;
     let stuck = if curvature > 0.0 { 1.0 / curvature } else { 0.0 };
-    let largest = SHARE * tolerance / moving.max(stuck);
+    let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
+    let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
+    let of_slope = SHARE * tolerance / moving.max(stuck);
+    let largest = of_slope.min(FINEST.max(of_height * of_slope));
     10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
 }

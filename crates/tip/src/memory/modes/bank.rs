@@ -53,6 +53,16 @@ impl Bank {
         }
     }
 
+    /// All that is remembered times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for group in &mut self.groups {
+            for i in 0..LANES {
+                group.state.0[i] *= factor;
+                group.state.1[i] *= factor;
+            }
+        }
+    }
+
     /// Adds a time spent at a displacement from the tip.
     pub(super) fn add(&mut self, position: f64, weight: f64) {
         for group in &mut self.groups {
@@ -128,12 +138,24 @@ impl Bank {
         height.iter().sum()
     }
 
-    /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there.
-    pub(super) fn expand(&self, center: f64, radius: f64, groove: &mut LocalGroove) -> bool {
+    /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there; with its
+    /// height at the center if that is wanted.
+    pub(super) fn expand(
+        &self,
+        center: f64,
+        radius: f64,
+        groove: &mut LocalGroove,
+        with_height: bool,
+    ) -> bool {
         let Some(degree) = self.degree(radius) else { return false };
         let coefficients = groove.about(center, radius, degree);
+        let mut height = [0.0; LANES];
         for group in &self.groups {
             let mut term = product(group.weight, product(exp(group.exponent, center), group.state));
+            if with_height {
+                let value = quotient(term, group.exponent);
+                (0..LANES).for_each(|i| height[i] += value.0[i]);
+            }
             for (k, coefficient) in coefficients.iter_mut().enumerate() {
                 *coefficient += (term.0[0] + term.0[1]) + (term.0[2] + term.0[3]);
                 let next = 1.0 / (k + 1) as f64;
@@ -143,6 +165,9 @@ impl Bank {
                     term.1[i] *= next;
                 }
             }
+        }
+        if with_height {
+            groove.set_height(height.iter().sum());
         }
         true
     }

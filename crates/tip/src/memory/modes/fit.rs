@@ -75,6 +75,9 @@ impl Fit {
     /// # Errors
     /// A footprint that never fades, or an accuracy out of reach.
     pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
+        if *tip == TipFunction::Cosine {
+            return Ok(Self::of_cosine(wanted));
+        }
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         let retreat = retreat(tip, reach);
         let window = Window { reach, retreat, largest: largest_slope(tip, (retreat, reach)) };
@@ -104,6 +107,13 @@ impl Fit {
             return Ok(fit);
         }
         Err(if stop::is_asked() { FitError::Stopped } else { FitError::NotMet { wanted, reached } })
+    }
+
+    /// -sin ξ = Re(i e^{iξ}), exactly, on both sides and for ever.
+    fn of_cosine(wanted: f64) -> Self {
+        let terms = vec![Term { exponent: Complex::i(), weight: Complex::i() }];
+        let certificate = FitCertificate { slope: 0.0, curvature: 0.0, area: 0.0 };
+        Self { terms, retreat: f64::INFINITY, wanted, certificate }
     }
 
     /// As [`new`](Self::new), or a fit made before for the same footprint and accuracy.

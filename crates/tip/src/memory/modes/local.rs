@@ -30,6 +30,11 @@ impl LocalGroove {
         &mut self.coefficients[..=degree]
     }
 
+    /// The height at the center.
+    pub(super) fn set_height(&mut self, height: f64) {
+        self.height = Some(height);
+    }
+
     pub(super) fn forget(&mut self) {
         self.radius = -1.0;
     }

@@ -78,6 +78,12 @@ impl Modes {
         self.bank.advance(position, weight);
     }
 
+    /// All weights times a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.bank.scale(factor);
+        self.groove.forget();
+    }
+
     /// Visits that the state does not take up, while it is not in use.
     pub(super) fn pass(&mut self, position: &[f64]) {
         let Some(moved) = position.last() else { return };
@@ -97,7 +103,7 @@ impl Modes {
         if !self.groove.holds(at) {
             let (low, high) = range(at);
             let (center, radius) = (0.5 * (low + high), 0.5 * BEYOND_THE_STAGES * (high - low));
-            if !self.bank.expand(center, radius, &mut self.groove) {
+            if !self.bank.expand(center, radius, &mut self.groove, groove.height.is_some()) {
                 self.groove.forget();
                 self.one_by_one(at, groove);
                 return;

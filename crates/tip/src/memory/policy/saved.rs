@@ -6,6 +6,7 @@ use crate::state::{Damaged, Reader, Saved, State};
 
 impl Saved for Policy {
     fn save(&self, state: &mut State) {
+        self.fading.save(state);
         if self.choice == MemoryChoice::Auto {
             state.flag(matches!(self.now, Now::Direct));
         }
@@ -26,6 +27,7 @@ impl Saved for Policy {
 
     /// On a memory made by the same choices.
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.fading.restore(state)?;
         if self.choice == MemoryChoice::Auto {
             (self.record, self.now) = if state.flag()? {
                 (Some(Record::whole(&self.tip)), Now::Direct)

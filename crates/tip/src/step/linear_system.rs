@@ -4,7 +4,7 @@
 use crate::collocation::{STAGES, Stages};
 
 /// P J = L U with partial pivoting: L below the diagonal, U on and above it.
-pub(super) struct Factors {
+pub(crate) struct Factors {
     rows: [Stages; STAGES],
     order: [usize; STAGES],
 }
@@ -12,7 +12,7 @@ pub(super) struct Factors {
 impl Factors {
     /// `None` for a matrix that is singular or not finite.
     #[inline]
-    pub(super) fn of(mut rows: [Stages; STAGES]) -> Option<Self> {
+    pub(crate) fn of(mut rows: [Stages; STAGES]) -> Option<Self> {
         let mut order = std::array::from_fn(|i| i);
         for k in 0..STAGES {
             let pivot =
@@ -37,7 +37,7 @@ impl Factors {
 
     /// J⁻¹ `right`
     #[inline]
-    pub(super) fn solve(&self, right: &Stages) -> Stages {
+    pub(crate) fn solve(&self, right: &Stages) -> Stages {
         let mut x = self.order.map(|i| right[i]);
         for i in 1..STAGES {
             for j in 0..i {

@@ -1,0 +1,148 @@
+//! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ grows.
+
+use super::law::Law;
+use num_complex::Complex64;
+use std::f64::consts::PI;
+use stickslip_tip::{Gaussian, TipFunction};
+
+/// Samples of f over its reach, from which its integrals are bounded.
+const SAMPLES: u32 = 2000;
+/// Kept between those sums and the bounds that use them.
+const MARGIN: f64 = 1.1;
+/// Bounds are looked for by steps of this factor, up to so far.
+const STEP: f64 = 1.1;
+const FARTHEST: f64 = 1e12;
+/// For |p| ≥ 2 the transforms of J0 (Re p ≥ 0) and cos x are below 4/3 of 1/|p|.
+const WAVES: f64 = 4.0 / 3.0;
+
+/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, of each in turn.
+#[derive(Debug, Clone)]
+pub(super) struct Bounds {
+    area: [f64; 3],
+    decay: [f64; 3],
+    /// |p| from which they hold.
+    from: f64,
+    /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 what φ is beside -φ(-p) fades as e^{w²(Re²-Im²)/2}.
+    terms: Vec<(f64, f64, f64)>,
+}
+
+impl Bounds {
+    pub(super) fn new(tip: &TipFunction) -> Self {
+        let TipFunction::Gaussians(sum) = tip else {
+            return Self { area: [f64::INFINITY; 3], decay: [WAVES; 3], from: 2.0, terms: vec![] };
+        };
+        let reach = tip.reach().unwrap_or(1.0);
+        let samples = f64::from(SAMPLES).max(2.0 * reach * tip.band()).min(1e5);
+        let step = reach / samples;
+        let at = |x: f64| {
+            let (slope, curvature) = tip.slope_and_curvature(x);
+            [tip.value(x), slope, curvature]
+        };
+        let mut last = at(0.0);
+        let (mut area, mut decay, mut x) = ([0.0; 3], last.map(f64::abs), 0.0);
+        while x < reach {
+            x += step;
+            let here = at(x);
+            for i in 0..3 {
+                area[i] += 0.5 * step * (here[i].abs() + last[i].abs());
+                decay[i] += (here[i] - last[i]).abs();
+            }
+            last = here;
+        }
+        let term = |g: &Gaussian| {
+            (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
+        };
+        let terms = sum.terms().iter().map(term).collect();
+        Self { area: area.map(|f| MARGIN * f), decay: decay.map(|f| MARGIN * f), from: 0.0, terms }
+    }
+
+    /// Of φ, φ1, G where |p| ≥ `distance`, Re p ≥ 0.
+    fn right(&self, distance: f64) -> [f64; 3] {
+        [0, 1, 2].map(|i: usize| self.area[i].min(self.decay[i] / distance))
+    }
+
+    /// Where Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0.
+    fn left(&self, left: f64, top: f64) -> [f64; 3] {
+        let mut bounds = self.right(top);
+        if left >= 0.0 {
+            return bounds;
+        }
+        let two_sided = |(area, c, w): &(f64, f64, f64)| {
+            area * (0.5 * w * w * (left * left - top * top) + c * left.abs()).exp()
+        };
+        let e: f64 = self.terms.iter().map(two_sided).sum();
+        let distance = left.hypot(top);
+        for (bound, power) in bounds.iter_mut().zip(0..3) {
+            *bound += e * distance.powi(power);
+        }
+        bounds
+    }
+
+    /// Beyond this, the bounds of [`Self::left`] fall with Im p.
+    fn fading_from(&self) -> f64 {
+        let narrowest = self.terms.iter().map(|t| t.2).fold(f64::INFINITY, f64::min);
+        (2.0_f64.sqrt() / narrowest).max(self.from)
+    }
+
+    /// R beyond which N has no zero with Re Λ ≥ 0. There |Mv²Λ² + vΛ + κ| ≥ v|Λ|, as the real part of
+    /// Mv²Λ + v + κ/Λ is at least v.
+    pub(super) fn right_bound(&self, law: &Law) -> f64 {
+        let far = |distance: f64| {
+            let inertial = law.inertia * distance * distance - law.speed * distance - law.spring;
+            outweighs(law, inertial.max(law.speed * distance), self.right(distance))
+        };
+        first(far, self.from.max(1e-9 / self.unit_length(law)))
+    }
+
+    /// T above which N has no zero with Re Λ ≥ `left`.
+    pub(super) fn top_bound(&self, law: &Law, left: f64, least: f64) -> f64 {
+        let past = left + law.fading;
+        let bare = bare_zeros(law);
+        let far = |top: f64| {
+            // |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv Re Λ|, and the product of the distances
+            // from its two zeros.
+            let imaginary = 1.0 - 2.0 * law.inertia / law.speed * (-left).max(0.0);
+            let apart = bare.iter().map(|zero| (top - zero.im.abs()).max(0.0)).product::<f64>();
+            let bare = (law.speed * top * imaginary).max(law.inertia * apart);
+            outweighs(law, bare, self.left(past, top))
+        };
+        first(far, least.max(if past < 0.0 { self.fading_from() } else { self.from }))
+    }
+
+    fn unit_length(&self, law: &Law) -> f64 {
+        law.footprint.tip().reach().unwrap_or(1.0)
+    }
+}
+
+/// The zeros of Mv²Λ² + vΛ + κ, if there are two.
+pub(super) fn bare_zeros(law: &Law) -> Vec<Complex64> {
+    if law.inertia <= 0.0 {
+        return vec![];
+    }
+    quadratic(law.inertia, law.speed, law.spring)
+}
+
+/// Zeros of az² + bz + c, b > 0, without cancellation.
+pub(super) fn quadratic(a: f64, b: f64, c: f64) -> Vec<Complex64> {
+    let root = Complex64::new(b * b - 4.0 * a * c, 0.0).sqrt();
+    let far = (root + b) / (-2.0 * a);
+    let near = (root + b).inv() * (-2.0 * c);
+    vec![far, near]
+}
+
+/// Whether (Mv²Λ² + vΛ + κ)(1 + Bφ), with the first factor at least `bare`, is more than the rest of N.
+fn outweighs(law: &Law, bare: f64, [height, slope, curvature]: [f64; 3]) -> bool {
+    let (a, b) = (law.density.abs(), law.limit().abs());
+    let still = law.steady.curvature.abs();
+    let raised = b * (still * height + law.fading * law.steady.height.abs() * slope);
+    bare * (1.0 - b * height) > a * (curvature + still + raised)
+}
+
+/// The first of `least` times powers of [`STEP`] where `holds`.
+fn first(holds: impl Fn(f64) -> bool, least: f64) -> f64 {
+    let mut at = least;
+    while !holds(at) && at < FARTHEST {
+        at *= STEP;
+    }
+    at
+}

@@ -1,0 +1,152 @@
+//! Onset where the steady tip has the surface at height 0 under it, on the corner of |h| in a depth limit.
+//!
+//! w - 1 = -|h|/b is of first order in a small deviation, but not linear in it. What small deviations obey is
+//! homogeneous all the same: with a deviation any positive multiple of it. So there is one α, whatever the (small)
+//! amplitude, at which an oscillation neither grows nor fades; the harmonics of |h| take part in it. With
+//! p_n = inΩ + s, ξ = Σξ_n e^{inθ} the deviation and W = -|h|/b,
+//!
+//! ```text
+//!     (bare(inΩ) + A(G(p_n) - G(s))) ξ_n = A φ1(p_n) W_n,    h_n = -A(φ1(s) - φ1(p_n)) ξ_n - A φ(p_n) W_n
+//! ```
+//!
+//! solved for A, Ω and the harmonics with ξ_1 = 1, by putting W in and getting it back. That ends where b is so small
+//! that the harmonics of |h| are no small part of it: β = 1, r = 1 between b = 1 and 0.7.
+
+use super::law::{Crossing, Law};
+use super::transforms::Jet;
+use num_complex::Complex64;
+use std::f64::consts::TAU;
+use stickslip_tip::roots::zero_between;
+
+/// Harmonics kept. Those of |h| fall like n^{-2} and of h like n^{-3}, and so does what is missed (measured: a
+/// factor of 8.0 from 192 to 384), which twice as many tell.
+const HARMONICS: usize = 128;
+/// Points on a period, between which h changes its sign at most once.
+const POINTS: u32 = 512;
+const MOST_ROUNDS: usize = 200;
+/// A and Ω have settled.
+const SETTLED: f64 = 1e-13;
+
+/// The A and Ω of the oscillation that keeps its amplitude, from those of the law without a depth limit; `None` where
+/// W does not settle.
+pub(super) fn onset(law: &Law, limit: f64, start: Crossing) -> Option<Crossing> {
+    let few = balanced(law, limit, start, HARMONICS)?;
+    let many = balanced(law, limit, few, 2 * HARMONICS)?;
+    let beyond = |few: f64, many: f64| many + (many - few) / 7.0;
+    Some(Crossing {
+        density: beyond(few.density, many.density),
+        wave_number: beyond(few.wave_number, many.wave_number),
+    })
+}
+
+fn balanced(law: &Law, limit: f64, start: Crossing, harmonics: usize) -> Option<Crossing> {
+    let mut pushed = vec![Complex64::ZERO; harmonics + 1];
+    let mut crossing = start;
+    for _ in 0..MOST_ROUNDS {
+        let next = fundamental(law, pushed[1], crossing)?;
+        let heights = heights(law, &pushed, next);
+        let new: Vec<Complex64> = magnitude(&heights).iter().map(|h| -h / limit).collect();
+        let moved = (next.density / crossing.density - 1.0).abs()
+            + (next.wave_number / crossing.wave_number - 1.0).abs()
+            + new.iter().zip(&pushed).map(|(a, b)| (a - b).norm()).sum::<f64>();
+        (pushed, crossing) = (new, next);
+        if moved < SETTLED * harmonics as f64 {
+            return Some(crossing);
+        }
+        if !moved.is_finite() {
+            return None;
+        }
+    }
+    None
+}
+
+/// φ, φ1, G - G(s) and the bare part at inΩ, each with its derivative.
+fn parts(law: &Law, lambda: Complex64) -> [Jet; 4] {
+    let t = law.footprint.at(lambda + law.fading);
+    let over = |f: Jet| {
+        let value = f.0 / t.unit.0;
+        (value, (f.1 - value * t.unit.1) / t.unit.0)
+    };
+    let curvature = over(t.curvature);
+    let groove = (curvature.0 - law.steady.curvature, curvature.1);
+    [over(t.height), over(t.slope), groove, law.bare(lambda)]
+}
+
+/// A and Ω at which the fundamental balances for a given W_1, by Newton's method.
+fn fundamental(law: &Law, pushed: Complex64, start: Crossing) -> Option<Crossing> {
+    let Crossing { mut density, mut wave_number } = start;
+    for _ in 0..30 {
+        let [_, slope, groove, bare] = parts(law, Complex64::new(0.0, wave_number));
+        let along_a = groove.0 - slope.0 * pushed;
+        let value = bare.0 + along_a * density;
+        let along_q = (bare.1 + (groove.1 - slope.1 * pushed) * density) * Complex64::I;
+        let determinant = along_a.re * along_q.im - along_a.im * along_q.re;
+        let step_a = (value.re * along_q.im - value.im * along_q.re) / determinant;
+        let step_q = (along_a.re * value.im - along_a.im * value.re) / determinant;
+        density -= step_a;
+        wave_number -= step_q;
+        if !(density > 0.0 && wave_number > 0.0) {
+            return None;
+        }
+        if step_a.abs() <= 1e-15 * density && step_q.abs() <= 1e-15 * wave_number {
+            break;
+        }
+    }
+    Some(Crossing { density, wave_number })
+}
+
+/// h_n for n ≥ 0.
+fn heights(law: &Law, pushed: &[Complex64], at: Crossing) -> Vec<Complex64> {
+    let a = at.density;
+    let height = |(n, w): (usize, &Complex64)| {
+        let [height, slope, groove, bare] =
+            parts(law, Complex64::new(0.0, at.wave_number * n as f64));
+        let moved = if n == 1 { Complex64::ONE } else { slope.0 * w * a / (bare.0 + groove.0 * a) };
+        (slope.0 - law.steady.slope) * moved * a - height.0 * w * a
+    };
+    pushed.iter().enumerate().map(height).collect()
+}
+
+/// The harmonics of |h|: h times its sign, whose own are known from where h vanishes.
+fn magnitude(heights: &[Complex64]) -> Vec<Complex64> {
+    let value = |angle: f64| {
+        let turn = Complex64::from_polar(1.0, angle);
+        let sum = heights.iter().skip(1).rev().fold(Complex64::ZERO, |sum, h| (sum + h) * turn);
+        heights[0].re + 2.0 * sum.re
+    };
+    let grid: Vec<f64> = (0..=POINTS).map(|i| TAU * f64::from(i) / f64::from(POINTS)).collect();
+    let values: Vec<f64> = grid.iter().map(|angle| value(*angle)).collect();
+    let changes: Vec<f64> = (1..grid.len())
+        .filter(|i| values[i - 1] * values[*i] < 0.0)
+        .map(|i| zero_between(value, grid[i - 1], grid[i]))
+        .collect();
+    let signs = harmonics_of_sign(values[0].signum(), &changes, 2 * heights.len());
+    let both = |f: &[Complex64], n: isize| {
+        let value = f[n.unsigned_abs()];
+        if n < 0 { value.conj() } else { value }
+    };
+    let most = heights.len().cast_signed() - 1;
+    (0..=most)
+        .map(|n| (-most..=most).map(|m| both(heights, m) * both(&signs, n - m)).sum())
+        .collect()
+}
+
+/// Of a function that is `first` = ±1 at 0 and changes its sign at `changes`.
+fn harmonics_of_sign(first: f64, changes: &[f64], count: usize) -> Vec<Complex64> {
+    let mut mean = first;
+    let mut sums = vec![Complex64::ZERO; count];
+    let mut sign = first;
+    for angle in changes {
+        // From here on -sign: a step of -2 sign.
+        mean -= 2.0 * sign * (1.0 - angle / TAU);
+        let turn = Complex64::from_polar(1.0, -angle);
+        let mut power = Complex64::ONE;
+        for (n, sum) in sums.iter_mut().enumerate().skip(1) {
+            power *= turn;
+            *sum -= power * (2.0 * sign / (TAU * n as f64)) * -Complex64::I;
+        }
+        sign = -sign;
+    }
+    sums[0] = mean.into();
+    sums
+}

@@ -1,0 +1,165 @@
+//! Small deviations from steady motion under the wider law, their characteristic equation term by term.
+//!
+//! With λ = vΛ, p = Λ + s, A = αw0/v and B = ±A/b (minus where the surface under the tip is raised, h0 > 0):
+//!
+//! ```text
+//!     D(Λ) = Mv²Λ² + vΛ + κ + A(G(p) - G(s)) + AB φ1(p)(φ1(s) - φ1(p))/(1 + Bφ(p)) = 0
+//! ```
+//!
+//! The force on the tip is that of a groove shifted by the deviation ξ, and of one less deep where w was less:
+//! w - w0 = ±w0 (h - h0)/b, and h is again that of a groove shifted and less deep, whence the quotient. Times
+//! 1 + Bφ(p) it is, by φ1 = pφ - f(0) and G = pφ1, of first degree in the transforms,
+//!
+//! ```text
+//!     N(Λ) = (Mv²Λ² + vΛ + κ - A G(s))(1 + Bφ(p)) + A φ1(p)(p + B s φ(s)) = 0
+//! ```
+
+use super::transforms::{Footprint, Jet, Steady, Transforms};
+use num_complex::Complex64;
+use stickslip_tip::{Model, TipFunction, Wider};
+
+/// The numbers in N.
+#[derive(Debug, Clone)]
+pub(super) struct Law {
+    pub(super) footprint: Footprint,
+    /// v: r, or the speed at which a tip without a spring walks.
+    pub(super) speed: f64,
+    /// A
+    pub(super) density: f64,
+    /// s = 1/(vT)
+    pub(super) fading: f64,
+    /// 1/b, negative where h0 > 0; 0 without a depth limit, or where h0 = 0.
+    pub(super) inverse_limit: f64,
+    /// Mv²
+    pub(super) inertia: f64,
+    /// κ
+    pub(super) spring: f64,
+    /// φ(s), φ1(s), G(s)
+    pub(super) steady: Steady,
+}
+
+/// A and Ω where a root is on the imaginary axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    pub(super) density: f64,
+    pub(super) wave_number: f64,
+}
+
+/// Heights below this part of ∫_0^∞|f| e^{-sy}dy are round-off of none.
+const NO_HEIGHT: f64 = 1e-13;
+
+impl Law {
+    /// At the steady motion of a tip on its spring.
+    pub(super) fn of(model: &Model) -> Self {
+        Self::with_density(model.wider(), model.tip(), model.r(), model.steady_density())
+    }
+
+    /// At a speed v with A given.
+    pub(super) fn with_density(wider: &Wider, tip: &TipFunction, speed: f64, density: f64) -> Self {
+        let footprint = Footprint::new(tip);
+        let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (speed * time));
+        let steady = footprint.steady(fading);
+        let sign = if has_height(tip, &steady) { (density * steady.height).signum() } else { 0.0 };
+        Self {
+            footprint,
+            speed,
+            density,
+            fading,
+            inverse_limit: wider.depth_limit.map_or(0.0, |limit| sign / limit),
+            inertia: wider.inertia.map_or(0.0, |mass| mass * speed * speed),
+            spring: if wider.spring { 1.0 } else { 0.0 },
+            steady,
+        }
+    }
+
+    /// The same with another A of the same sign.
+    pub(super) fn set_density(&mut self, density: f64) {
+        self.density = density;
+    }
+
+    /// Whether a depth limit has its corner, h = 0, at steady motion itself.
+    pub(super) fn has_corner(wider: &Wider, tip: &TipFunction, steady: &Steady) -> bool {
+        wider.depth_limit.is_some() && !has_height(tip, steady)
+    }
+
+    /// B
+    pub(super) fn limit(&self) -> f64 {
+        self.density * self.inverse_limit
+    }
+
+    /// Mv²Λ² + vΛ + κ and its derivative.
+    pub(super) fn bare(&self, lambda: Complex64) -> Jet {
+        let inner = lambda * self.inertia + self.speed;
+        (lambda * inner + self.spring, inner + lambda * self.inertia)
+    }
+
+    /// At p; of nothing at all where nothing is indented, as far left as anyone looks.
+    fn transforms(&self, lambda: Complex64) -> Transforms {
+        let nothing = self.density.abs() <= 0.0;
+        if nothing { Transforms::NONE } else { self.footprint.at(lambda + self.fading) }
+    }
+
+    /// N times the unit of the transforms, and its derivative.
+    pub(super) fn at(&self, lambda: Complex64) -> (Transforms, Jet) {
+        let t = self.transforms(lambda);
+        let (a, b) = (self.density, self.limit());
+        let (bare, bare_slope) = self.bare(lambda);
+        let base = bare - a * self.steady.curvature;
+        let shifted = b * self.fading * self.steady.height * a;
+        let opened = |f: Jet| (base * f.0, bare_slope * f.0 + base * f.1);
+        let (plain, raised) = (opened(t.unit), opened(t.height));
+        let value = plain.0 + t.curvature.0 * a + raised.0 * b + t.slope.0 * shifted;
+        let derivative = plain.1 + t.curvature.1 * a + raised.1 * b + t.slope.1 * shifted;
+        (t, (value, derivative))
+    }
+
+    /// Σ|terms| of N times the unit.
+    pub(super) fn size(&self, lambda: Complex64) -> f64 {
+        let p = lambda + self.fading;
+        let t = self.transforms(lambda);
+        let nothing = self.density.abs() <= 0.0;
+        let sizes = if nothing { [0.0; 3] } else { self.footprint.sizes(p, &t) };
+        let [height, slope, curvature] = sizes;
+        let (a, b, distance) = (self.density.abs(), self.limit().abs(), lambda.norm());
+        let bare = distance * (distance * self.inertia + self.speed) + self.spring;
+        let base = bare + a * self.steady.curvature.abs();
+        let shifted = b * self.fading * self.steady.height.abs() * a;
+        base * (t.unit.0.norm() + b * height) + a * curvature + shifted * slope
+    }
+
+    /// D and dD/dλ: what a force e^{λt} is divided by to give the displacement.
+    pub(super) fn response(&self, lambda: Complex64) -> Jet {
+        let (t, (value, derivative)) = self.at(lambda);
+        let below = t.unit.0 + t.height.0 * self.limit();
+        let below_slope = t.unit.1 + t.height.1 * self.limit();
+        let d = value / below;
+        (d, (derivative - d * below_slope) / below / self.speed)
+    }
+
+    /// The coefficients of 1, A and A² in N times the unit.
+    pub(super) fn by_density(&self, lambda: Complex64) -> [Complex64; 3] {
+        let t = self.footprint.at(lambda + self.fading);
+        let bare = self.bare(lambda).0;
+        let Steady { height, curvature, .. } = self.steady;
+        let first = t.curvature.0 - t.unit.0 * curvature + bare * t.height.0 * self.inverse_limit;
+        let second = t.slope.0 * (self.fading * height) - t.height.0 * curvature;
+        [bare * t.unit.0, first, second * self.inverse_limit]
+    }
+
+    /// α of this A: w0 = e^{-A|φ(s)|/b}.
+    pub(super) fn alpha(&self) -> f64 {
+        let depth = self.density * self.steady.height * self.inverse_limit;
+        self.speed * self.density * depth.abs().exp()
+    }
+}
+
+/// Whether φ(s) is any height at all.
+fn has_height(tip: &TipFunction, steady: &Steady) -> bool {
+    let size = match tip {
+        TipFunction::Gaussians(sum) => {
+            sum.terms().iter().map(|g| g.amplitude.abs() * g.width).sum()
+        }
+        TipFunction::Bessel | TipFunction::Cosine => 1.0,
+    };
+    steady.height.abs() > NO_HEIGHT * size
+}

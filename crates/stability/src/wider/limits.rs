@@ -1,0 +1,126 @@
+//! What depth limit and what healing leave nothing unstable.
+
+use super::super::StabilityError;
+use super::law::Law;
+use super::onset::{least, wave_numbers};
+use num_complex::Complex64;
+use stickslip_tip::roots::halved_between;
+use stickslip_tip::{TipFunction, Wider};
+
+/// Ladder of s = 1/(rT) on which the memory length is looked for: from so many bands down, by this factor.
+const BANDS: f64 = 10.0;
+const FACTOR: f64 = 1.05;
+/// And to this part of where it began.
+const LEAST: f64 = 1e-6;
+
+/// b_c(r): the depth limit b below which no α makes steady motion unstable, with the healing and the inertia of
+/// `wider`.
+///
+/// On the axis Λ = iΩ, N = 0 is linear in 1/b, so that each Ω gives the A at which 1/b is real, and 1/b. b_c is
+/// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A.
+///
+/// # Errors
+/// As [`super::critical_under`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] where nothing is
+/// unstable at any b.
+pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
+    if !(r.is_finite() && r > 0.0) {
+        return Err(StabilityError::R(r));
+    }
+    if !wider.spring {
+        return Err(StabilityError::NoSupport);
+    }
+    if *tip == TipFunction::Cosine {
+        return Err(StabilityError::NoLimit("the tip cosine cannot be under a depth limit"));
+    }
+    let limited = Wider { depth_limit: Some(1.0), ..*wider };
+    limited.validate()?;
+    let law = Law::with_density(&limited, tip, r, 1.0);
+    if Law::has_corner(&limited, tip, &law.steady) {
+        return Err(StabilityError::Corner);
+    }
+    let samples = wave_numbers(&law);
+    let values: Vec<f64> = samples.iter().map(|q| inverse_limit(&law, *q)).collect();
+    let mut largest = f64::NEG_INFINITY;
+    for (q, value) in samples.windows(3).zip(values.windows(3)) {
+        largest = largest.max(value[1]);
+        if value[1].is_finite() && value[1] >= value[0].max(value[2]) {
+            let at = least(|q| -inverse_limit(&law, q), q[0], q[2]);
+            largest = largest.max(inverse_limit(&law, at));
+        }
+        // Where it ends, A → ∞.
+        if value[1].is_finite() != value[2].is_finite() {
+            let is_real = |q: f64| if inverse_limit(&law, q).is_finite() { 1.0 } else { -1.0 };
+            let end = halved_between(is_real, q[1], q[2]);
+            let beside =
+                [1.0 - 1e-14, 1.0, 1.0 + 1e-14].map(|part| inverse_limit(&law, end * part));
+            largest = beside.into_iter().fold(largest, f64::max);
+        }
+    }
+    if largest > 0.0 { Ok(largest.recip()) } else { Err(StabilityError::NoCrossing { r }) }
+}
+
+/// The largest 1/b with A > 0 at which iΩ is a root; -∞ where there is none. `law` has 1/b = ±1.
+///
+/// With X = q + A(G(p) - G(s)) and Y = qφ(p) + A(sφ(s)φ1(p) - G(s)φ(p)), N = X ± (A/b)Y: A makes X/Y real.
+fn inverse_limit(law: &Law, wave_number: f64) -> f64 {
+    let lambda = Complex64::new(0.0, wave_number);
+    let unlimited = Law { inverse_limit: 0.0, ..law.clone() };
+    let [bare, groove, _] = unlimited.by_density(lambda);
+    let [_, with, second] = law.by_density(lambda);
+    let first = with - groove;
+    let cross = |a: Complex64, b: Complex64| (a * b.conj()).im;
+    let coefficients =
+        [cross(groove, second), cross(bare, second) + cross(groove, first), cross(bare, first)];
+    let of = |density: f64| {
+        let x = bare + groove * density;
+        let y = (first + second * density) * density;
+        -(x * y.conj()).re / y.norm_sqr()
+    };
+    let positive = real_zeros(coefficients).into_iter().filter(|a| a.is_finite() && *a > 0.0);
+    positive.map(of).filter(|inverse| inverse.is_finite()).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Of az² + bz + c, without cancellation; of bz + c where a is 0.
+fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
+    if a.abs() <= 0.0 {
+        return vec![-c / b];
+    }
+    let squared = b * b - 4.0 * a * c;
+    if squared < 0.0 {
+        return vec![];
+    }
+    let q = -0.5 * (b + b.signum() * squared.sqrt());
+    vec![q / a, c / q]
+}
+
+/// The memory length rT below which steady motion is stable at every α, r and M, on a surface that heals without
+/// a depth limit.
+///
+/// Of N = 0 on the axis the imaginary part is rΩ + A Im G(s + iΩ) = 0, s = 1/(rT): there is no root where
+/// Im G(s + iΩ) ≥ 0 for all Ω. That ends at Ω → 0 where G'(s) changes its sign, with it d l0/dr: then the length
+/// holds for each r by itself. If it ends at some Ω > 0, then at some r only.
+///
+/// # Errors
+/// [`StabilityError::NoLimit`] if it never ends.
+pub fn memory_length(tip: &TipFunction) -> Result<f64, StabilityError> {
+    let law = Law::with_density(&Wider::default(), tip, 1.0, 1.0);
+    let samples = wave_numbers(&law);
+    let lowest = |s: f64| {
+        let at = |q: f64| {
+            let t = law.footprint.at(Complex64::new(s, q));
+            (t.curvature.0 / t.unit.0).im / q
+        };
+        let t = law.footprint.at(Complex64::new(s, 0.0));
+        // (G u)' = G'u + Gu'
+        let slope = (t.curvature.1 - t.curvature.0 / t.unit.0 * t.unit.1) / t.unit.0;
+        samples.iter().map(|q| at(*q)).fold(slope.re, f64::min)
+    };
+    let most = BANDS * tip.band();
+    let ladder = std::iter::successors(Some(most), |s| Some(s / FACTOR));
+    let mut ladder = ladder.take_while(|s| *s > LEAST * most);
+    let none = StabilityError::NoLimit(
+        "steady motion over this footprint is stable at every memory length",
+    );
+    let below = ladder.find(|s| lowest(*s) < 0.0).ok_or(none)?;
+    Ok(halved_between(lowest, below, below * FACTOR).recip())
+}

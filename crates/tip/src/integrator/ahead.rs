@@ -1,0 +1,38 @@
+//! What a step is expected to be: where it leads, and how long it may be.
+
+use super::Integrator;
+use super::stage_equations::Unknowns;
+use crate::collocation::{RADAU, Stages};
+use crate::memory::Memory;
+use crate::step;
+
+impl<M: Memory> Integrator<'_, M> {
+    /// The last polynomials continued, where they can be trusted to; else straight lines.
+    pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
+        Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }
+    }
+
+    fn way_ahead(&self, h: f64, longest: f64) -> Stages {
+        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.h) {
+            let guess = RADAU.continued(&last.displacement, h / last.h);
+            if guess.iter().all(|d| d.abs() < longest) {
+                return guess;
+            }
+        }
+        RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
+    }
+
+    /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
+    pub(super) fn length_limit(&self) -> f64 {
+        let stretch = &self.stretch;
+        let speed = self.velocity.abs().max(1e-300);
+        let ahead = if self.velocity >= 0.0 {
+            stretch.high - self.position()
+        } else {
+            self.position() - stretch.low
+        };
+        let longest = step::longest_displacement(self.model.tip().band());
+        let distance = longest.min(1.2 * ahead.max(stretch.slack));
+        self.force.longest_step(self.t).min(distance / speed)
+    }
+}

@@ -1,0 +1,131 @@
+//! The corner of |h| in a depth limit: a step keeps to one side of it, and ends where h = 0.
+
+use super::{Integrator, Retry, Solution};
+use crate::Model;
+use crate::collocation::{RADAU, STAGES, Stages};
+use crate::history::Heights;
+use crate::roots::zero_between;
+use crate::state::{Damaged, Reader, State};
+use crate::step;
+
+/// The height under the tip, and on which side of the corner the next step is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    pub(super) height: f64,
+    /// 1 above, -1 below.
+    pub(super) side: f64,
+    /// Whether the step before ended at the corner: polynomials do not continue beyond.
+    pub(super) turned: bool,
+    /// A step may be so far on the wrong side.
+    slack: f64,
+    /// Round-off of a height.
+    round_off: f64,
+    /// An error of h amounts to so much of one of the displacement, in the step.
+    weight: f64,
+}
+
+/// The end of a step is known to so many roundings of t.
+const ROUNDINGS_OF_TIME: f64 = 8.0;
+/// Heights as polynomials are wanted to the tolerance itself, of which an error of a step is allowed a small part.
+const SHARE_OF_DENSE: f64 = 0.1;
+/// Heights are sums of terms of the size of α, and not better known than this part of it.
+const ROUND_OFF: f64 = 1e-13;
+/// A step on the wrong side indents by 2|h|/b too much or little: this share of what it may err.
+const SHARE: f64 = 0.1;
+
+impl Corner {
+    /// Of a tip that starts at this height; `None` without a depth limit.
+    pub(super) fn of(model: &Model, height: f64, target: f64) -> Option<Self> {
+        let limit = model.wider().depth_limit?;
+        let size = model.alpha().abs().max(1.0);
+        let round_off = ROUND_OFF * size;
+        let slack = (SHARE * target * limit / size).max(round_off);
+        let side = if height > slack { 1.0 } else { -1.0 };
+        let weight = 1.0 + model.alpha() / limit;
+        Some(Self { height, side, turned: false, slack, round_off, weight })
+    }
+
+    /// So near to 0 a height of a step (t, h) is 0: t is rounded too.
+    fn slack(&self, heights: &Heights, (t, h): (f64, f64)) -> f64 {
+        let rise = heights.rise().iter().fold(0.0, |m: f64, rise| m.max(rise.abs()));
+        self.slack.max(ROUNDINGS_OF_TIME * f64::EPSILON * t.abs() * rise / h)
+    }
+
+    /// Whether a step of length h from t is right to be where it is.
+    pub(super) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
+        let slack = self.slack(heights, (t, h));
+        let beyond = |height: f64| self.side * height < -slack;
+        let Some(after) = heights.nodes.iter().position(|height| beyond(*height)) else {
+            return Ok(());
+        };
+        if heights.start.abs() <= slack {
+            return Err(Retry::OtherSide);
+        }
+        let tau = zero_between(|tau| heights.at(tau), 0.0, RADAU.c[after]);
+        Err(Retry::ToKnot(tau * h))
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        state.number(self.height);
+        state.number(self.side);
+        state.flag(self.turned);
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        (self.height, self.side) = (state.finite()?, state.within(1.0)?);
+        self.turned = state.flag()?;
+        if self.side.abs() < 1.0 { Err(Damaged::OutOfRange) } else { Ok(()) }
+    }
+
+    /// The step of length h from t has been accepted.
+    pub(super) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
+        let rate = RADAU.slope(&heights.rise(), 1.0);
+        self.height = heights.nodes[STAGES - 1];
+        self.turned = self.height.abs() <= self.slack(heights, (t, h));
+        let towards = if self.turned { rate } else { self.height };
+        self.side = if towards > 0.0 { 1.0 } else { -1.0 };
+    }
+}
+
+impl<M: crate::memory::Memory> Integrator<'_, M> {
+    /// The next attempt is on the other side of the corner; false if that has been tried.
+    pub(super) fn turn(&mut self) -> bool {
+        let Some(corner) = &mut self.corner else { return false };
+        corner.side = -corner.side;
+        !std::mem::replace(&mut corner.turned, true)
+    }
+
+    pub(super) fn heights(&self, solution: &Solution) -> Option<Heights> {
+        let (corner, nodes) = self.corner.as_ref().zip(solution.height)?;
+        Some(Heights { start: corner.height, nodes })
+    }
+
+    /// The heights of the step before, continued over a step of length h.
+    pub(super) fn heights_ahead(&self, h: f64) -> Stages {
+        let Some(corner) = &self.corner else { return [0.0; STAGES] };
+        let before = self.last.filter(|last| h <= 1.5 * last.h).zip(self.last_heights());
+        let Some((last, heights)) = before else { return [corner.height; STAGES] };
+        RADAU.continued(&heights.rise(), h / last.h).map(|rise| corner.height + rise)
+    }
+
+    /// Those of the step before, on the same side of the corner.
+    fn last_heights(&self) -> Option<Heights> {
+        let same_side = |corner: &Corner| !corner.turned;
+        self.corner.as_ref().filter(|corner| same_side(corner))?;
+        self.last?.height
+    }
+
+    /// Error of the heights as a polynomial of time, against the step before, as one of the displacement.
+    pub(super) fn error_of_heights(&self, heights: Option<&Heights>, h: f64) -> f64 {
+        let Some(((heights, before), last)) = heights.zip(self.last_heights()).zip(self.last)
+        else {
+            return 0.0;
+        };
+        let error = step::interpolation_error(&heights.rise(), h, (&before.rise(), last.h));
+        let (corner_weight, round_off) =
+            self.corner.map_or((0.0, 0.0), |corner| (corner.weight, corner.round_off));
+        let error = (error - round_off).max(0.0);
+        let depth = heights.nodes[STAGES - 1].abs().max(1.0);
+        SHARE_OF_DENSE * error * corner_weight.min(1.0).max(corner_weight / depth) / depth
+    }
+}

@@ -1,0 +1,30 @@
+//! Why an integration ends early.
+
+use thiserror::Error;
+
+/// Why a run could not go on.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum IntegrationError {
+    /// The step length fell to the round-off of t.
+    #[error(
+        "at t = {t}: the tolerance {tolerance:e} cannot be met, the step length fell to {h:e}; ask for a larger tolerance, or for smoother forces and surfaces"
+    )]
+    StepTooSmall {
+        /// Time reached.
+        t: f64,
+        /// Last step length tried.
+        h: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+    },
+    /// The tip came back to where it had been so long ago that the memory no longer knows it.
+    #[error(
+        "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
+    )]
+    Forgotten {
+        /// Time reached.
+        t: f64,
+        /// Distance over which the past is kept.
+        kept: f64,
+    },
+}

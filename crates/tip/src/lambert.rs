@@ -1,0 +1,40 @@
+//! Lambert's W.
+
+/// W(c) e^{W(c)} = c, the branch W ≥ 0 for c ≥ 0.
+///
+/// Newton's iteration for W + ln W = ln c, which is concave and increasing: from below it never overshoots.
+#[must_use]
+pub(crate) fn w0(c: f64) -> f64 {
+    if c <= 0.0 {
+        return 0.0;
+    }
+    // Small c: the series' first terms; large c: ln c - ln ln c.
+    let mut w = if c < 1.0 { c / (1.0 + c) } else { (1.0 + c).ln() * 0.7 };
+    for _ in 0..30 {
+        let step = w * (c.ln() - w.ln() - w) / (1.0 + w);
+        let next = (w + step).max(0.1 * w);
+        if (next - w).abs() <= f64::EPSILON * w {
+            return next;
+        }
+        w = next;
+    }
+    w
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn w_solves_its_equation_from_the_smallest_to_the_largest() {
+        for n in -300..300 {
+            let c = 10_f64.powi(n);
+            let w = w0(c);
+            // In logarithms, where neither side leaves floating point.
+            let miss = w + w.ln() - c.ln();
+            assert!(miss.abs() < 1e-15 * (1.0 + c.ln().abs()) * 4.0, "{c:e} {w:e} {miss:e}");
+        }
+        assert!((w0(1.0) - 0.567_143_290_409_783_8).abs() < 1e-15, "the omega constant");
+        assert!(w0(0.0).abs() < 1e-300);
+    }
+}

@@ -1,0 +1,268 @@
+//! The depth limit (61) within a step: the heights under the tip, beside its displacements.
+//!
+//! ```text
+//!     η_i = outside_i - α (past_i + Σ_k b_ik w_k f(d_i - d_k))        w_k = e^{-|η_k|/b}
+//! ```
+//!
+//! with b = hA, and w in the groove of the step itself too. |η| has a corner at 0: a step keeps to one side
+//! of it, where w is the smooth e^{-ση/b}, and the integrator ends steps where η = 0.
+
+use super::law::Equations;
+use super::linear_system::Factors;
+use super::own::{Matrix, OwnGroove, OwnHeight};
+use crate::collocation::{STAGES, Stages};
+
+/// b of (61), and the side of the corner: σ = 1 above 0, -1 below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Depth {
+    /// b
+    pub limit: f64,
+    /// σ
+    pub side: f64,
+}
+
+/// What is known at the stages beside their displacements: slopes, curvatures, heights.
+#[derive(Debug, Clone, Copy)]
+pub struct Known {
+    /// ∫ f' over the past, as far as it is still there.
+    pub past_slope: Stages,
+    /// ∫ f''
+    pub past_curvature: Stages,
+    /// ∫ f
+    pub past_height: Stages,
+    /// Of what the surface held before the run.
+    pub relief_slope: Stages,
+    /// Likewise.
+    pub relief_curvature: Stages,
+    /// Likewise.
+    pub relief_height: Stages,
+}
+
+/// What the equations miss at given displacements and heights.
+#[derive(Debug, Clone, Copy)]
+pub struct Missed {
+    /// d - hAv
+    pub displacement: Stages,
+    /// η less what it should be.
+    pub height: Stages,
+}
+
+/// The Jacobian of both, factored by blocks.
+pub struct LimitedFactors {
+    height: Factors,
+    /// ∂(missed height)/∂d
+    height_by_displacement: Matrix,
+    /// ∂(missed displacement)/∂η
+    displacement_by_height: Matrix,
+    /// What is left for the displacements once heights are eliminated.
+    displacement: Factors,
+}
+
+impl Known {
+    /// Nothing yet.
+    #[must_use]
+    pub(crate) fn nothing() -> Self {
+        let zero = [0.0; STAGES];
+        Self {
+            past_slope: zero,
+            past_curvature: zero,
+            past_height: zero,
+            relief_slope: zero,
+            relief_curvature: zero,
+            relief_height: zero,
+        }
+    }
+
+    /// As much of it as is left at each stage.
+    pub(crate) fn fade(&mut self, past: &Stages, relief: &Stages) {
+        let scale = |told: &mut Stages, left: &Stages| {
+            told.iter_mut().zip(left).for_each(|(told, left)| *told *= left);
+        };
+        scale(&mut self.past_slope, past);
+        scale(&mut self.past_curvature, past);
+        scale(&mut self.past_height, past);
+        scale(&mut self.relief_slope, relief);
+        scale(&mut self.relief_curvature, relief);
+        scale(&mut self.relief_height, relief);
+    }
+}
+
+impl Depth {
+    /// w at the heights of the stages.
+    #[must_use]
+    pub fn weights(&self, height: &Stages) -> Stages {
+        height.map(|height| (-self.side * height / self.limit).exp())
+    }
+
+    /// What displacements and heights miss.
+    #[must_use]
+    pub fn missed(
+        &self,
+        equations: &Equations,
+        (d, height): (&Stages, &Stages),
+        known: &Known,
+        (own, own_height): (&OwnGroove, &OwnHeight),
+    ) -> Missed {
+        let weights = self.weights(height);
+        let carving = by_columns(equations.carving(), &weights);
+        let slopes = (&known.past_slope, &known.relief_slope);
+        let velocity = equations.velocity_with(&carving, d, slopes, own);
+        let mut groove = known.past_height;
+        own_height.add(&carving, &mut groove);
+        let alpha = equations.alpha();
+        Missed {
+            displacement: equations.residual(d, &velocity),
+            height: std::array::from_fn(|i| height[i] - known.relief_height[i] + alpha * groove[i]),
+        }
+    }
+
+    /// The Jacobian of [`missed`](Self::missed); `None` where it is singular.
+    #[must_use]
+    pub fn factors(
+        &self,
+        equations: &Equations,
+        height: &Stages,
+        known: &Known,
+        (own, own_height): (&OwnGroove, &OwnHeight),
+    ) -> Option<LimitedFactors> {
+        let weights = self.weights(height);
+        let indenting = by_columns(&equations.indenting(), &weights);
+        let curvatures = (&known.past_curvature, &known.relief_curvature);
+        let by_displacement = equations.jacobian_with(&indenting, curvatures, own);
+        // ∂w/∂η = -σ w/b
+        let by_height = weights.map(|w| -self.side * w / self.limit);
+        let changing = by_columns(&equations.indenting(), &by_height);
+        let (slopes, values) = (own.slopes(), own_height.values());
+        let displacement_by_height =
+            equations.less_carried([[0.0; STAGES]; STAGES], &products(&changing, &slopes));
+        let mut own_by_height = products(&changing, &values);
+        for (i, row) in own_by_height.iter_mut().enumerate() {
+            row[i] += 1.0;
+        }
+        let height_by_displacement = self.height_slopes(equations, known, &indenting, &slopes);
+        let height = Factors::of(own_by_height)?;
+        let mut reduced = by_displacement;
+        for k in 0..STAGES {
+            let column = height.solve(&std::array::from_fn(|i| height_by_displacement[i][k]));
+            for (row, by) in reduced.iter_mut().zip(&displacement_by_height) {
+                row[k] -= by.iter().zip(&column).map(|(a, b)| a * b).sum::<f64>();
+            }
+        }
+        let displacement = Factors::of(reduced)?;
+        Some(LimitedFactors {
+            height,
+            height_by_displacement,
+            displacement_by_height,
+            displacement,
+        })
+    }
+
+    /// ∂(missed height)/∂d: minus the slope of the surface under the tip, and what moves along with each
+    /// stage.
+    fn height_slopes(
+        &self,
+        equations: &Equations,
+        known: &Known,
+        indenting: &Matrix,
+        slopes: &Matrix,
+    ) -> Matrix {
+        let own = products(indenting, slopes);
+        let mut derivatives = own.map(|row| row.map(|entry| -entry));
+        for i in 0..STAGES {
+            let here: f64 = own[i].iter().sum();
+            derivatives[i][i] +=
+                equations.alpha() * known.past_slope[i] - known.relief_slope[i] + here;
+        }
+        derivatives
+    }
+}
+
+impl LimitedFactors {
+    /// Newton's corrections, to be taken away.
+    #[must_use]
+    pub fn corrections(&self, missed: &Missed) -> Missed {
+        let by_height = self.height.solve(&missed.height);
+        let right = std::array::from_fn(|i| {
+            let through = self.displacement_by_height[i].iter().zip(&by_height);
+            missed.displacement[i] - through.map(|(a, b)| a * b).sum::<f64>()
+        });
+        let displacement = self.displacement.solve(&right);
+        let left = std::array::from_fn(|i| {
+            let through = self.height_by_displacement[i].iter().zip(&displacement);
+            missed.height[i] - through.map(|(a, b)| a * b).sum::<f64>()
+        });
+        Missed { displacement, height: self.height.solve(&left) }
+    }
+}
+
+/// Each column times a factor.
+fn by_columns(matrix: &Matrix, factors: &Stages) -> Matrix {
+    matrix.map(|row| std::array::from_fn(|k| row[k] * factors[k]))
+}
+
+/// Entry by entry.
+fn products(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|k| a[i][k] * b[i][k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::inertia::Inertia;
+    use super::super::law::Law;
+    use super::*;
+    use crate::TipFunction;
+    use crate::collocation::RADAU;
+
+    /// A past and a relief of known heights, slopes and curvatures.
+    fn known(d: &Stages) -> Known {
+        Known {
+            past_slope: d.map(|d| 0.6 * (0.7 * d + 0.2).cos()),
+            past_curvature: d.map(|d| -0.42 * (0.7 * d + 0.2).sin()),
+            past_height: d.map(|d| 0.6 / 0.7 * (0.7 * d + 0.2).sin()),
+            relief_slope: d.map(|d| 0.3 * d * d),
+            relief_curvature: d.map(|d| 0.6 * d),
+            relief_height: d.map(|d| 0.1 * d * d * d - 2.0),
+        }
+    }
+
+    /// A Newton step from far is compared with one by differences: blocks and signs.
+    #[test]
+    fn corrections_are_those_of_the_whole_jacobian() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let law = Law { alpha: 1.3, r: 0.8, spring: 1.0 };
+        for (time, mass) in [(None, None), (Some(0.9), Some(0.4))] {
+            let (h, depth) = (0.6, Depth { limit: 1.7, side: -1.0 });
+            let inertia;
+            let mut equations = Equations::new(law, h, law.pull(0.9, h));
+            if let (Some(time), Some(mass)) = (time, mass) {
+                inertia = Inertia::new(mass, h, 0.7);
+                equations = equations.with_healing(time).with_inertia(&inertia);
+            }
+            let d: Stages = RADAU.c.map(|c| 0.8 * c * (1.0 - 0.4 * c));
+            let height: Stages = RADAU.c.map(|c| -1.8 - 0.9 * c);
+            let missed = |d: &Stages, height: &Stages| {
+                let own = (OwnGroove::new(&tip, d), OwnHeight::new(&tip, d));
+                depth.missed(&equations, (d, height), &known(d), (&own.0, &own.1))
+            };
+            let own = (OwnGroove::new(&tip, &d), OwnHeight::new(&tip, &d));
+            let factors = depth.factors(&equations, &height, &known(&d), (&own.0, &own.1)).unwrap();
+            let step = factors.corrections(&missed(&d, &height));
+            // The Jacobian times the corrections is what was missed: by a difference along them.
+            let along = |by: f64| {
+                let d = std::array::from_fn(|i| d[i] + by * step.displacement[i]);
+                missed(&d, &std::array::from_fn(|i| height[i] + by * step.height[i]))
+            };
+            let (e, wanted) = (1e-3, missed(&d, &height));
+            let points = [along(e), along(-e), along(2.0 * e), along(-2.0 * e)];
+            for i in 0..STAGES {
+                let by = |part: fn(&Missed) -> &Stages| {
+                    let p = points.map(|m| part(&m)[i]);
+                    (8.0 * (p[0] - p[1]) - (p[2] - p[3])) / (12.0 * e)
+                };
+                let (d, height) = (by(|m| &m.displacement), by(|m| &m.height));
+                assert!((d - wanted.displacement[i]).abs() < 1e-9, "{i} {d}");
+                assert!((height - wanted.height[i]).abs() < 1e-9, "{i} {height}");
+            }
+        }
+    }
+}

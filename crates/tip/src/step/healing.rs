@@ -1,0 +1,57 @@
+//! What a step carves where the surface heals meanwhile.
+
+use super::linear_system::Factors;
+use super::own::Matrix;
+use crate::collocation::{RADAU, STAGES};
+
+/// How much of what each stage of a step of length h leaves is there at each stage, where all fades as
+/// e^{-t/T}: y' = g - y/T from y = 0 is y = (1 + hA/T)⁻¹hA g.
+#[must_use]
+pub fn healing(h: f64, time: f64) -> Matrix {
+    let share = h / time;
+    let fading = RADAU.a.map(|row| row.map(|a| share * a));
+    // 1 + hA/T is regular for every h/T ≥ 0: the eigenvalues of A lie right of 0.
+    let factors = Factors::of(plus_one(fading)).unwrap_or_else(|| unreachable!("A is stable"));
+    columns(|k| factors.solve(&std::array::from_fn(|i| h * RADAU.a[i][k])))
+}
+
+/// 1 + a matrix.
+pub(super) fn plus_one(mut matrix: Matrix) -> Matrix {
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[i] += 1.0;
+    }
+    matrix
+}
+
+/// The matrix of these columns.
+pub(super) fn columns(column: impl Fn(usize) -> [f64; STAGES]) -> Matrix {
+    let columns: Matrix = std::array::from_fn(column);
+    std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collocation::apply;
+
+    /// y' = cos t - y/T has a closed solution.
+    #[test]
+    fn what_fades_while_it_is_left_is_that_of_the_differential_equation() {
+        for (h, time) in [(0.5, 0.7), (0.1, 30.0), (1e-3, 1e9)] {
+            let left = apply(&healing(h, time), &RADAU.c.map(|c| (h * c).cos()));
+            for (c, y) in RADAU.c.iter().zip(left) {
+                let (t, s) = (h * c, 1.0 / time);
+                let exact = (s * t.cos() + t.sin() - s * (-s * t).exp()) / (1.0 + s * s);
+                assert!((y - exact).abs() < 1e-7 * h.powi(7) * 128.0 + 1e-16, "{h} {time} {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_much_longer_than_the_healing_leaves_what_is_left_just_now() {
+        let left = apply(&healing(1.0, 1e-9), &RADAU.c);
+        for (c, y) in RADAU.c.iter().zip(left) {
+            assert!((y - 1e-9 * c).abs() < 1e-16, "{c} {y}");
+        }
+    }
+}

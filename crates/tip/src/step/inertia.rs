@@ -1,0 +1,66 @@
+//! From the force on a tip with inertia to its displacement.
+
+use super::healing::{columns, plus_one};
+use super::linear_system::Factors;
+use super::own::Matrix;
+use crate::collocation::{RADAU, STAGES, Stages, apply};
+
+/// M v' + v = φ, x' = v, collocated: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and d = hAv. So d is
+/// linear in the force at the stages, and one unknown for each stage is enough.
+#[derive(Debug, Clone)]
+pub struct Inertia {
+    /// hA S hA/M: d by φ.
+    carried: Matrix,
+    /// hA S v(start): how far the tip would glide.
+    glide: Stages,
+}
+
+impl Inertia {
+    /// Of a step of length h that begins with this velocity.
+    #[must_use]
+    pub fn new(mass: f64, h: f64, velocity: f64) -> Self {
+        let share = h / mass;
+        let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
+        let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
+        let along = |v: Stages| apply(&RADAU.a, &v).map(|d| h * d);
+        let by_force = |k: usize| factors.solve(&std::array::from_fn(|i| share * RADAU.a[i][k]));
+        Self {
+            carried: columns(|k| along(by_force(k))),
+            glide: along(factors.solve(&[velocity; STAGES])),
+        }
+    }
+
+    /// d less what force and start make of it.
+    pub(super) fn residual(&self, d: &Stages, force: &Stages) -> Stages {
+        let carried = apply(&self.carried, force);
+        std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
+    }
+
+    /// ∂d by the force.
+    pub(super) fn carried(&self) -> &Matrix {
+        &self.carried
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// M v' + v = cos t from v0 has a closed solution.
+    #[test]
+    fn a_tip_glides_as_its_differential_equation_says() {
+        for (mass, h, start) in [(0.3, 0.1, 2.0), (10.0, 0.3, -1.0), (1e-8, 0.05, 1.0)] {
+            let force = RADAU.c.map(|c| (h * c).cos());
+            let inertia = Inertia::new(mass, h, start);
+            let d = inertia.residual(&[0.0; STAGES], &force).map(|d| -d);
+            let size: f64 = 1.0 + mass * mass;
+            let free = start - 1.0 / size;
+            for (c, d) in RADAU.c.iter().zip(d) {
+                let t = h * c;
+                let forced = (t.sin() + mass * (1.0 - t.cos())) / size;
+                let exact = forced - free * mass * (-t / mass).exp_m1();
+                assert!((d - exact).abs() < 1e-7 * (1.0 + start.abs()), "{mass} {c}: {d} {exact}");
+            }
+        }
+    }
+}

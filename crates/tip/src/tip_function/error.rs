@@ -1,0 +1,110 @@
+//! Why there is no such footprint.
+
+use super::LARGEST;
+use thiserror::Error;
+
+/// Why a footprint was refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TipFunctionError {
+    /// No Gaussian, or none with an amplitude other than 0.
+    #[error(
+        "the tip function is zero everywhere: give at least one Gaussian with an amplitude other than 0"
+    )]
+    Zero,
+    /// A Gaussian with a parameter that is not finite.
+    #[error("Gaussian number {index}: amplitude, center and width must be finite numbers")]
+    NotFinite {
+        /// Counted from 1.
+        index: usize,
+    },
+    /// A Gaussian whose width is not positive.
+    #[error("Gaussian number {index} has width {width}: a width must be above 0")]
+    Width {
+        /// Counted from 1.
+        index: usize,
+        /// As given.
+        width: f64,
+    },
+    /// A Gaussian whose numbers, multiplied with each other, leave floating point.
+    #[error(
+        "Gaussian number {index}: amplitude and center may be at most {largest:e} in size, the width between {smallest:e} and {largest:e}",
+        smallest = 1.0 / LARGEST, largest = LARGEST
+    )]
+    OutOfRange {
+        /// Counted from 1.
+        index: usize,
+    },
+    /// A Gaussian off the origin without its mirror image.
+    #[error(
+        "the tip function is not even: the Gaussian at center {center} lacks a twin of the same amplitude and width at {mirror}",
+        mirror = -center
+    )]
+    NotEven {
+        /// Center of the Gaussian that stands alone.
+        center: f64,
+    },
+    /// A two-dimensional Gaussian off the line y = 0 without its mirror image.
+    #[error(
+        "the tip function is not even in y: the Gaussian at center {center}, center_y {center_y} lacks a twin of the same amplitude and widths at center_y {mirror}"
+    )]
+    NotEvenAcross {
+        /// Center in x of the Gaussian that stands alone.
+        center: f64,
+        /// Its center in y.
+        center_y: f64,
+        /// Where its twin should be.
+        mirror: f64,
+    },
+    /// A table of f(x,y) that is no full grid.
+    #[error(
+        "the table has {points} rows, no full grid of its {x} values of x and {y} values of y: give every x for every y, each once"
+    )]
+    TableGrid {
+        /// Rows given.
+        points: usize,
+        /// Distinct x.
+        x: usize,
+        /// Distinct y.
+        y: usize,
+    },
+    /// Side lobes that are not finite.
+    #[error("beta is {0:?}: it must be a finite number")]
+    Beta(f64),
+    /// A table with too few or too many rows.
+    #[error("the table has {found} rows: between {min} and {max} are needed")]
+    TableLength {
+        /// Rows given.
+        found: usize,
+        /// Fewest that define a shape.
+        min: usize,
+        /// Most that are taken; thin the table above that.
+        max: usize,
+    },
+    /// A table entry that is not finite.
+    #[error("row {row} of the table is not a pair of finite numbers")]
+    TableNotFinite {
+        /// Counted from 1.
+        row: usize,
+    },
+    /// A table whose x do not increase.
+    #[error("row {row} of the table has x = {x}: x must increase from row to row")]
+    TableUnsorted {
+        /// Counted from 1.
+        row: usize,
+        /// As given.
+        x: f64,
+    },
+    /// A table that does not begin at x = 0.
+    #[error("the table starts at x = {0}: it must start at x = 0 (f is even, so x ≥ 0 is enough)")]
+    TableStart(f64),
+    /// A table whose last value is not small.
+    #[error(
+        "the table does not decay: its last value is {ratio:.1e} of its largest, at most {most:.0e} will do; sample further out"
+    )]
+    TableDecay {
+        /// |f at the last x| / max |f|.
+        ratio: f64,
+        /// Largest ratio accepted.
+        most: f64,
+    },
+}

@@ -1,0 +1,78 @@
+//! A document of a raster is the raster: plan and lines come back from its text.
+
+use stickslip_documents::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
+use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
+
+/// One-way under a depth limit on a surface that heals, the others under the paper's law.
+fn plan(path: Path) -> Plan {
+    let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
+    let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
+    let is_wider = path == Path::OneWay;
+    let wider = Wider {
+        depth_limit: is_wider.then_some(4.0),
+        healing_time: is_wider.then_some(50.0),
+        ..Wider::default()
+    };
+    let model = Model::under(wider, tip, 0.6, 0.9).unwrap();
+    Plan::new(footprint, model, path, 0.7, 5, 20.0)
+}
+
+fn document(path: Path) -> (Plan, Vec<Line>, RasterDocument) {
+    let plan = plan(path);
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let lines = scanning.into_lines();
+    let model = ModelParameters::of(&plan.law.model, None);
+    let parameters = RasterParameters::of(&plan, model, Some(1.3));
+    let document = RasterDocument::new(parameters, &plan, &lines, &[0.0, 10.0, 20.0]);
+    (plan, lines, document)
+}
+
+/// A document is the raster: plan and lines come back from its text to the last bit.
+#[test]
+fn a_raster_comes_back_from_its_document() {
+    for path in [Path::OneWay, Path::Zigzag, Path::Repeat] {
+        let (plan, lines, document) = document(path);
+        let text = serde_json::to_string(&document).unwrap();
+        let back: RasterDocument = read(&text, RasterDocument::FORMAT).unwrap();
+        let (again, found) = back.scanned().unwrap();
+        assert_eq!((again.path, again.lines), (plan.path, plan.lines));
+        for (a, b) in found.iter().zip(&lines) {
+            assert_eq!((a.track(), a.trajectory()), (b.track(), b.trajectory()));
+        }
+        let at = ([3.0, 9.5], [0.0, 1.9]);
+        let heights = |plan, lines| Scanned::new(plan, lines).heights(&at.0, &at.1);
+        assert_eq!(heights(&again, &found), heights(&plan, &lines));
+    }
+}
+
+/// What was scanned, and no other, is what the rest of a raster goes on from.
+#[test]
+fn a_line_kept_is_the_line() {
+    let (plan, lines, _) = document(Path::OneWay);
+    assert!(lines[0].height(3.0).is_some_and(|height| height < 0.0));
+    for (n, line) in lines.iter().enumerate() {
+        let text = serde_json::to_string(&KeptLine::of(n, line)).unwrap();
+        let kept: KeptLine = serde_json::from_str(&text).unwrap();
+        let again = kept.line(&plan).unwrap();
+        assert_eq!((again.track(), again.work()), (line.track(), line.work()));
+        assert_eq!(again.trajectory(), line.trajectory());
+    }
+    let other = KeptLine { index: 7, ..KeptLine::of(0, &lines[0]) };
+    let without = KeptLine { heights: None, ..KeptLine::of(0, &lines[0]) };
+    let short = KeptLine { heights: Some(vec![]), ..KeptLine::of(0, &lines[0]) };
+    for line in [other, without, short] {
+        assert!(line.line(&plan).is_err(), "{}", line.index);
+    }
+}
+
+#[test]
+fn a_damaged_history_is_refused() {
+    let (_, _, mut document) = document(Path::OneWay);
+    document.history.lines[2].extension[1] += 1e-3;
+    let said = document.scanned().unwrap_err().to_string();
+    assert!(said.contains("line 3"), "{said}");
+    document.history.lines.truncate(2);
+    assert!(document.scanned().is_err());
+}

@@ -1,0 +1,234 @@
+//! Is the tolerance honoured under the wider law too? Judged as tests/science/tolerance_ladder.rs does, by a run
+//! with the `direct` memory at 1e-13; tests/science/wider_law.rs ties that to the outside.
+
+use crate::acceptance::{Acceptance, largest_difference, observed_order};
+use stickslip_tip::memory::Policy;
+use stickslip_tip::{
+    Force, Integrator, MemoryChoice, Model, Run, Scenario, Start, Step, SupportPath, TipFunction,
+    Trajectory, Wider, run,
+};
+
+const LADDER: Acceptance = Acceptance { floor: 5e-13, slack: 10.0 };
+
+fn wider(depth_limit: Option<f64>, healing_time: Option<f64>, inertia: Option<f64>) -> Wider {
+    Wider { depth_limit, healing_time, inertia, ..Wider::default() }
+}
+
+fn triple(beta: f64) -> TipFunction {
+    TipFunction::triple_gaussian(beta, 1.0).unwrap()
+}
+
+/// A run that starts beside steady motion and lasts so long.
+fn case(law: Wider, (beta, alpha, r): (f64, f64, f64), duration: f64) -> Scenario {
+    let model = Model::under(law, triple(beta), alpha, r).unwrap();
+    let scenario = Scenario { kick: 0.05, ..Scenario::new(model, 1e9) };
+    Scenario { until: scenario.start_time() + duration, ..scenario }
+}
+
+fn cases() -> Vec<(&'static str, Scenario)> {
+    let path =
+        SupportPath::new(vec![0.0, 20.0, 30.0, 45.0, 60.0], vec![0.0, 24.0, 24.0, 9.0, 24.0]);
+    let on_path = case(wider(None, None, None), (0.0, 1.1, 1.0), 1.0);
+    let on_path = Scenario { path: Some(path.unwrap()), until: 60.0, ..on_path };
+    vec![
+        ("depth limit", case(wider(Some(20.0), None, None), (0.0, 2.6, 1.0), 100.0)),
+        ("slow slips", case(wider(Some(10.0), None, None), (1.0, 20.0, 1.0), 160.0)),
+        ("corner", case(wider(Some(5.0), None, None), (1.0, 1.3, 1.0), 100.0)),
+        ("healing", case(wider(None, Some(10.0), None), (1.0, 1.5, 1.0), 100.0)),
+        ("fast healing", case(wider(None, Some(1.5), None), (1.0, 4.0, 0.7), 100.0)),
+        ("inertia", case(wider(None, None, Some(0.5)), (1.0, 1.2, 1.0), 100.0)),
+        ("light", case(wider(None, None, Some(0.01)), (1.0, 1.2, 1.0), 100.0)),
+        ("limit, healing", case(wider(Some(5.0), Some(20.0), None), (0.5, 3.0, 1.0), 100.0)),
+        ("all", case(wider(Some(4.0), Some(15.0), Some(0.3)), (1.0, 2.0, 1.0), 100.0)),
+        ("path", on_path),
+    ]
+}
+
+/// In x0, in σ.
+fn error(run: &Run, reference: &Run) -> f64 {
+    let range = (run.trajectory.start(), run.trajectory.end());
+    largest_difference(|t| run.trajectory.x0(t), |t| reference.trajectory.x0(t), range, 20_000)
+}
+
+/// In the height under the tip, where it is followed, relative to it where it is large.
+fn error_of_height(run: &Run, reference: &Run) -> f64 {
+    let height = |run: &Run, t: f64| run.trajectory.height(t).unwrap_or(0.0);
+    let range = (run.trajectory.start(), run.trajectory.end());
+    let scale = |t: f64| height(reference, t).abs().max(1.0);
+    let relative = |run: &Run, t: f64| height(run, t) / scale(t);
+    largest_difference(|t| relative(run, t), |t| relative(reference, t), range, 20_000)
+}
+
+#[test]
+fn every_extension_keeps_the_tolerance_from_1e_4_to_1e_11() {
+    for (name, scenario) in cases() {
+        let with = |tolerance: f64, memory| {
+            run(&Scenario { tolerance, memory, ..scenario.clone() }).unwrap()
+        };
+        // Heights of 60 are not known better.
+        let finest = if name == "slow slips" { 1e-12 } else { 1e-13 };
+        let reference = with(finest, MemoryChoice::Direct);
+        for memory in [MemoryChoice::Direct, MemoryChoice::Fft, MemoryChoice::Modes] {
+            // Exponentials do not fit better where α is large.
+            let most = if (name, memory) == ("slow slips", MemoryChoice::Modes) { 9 } else { 11 };
+            for digits in 4..=most {
+                let tolerance = 10.0_f64.powi(-digits);
+                let found = with(tolerance, memory);
+                let label =
+                    format!("{name}, {memory:?}, {tolerance:e}, {} steps", found.work.steps);
+                LADDER.judge(&label, error(&found, &reference), tolerance);
+                let label = format!("{label}, height");
+                LADDER.judge(&label, error_of_height(&found, &reference), tolerance);
+            }
+        }
+    }
+}
+
+/// Errors of x0 at step ends with steps of one length, over five lengths.
+fn errors(scenario: &Scenario, lengths: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+    let (surface, model) = (scenario.initial_surface().unwrap(), &scenario.model);
+    let (from, to) = (scenario.start_time(), scenario.until);
+    let reference = run(&Scenario { tolerance: 1e-13, ..scenario.clone() }).unwrap();
+    let error = |h: f64| {
+        let extension = scenario.support().position(from) - scenario.start_position;
+        let start = (from, extension + scenario.kick);
+        let memory = Policy::direct(model.tip().clone());
+        let mut integrator =
+            Integrator::new(model, &surface, &scenario.force, memory, start, 1e-13)
+                .with_fixed_step(h);
+        let mut steps: Vec<Step> = vec![];
+        while integrator.t() < to {
+            steps.push(integrator.step(to).unwrap());
+        }
+        let found = Trajectory::under(*model.wider(), scenario.support(), steps);
+        found.steps().iter().fold(0.0, |most: f64, step| {
+            let t = step.end().min(to);
+            most.max((found.x0(t) - reference.trajectory.x0(t)).abs())
+        })
+    };
+    lengths.map(|h| (h, error(h))).collect()
+}
+
+/// 11 at step ends, as without. (A step that ends at the corner is shorter, and the next one as long as asked.)
+#[test]
+fn orders_of_convergence_survive_every_extension_and_the_corner() {
+    let cases = [
+        ("depth limit", wider(Some(3.0), None, None), (0.0, 3.0)),
+        ("healing", wider(None, Some(2.0), None), (1.0, 1.5)),
+        ("inertia", wider(None, None, Some(0.5)), (1.0, 1.2)),
+        ("corner", wider(Some(5.0), None, None), (1.0, 1.3)),
+        ("all", wider(Some(4.0), Some(15.0), Some(0.3)), (1.0, 2.0)),
+    ];
+    for (name, law, (beta, alpha)) in cases {
+        let scenario = Scenario {
+            kick: 0.5,
+            memory: MemoryChoice::Direct,
+            ..case(law, (beta, alpha, 1.0), 12.0)
+        };
+        let found = errors(&scenario, (0..5).map(|i| 0.6 * 0.5_f64.powf(0.25 * f64::from(i))));
+        let order = observed_order(&found);
+        println!("{name}: order {order:.2} {found:?}");
+        assert!(order > 9.0, "{name}: {order}");
+    }
+}
+
+/// f = cos, no spring: the Lorenz system with σ = T/M, ρ = -αT², b = 1.
+#[test]
+fn a_cosine_without_a_spring_is_the_lorenz_system() {
+    let (mass, alpha, velocity) = (0.1, -28.0, 1.0);
+    let law =
+        Wider { healing_time: Some(1.0), inertia: Some(mass), spring: false, ..Wider::default() };
+    let model = Model::under(law, TipFunction::Cosine, alpha, 0.0).unwrap();
+    let times: Vec<f64> = (1..=8).map(f64::from).collect();
+    let lorenz = lorenz((mass, alpha, velocity), &times);
+    for memory in [MemoryChoice::Direct, MemoryChoice::Fft, MemoryChoice::Modes] {
+        let scenario = Scenario {
+            start: Start::Flat,
+            start_position: 0.0,
+            start_velocity: Some(velocity),
+            memory,
+            tolerance: 1e-12,
+            ..Scenario::new(model.clone(), 8.0)
+        };
+        let found = run(&scenario).unwrap();
+        for (t, x) in times.iter().zip(&lorenz) {
+            let miss = (found.trajectory.velocity(*t) - x).abs();
+            println!("{memory:?} {t} {x:.10} {miss:.1e}");
+            assert!(miss < 1e-8, "{memory:?} {t}: {miss:e}");
+        }
+    }
+}
+
+/// With X = x0' and the two sums of a cosine over the past, Y = ∫ sin and Z = ∫ cos of x0(t) - x0(t') with weight
+/// e^{-(t-t')/T}: M X' = -X - α Y, Y' = X Z - Y/T, Z' = 1 - X Y - Z/T, by the classical fourth-order method with
+/// Richardson's extrapolation.
+fn lorenz((mass, alpha, velocity): (f64, f64, f64), times: &[f64]) -> Vec<f64> {
+    let rate = |[x, y, z]: [f64; 3]| [(-x - alpha * y) / mass, x * z - y, 1.0 - x * y - z];
+    let step = |u: [f64; 3], h: f64| {
+        let along = |k: [f64; 3], by: f64| std::array::from_fn(|i| u[i] + by * k[i]);
+        let k1 = rate(u);
+        let k2 = rate(along(k1, 0.5 * h));
+        let k3 = rate(along(k2, 0.5 * h));
+        let k4 = rate(along(k3, h));
+        std::array::from_fn(|i| u[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+    };
+    let with = |n: u32| {
+        let h = 1.0 / f64::from(n);
+        let mut u = [velocity, 0.0, 0.0];
+        let mut states = vec![];
+        for _ in times {
+            (0..n).for_each(|_| u = step(u, h));
+            states.push(u[0]);
+        }
+        states
+    };
+    let (coarse, fine) = (with(20_000), with(40_000));
+    coarse.iter().zip(&fine).map(|(a, b)| b + (b - a) / 15.0).collect()
+}
+
+/// Oza, Rosales & Bush, J. Fluid Mech. 737, 552 (2013), in one dimension without inertia: f = J0, T = 1, B = 3 walk
+/// at v² = (2B - 1 - √(1 + 4B))/2.
+#[test]
+fn a_walker_on_j0_goes_at_the_speed_of_theory() {
+    let law = Wider { healing_time: Some(1.0), spring: false, ..Wider::default() };
+    let model = Model::under(law, TipFunction::Bessel, -3.0, 0.0).unwrap();
+    let exact = ((6.0 - 1.0 - 13.0_f64.sqrt()) / 2.0).sqrt();
+    assert!((exact - 0.834_999_6).abs() < 1e-7);
+    let pulse = stickslip_tip::Pulse { amplitude: 1.0, time: 2.0, width: 0.5 };
+    for memory in [MemoryChoice::Direct, MemoryChoice::Fft] {
+        let scenario = Scenario {
+            start: Start::Flat,
+            force: Force::new(vec![pulse], None).unwrap(),
+            memory,
+            ..Scenario::new(model.clone(), 60.0)
+        };
+        let speed = run(&scenario).unwrap().trajectory.velocity(60.0);
+        println!("{memory:?} {speed:.10}");
+        assert!((speed - exact).abs() < 1e-8, "{memory:?}: {speed}");
+    }
+}
+
+/// Without limit in the limit: x0 differs by 1/b, 1/T and M, to first order.
+#[test]
+fn each_extension_vanishes_to_first_order() {
+    let plain = run(&case(Wider::default(), (0.0, 1.5, 1.0), 20.0)).unwrap();
+    let miss = |law: Wider| {
+        let found = run(&case(law, (0.0, 1.5, 1.0), 20.0)).unwrap();
+        let start = found.trajectory.start() - plain.trajectory.start();
+        let lag = |t: f64| found.trajectory.lag(t + start);
+        let range = (plain.trajectory.start(), plain.trajectory.end() - 1e-6);
+        largest_difference(lag, |t| plain.trajectory.lag(t), range, 500)
+    };
+    let laws: [fn(f64) -> Wider; 3] = [
+        |e| wider(Some(1.0 / e), None, None),
+        |e| wider(None, Some(1.0 / e), None),
+        |e| wider(None, None, Some(e)),
+    ];
+    for law in laws {
+        let found: Vec<(f64, f64)> =
+            [1e-2, 3e-3, 1e-3, 3e-4, 1e-4].map(|e| (e, miss(law(e)))).to_vec();
+        let order = observed_order(&found);
+        println!("order {order:.3} {found:?}");
+        assert!((order - 1.0).abs() < 0.1, "{order} {found:?}");
+    }
+}

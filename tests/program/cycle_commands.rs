@@ -188,6 +188,10 @@ fn where_there_is_no_cycle_that_is_said() {
         ("cycle --alpha 1 --r 1", &["no small cycle", "1.0690361749467843", "--from"][..]),
         ("cycle --alpha-above=-1e-6 --r 1", &["no small cycle"]),
         ("cycle --alpha 2.3 --r 1", &["trapped"]),
+        (
+            "continue --over alpha --r 1 --width 1e-13",
+            &["where the branch begins", "--alpha ", "--from"],
+        ),
     ] {
         let output = folder.stickslip(line);
         let said = said(&output);

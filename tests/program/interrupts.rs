@@ -66,6 +66,7 @@ fn what_would_go_on_for_ever_has_an_end_and_a_reason() {
     let folder = Folder::new("endless");
     for line in [
         "cycle --alpha 1e18 --r 1",
+        "cycle --alpha 1e308 --r 1",
         "cycle --alpha 1.2 --r 1e-9",
         "cycle --alpha 1.2 --r 1 --beta 1e18",
     ] {

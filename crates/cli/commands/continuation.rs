@@ -185,6 +185,17 @@ fn explain_onset(error: &CycleError, arguments: &ContinueArguments) -> Failure {
             let alpha = arguments.start.model.alpha.unwrap_or_default();
             Failure::input(format!("--alpha {}", Typed(alpha)), error)
         }
+        // There is no nearer one that it could start from.
+        (CycleError::NotConverged { alpha, r }, over) if arguments.start.from.is_none() => {
+            let further = match over {
+                OverName::Alpha => format!("--alpha {}", digits(1.05 * alpha, 4)),
+                OverName::R => format!("--r {}", digits(0.95 * r, 4)),
+            };
+            Failure::Run(format!(
+                "no cycle was reached where the branch begins, at alpha = {alpha:?}, r = {r:?}: begin further on, with \
+                 {further}, or with --from and a document of `stickslip cycle`"
+            ))
+        }
         _ => explain(error),
     }
 }

@@ -13,7 +13,7 @@ use num_complex::Complex;
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_tip::memory::{Fit, FitError, Term};
-use stickslip_tip::{Gaussian, TipFunction};
+use stickslip_tip::{Gaussian, TipFunction, stop};
 
 /// P over the reach: δ is at most a quarter of it.
 const PERIOD: f64 = 1.6;
@@ -32,9 +32,14 @@ const MISSED: f64 = 3.0;
 /// A footprint that never fades.
 pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit>, FitError> {
     let error = |fit: &Arc<Fit>| fit.certificate().slope;
-    let (mut aim, mut best): (f64, Option<Arc<Fit>>) = (wanted, None);
+    // Nothing is looser than 0 by a factor, and no damping is stronger than that of round-off squared.
+    let least = f64::EPSILON * f64::EPSILON;
+    let (mut aim, mut best): (f64, Option<Arc<Fit>>) = (wanted.max(least), None);
     // A looser lattice is less damped, and waves that are left out weigh less.
     while best.is_none() || aim <= LOOSEST {
+        if stop::is_asked() {
+            return Err(FitError::Stopped);
+        }
         let fit = known(tip, aim, terms(tip, aim, most)?)?;
         let is_best = best.as_ref().is_none_or(|best| error(&fit) < error(best));
         let met = error(&fit) <= MISSED * aim;

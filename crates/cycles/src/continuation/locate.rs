@@ -75,7 +75,7 @@ impl Continuation {
         let mut best = next.clone();
         for _ in 0..MOST_ITERATIONS {
             let at = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let found = place.step(self, at)?;
+            let found = place.step(self, at).ok()?;
             let value = test(&found);
             let step = (at - high.0).abs();
             best = found;
@@ -133,7 +133,7 @@ impl Continuation {
         let sign = doubling(&half).signum();
         let lengths = (0..SEARCHES).map(|n| NEAREST * 2_f64.powi(n)).flat_map(|ds| [ds, -ds]);
         let beyond = lengths
-            .filter_map(|ds| half.step(self, ds))
+            .filter_map(|ds| half.step(self, ds).ok())
             .find(|other| doubling(other) * sign < 0.0)?;
         let at = self.locate(&half, &beyond, doubling)?;
         Some(Special::of(SpecialKind::PeriodHalving, at.cycle))

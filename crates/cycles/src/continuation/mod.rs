@@ -13,6 +13,7 @@ mod switch;
 
 pub use special::{Special, SpecialKind};
 
+use super::solve::NotClosed;
 use super::{Cycle, CycleError, Parameter};
 use locate::Located;
 use num_complex::Complex;
@@ -89,6 +90,8 @@ pub enum End {
 }
 
 const FIRST_STEP: f64 = 0.005;
+/// Steps to cycles that close, but not to the residual asked for, beyond the first.
+const MOST_COARSE: usize = 2;
 const SHORTEST_STEP: f64 = 1e-8;
 const GROWTH: f64 = 1.5;
 /// A step that turns by more than this, as the cosine, is tried again at half its length.
@@ -194,12 +197,19 @@ impl Continuation {
 
     /// The next cycle, and the cosine by which the branch turns; shortens the step until there is one.
     fn step(&self, place: &Place, length: &mut f64) -> Option<(Place, f64)> {
+        let mut coarse = 0;
         while *length >= SHORTEST_STEP && !stop::is_asked() {
-            if let Some(next) = place.step(self, *length) {
-                let turn = place.turn(&next);
-                if turn > SHARPEST_TURN {
-                    return Some((next, turn));
+            match place.step(self, *length) {
+                Ok(next) => {
+                    let turn = place.turn(&next);
+                    if turn > SHARPEST_TURN {
+                        return Some((next, turn));
+                    }
                 }
+                // A shorter step leads to a cycle that round-off keeps as far from the residual asked for.
+                Err(NotClosed::Coarse(_)) if coarse == MOST_COARSE => return None,
+                Err(NotClosed::Coarse(_)) => coarse += 1,
+                Err(NotClosed::Lost) => {}
             }
             *length *= 0.5;
         }

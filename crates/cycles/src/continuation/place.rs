@@ -3,7 +3,7 @@
 use super::Continuation;
 use crate::change::{Change, Direction};
 use crate::embedding::Parameter;
-use crate::solve::{Closed, Condition, close};
+use crate::solve::{Closed, Condition, NotClosed, close};
 use crate::{Cycle, CycleError};
 
 /// A cycle with the tangent of its branch.
@@ -36,17 +36,17 @@ impl Place {
     }
 
     /// The cycle at this distance along the tangent, and on the branch through it.
-    pub(super) fn step(&self, settings: &Continuation, length: f64) -> Option<Self> {
+    pub(super) fn step(&self, settings: &Continuation, length: f64) -> Result<Self, NotClosed> {
         let Closed { mut equation, mut orbit, .. } = self.cycle.closed.clone();
         orbit.move_by(&self.tangent, length);
         equation.set(self.over, self.parameter() + length * self.tangent.parameter);
-        equation.model()?;
+        equation.model().ok_or(NotClosed::Lost)?;
         let condition = Condition { free: self.over, fixed: self.along };
-        let closed = close(equation, orbit, condition, settings.tolerance).ok()?;
+        let closed = close(equation, orbit, condition, settings.tolerance)?;
         if closed.is_steady() {
-            return None;
+            return Err(NotClosed::Lost);
         }
-        Self::new(closed, self.over, &self.along)
+        Self::new(closed, self.over, &self.along).ok_or(NotClosed::Lost)
     }
 
     /// How far along the tangent another cycle lies.

@@ -272,6 +272,10 @@ fn points_that_were_changed_are_not_merged() {
         folder.refuses("sweep merge a.json c.json", &["PART.json c.json", "was changed"]);
     }
     let mut changed = part.clone();
+    changed["arithmetic"] = serde_json::Value::Null;
+    folder.write("c.json", changed.to_string());
+    folder.refuses("sweep merge a.json c.json", &["PART.json c.json", "was changed"]);
+    let mut changed = part.clone();
     changed.as_object_mut().unwrap().remove("crc32");
     folder.write("c.json", changed.to_string());
     folder.refuses("sweep merge a.json c.json", &["PART.json c.json", "no checksum"]);

@@ -80,9 +80,10 @@ fn sealed(
     Ok(document)
 }
 
-/// CRC-32 of parameters and points as this program writes them, however the document is laid out.
+/// CRC-32 of parameters, points and how the machine rounds, as this program writes them, however the document is
+/// laid out.
 fn checksum(document: &SweepDocument) -> Result<u32, Failure> {
-    let text = serde_json::to_vec(&(&document.parameters, &document.points));
+    let text = serde_json::to_vec(&(&document.parameters, &document.points, &document.arithmetic));
     Ok(crc32fast::hash(&text.map_err(|error| Failure::Run(error.to_string()))?))
 }
 

@@ -25,7 +25,7 @@ pub struct SweepDocument {
     /// gives other last digits. Null where parts came from machines that do not agree.
     #[serde(default)]
     pub arithmetic: Option<String>,
-    /// CRC-32 (IEEE) of the JSON `[parameters,points]`, without spaces and with the shortest digits: tells `merge`
+    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, without spaces and with the shortest digits: tells `merge`
     /// whether anything was changed.
     #[serde(default)]
     pub crc32: Option<u32>,

@@ -228,3 +228,23 @@ fn a_run_that_starts_before_0_ends_after_it() {
     let (start, end) = (run.trajectory.start(), run.trajectory.end());
     assert!((end - start - SPAN).abs() < 1e-14, "{start} {end}");
 }
+
+/// A run over t = 0 may come to a rounding before its end, which no further step could make up for.
+#[test]
+fn a_run_over_time_zero_ends_where_it_is_to() {
+    let case = Case {
+        lobes: vec![(1.0, 0.0, 0.638_312_523_476_045_1)],
+        alpha: 1.576_458_551_045_805_8,
+        r: 0.112_190_712_534_435_19,
+        flat: true,
+        kick: -0.274_701_041_037_763_8,
+        pulses: vec![],
+        digits: 7,
+    };
+    for i in 0..400 {
+        let position = -0.898_677_697_285_033 + 1e-3 * f64::from(i);
+        let done = case.run(position, MemoryChoice::Auto).unwrap();
+        let until = case.scenario(position).until;
+        assert!((done.trajectory.end() - until).abs() <= 4.0 * f64::EPSILON, "{position}");
+    }
+}

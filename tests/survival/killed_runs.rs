@@ -53,8 +53,8 @@ impl Growing {
     fn reached(self, folder: &Folder) -> Option<f64> {
         let bytes = fs::read(folder.path(self.name())).ok()?;
         match self {
-            Self::Steps => last_row::<9>(&bytes).map(|[t, h, ..]| t + h),
-            Self::Samples => last_row::<4>(&bytes).map(|[t, ..]| t),
+            Self::Steps => last_row::<16>(&bytes).map(|[t, h, ..]| t + h),
+            Self::Samples => last_row::<7>(&bytes).map(|[t, ..]| t),
             Self::Lines => {
                 let whole = &bytes[..bytes.iter().rposition(|b| *b == b'\n')?];
                 let last = whole.rsplit(|b| *b == b'\n').next()?;

@@ -17,7 +17,7 @@ use gauss_quad::legendre::GaussLegendre;
 use num_complex::Complex64;
 use std::num::NonZeroUsize;
 use stickslip_stability::{Creep, creep};
-use stickslip_tip::{InitialSurface, Model, Step, Trajectory};
+use stickslip_tip::{InitialSurface, Model, Step, Trajectory, stop};
 
 /// The logarithmic creep x0 ~ (1/p) ln t of a trapped tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +71,11 @@ impl Stuck<'_> {
         if fastest * velocity * velocity > SLOW * model.r() {
             return None;
         }
-        Some(Exponentials::of(self, &creep).map_or(Fate::Open, |e| e.fate(self, velocity, &creep)))
+        let exponentials = Exponentials::of(self, &creep);
+        if stop::is_asked() {
+            return None;
+        }
+        Some(exponentials.map_or(Fate::Open, |e| e.fate(self, velocity, &creep)))
     }
 }
 
@@ -81,7 +85,7 @@ struct Exponentials {
 }
 
 impl Exponentials {
-    /// `None` for a footprint that never fades.
+    /// `None` for a footprint that never fades, and where nobody waits any more.
     fn of(stuck: &Stuck, creep: &Creep) -> Option<Self> {
         let Stuck { model, surface, tail, .. } = stuck;
         let reach = model.tip().reach()?;
@@ -103,8 +107,11 @@ impl Exponentials {
         };
         let largest = creep.roots.iter().map(|p| p.norm()).fold(0.0, f64::max);
         let nodes = nodes(reach, LONGEST_PANEL / model.tip().band(), 1.0 / largest);
-        let pushes: Vec<(f64, f64)> =
-            nodes.iter().map(|(ahead, weight)| (*ahead, weight * push(*ahead))).collect();
+        // On a table each of them takes long.
+        let pushed = |(ahead, weight): &(f64, f64)| {
+            (!stop::is_asked()).then(|| (*ahead, weight * push(*ahead)))
+        };
+        let pushes: Vec<(f64, f64)> = nodes.iter().map(pushed).collect::<Option<_>>()?;
         let coefficient = |(p, slope): (&Complex64, &Complex64)| {
             let groove: Complex64 = pushes.iter().map(|(x, push)| (-p * *x).exp() * *push).sum();
             let spring = (extension - p.inv()) / p;

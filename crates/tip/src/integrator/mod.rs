@@ -172,10 +172,12 @@ impl<'a, M: Memory> Integrator<'a, M> {
         loop {
             // The difference of two representable times: t loses nothing as it grows.
             h = (self.t + h) - self.t;
-            let least = 4.0 * f64::EPSILON * self.t.abs().max(1e-3);
+            let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
+            let least = roundings(self.t);
             // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
             // make up for a rounding short.
-            let is_short = |h: f64| self.t + h < end && end - (self.t + h) <= least;
+            let rounding = least.max(roundings(end));
+            let is_short = |h: f64| self.t + h < end && end - (self.t + h) <= rounding;
             for _ in 0..MOST_ROUNDINGS {
                 if !is_short(h) {
                     break;

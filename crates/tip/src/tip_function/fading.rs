@@ -29,7 +29,7 @@ const MOST_GROWTH: f64 = 2.0;
 /// s, from its value 1/√(1+s²) at x = 0 (the Laplace transform of J0) by quadrature.
 pub(super) fn bessel(x: f64, s: f64) -> f64 {
     if s < FAST && s * x < MOST_GROWTH {
-        let from_zero = integral(x, |y| libm::j0(y) * (-s * y).exp());
+        let from_zero = integral(x, WAVE, |y| libm::j0(y) * (-s * y).exp());
         return (s * x).exp() * ((1.0 + s * s).sqrt().recip() - from_zero);
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -41,11 +41,14 @@ pub(super) fn bessel(x: f64, s: f64) -> f64 {
     (0..points).map(wave).sum::<f64>() / points as f64
 }
 
-/// ∫_0^x g, of a g that varies over lengths of order one.
-fn integral(x: f64, g: impl Fn(f64) -> f64) -> f64 {
+/// Half a wave of J0.
+const WAVE: f64 = 3.0;
+
+/// ∫_0^x g, of a g that is smooth over this length.
+fn integral(x: f64, length: f64, g: impl Fn(f64) -> f64) -> f64 {
     static GAUSS: LazyLock<GaussLegendre> =
         LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(16).unwrap() }));
-    let panels = (x.abs() / 3.0).ceil().max(1.0);
+    let panels = (x.abs() / length).ceil().max(1.0);
     let half = 0.5 * x / panels;
     let panel = |n: f64| {
         let nodes = GAUSS.as_node_weight_pairs().iter();
@@ -73,7 +76,7 @@ mod tests {
         for tip in tips {
             for s in [0.05, 0.3, 1.0, 7.0] {
                 for x in [-30.0, -3.0, -0.4, 0.0, 1.1, 6.0, 25.0] {
-                    let sum = integral(37.0 / s, |y| tip.value(x + y) * (-s * y).exp());
+                    let sum = integral(37.0 / s, 0.5, |y| tip.value(x + y) * (-s * y).exp());
                     let told = tip.fading_tail(x, s);
                     assert!((told - sum).abs() < 2e-12, "{tip:?} {s} {x}: {told} {sum}");
                 }

@@ -268,9 +268,20 @@ fn what_another_arithmetic_began_is_not_gone_on_with() {
     for (part, name) in [("1/2", "a.json"), ("2/2", "b.json")] {
         folder.prints(&format!("sweep --r 1 --alpha 1:1.4:4 --shard {part} -o {name}"));
     }
-    let mut part = folder.json("b.json");
-    part["arithmetic"] = "vax-00000000".into();
-    folder.write("b.json", part.to_string());
+    let part = String::from_utf8(folder.read("b.json")).unwrap();
+    let elsewhere = part.replace(here, "vax-00000000");
+    folder.write("b.json", &elsewhere);
+    folder.refuses("sweep merge a.json b.json -o m.json", &["b.json", "was changed"]);
+    // As another machine would have written it, with its checksum.
+    let [mut from, _, _, to] =
+        ["\"parameters\":", ",\"points\":", ",\"arithmetic\":", ",\"crc32\":"]
+            .map(|key| elsewhere.rfind(key).unwrap());
+    from += "\"parameters\":".len();
+    let sealed = elsewhere[from..to].replacen(",\"points\":", ",", 1);
+    let sealed = format!("[{}]", sealed.replacen(",\"arithmetic\":", ",", 1));
+    let sum = format!("\"crc32\":{}", crc32fast::hash(sealed.as_bytes()));
+    let mine = folder.json("b.json")["crc32"].as_u64().unwrap();
+    folder.write("b.json", elsewhere.replace(&format!("\"crc32\":{mine}"), &sum));
     let merged = folder.stickslip("sweep merge a.json b.json -o m.json");
     assert!(said(&merged).contains("b.json was computed by a machine that rounds otherwise"));
     assert!(folder.json("m.json")["arithmetic"].is_null());

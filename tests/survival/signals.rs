@@ -12,6 +12,8 @@ use wait4::Wait4;
 
 /// 0.2 s, the grain of the clock, and where debug assertions are on several times as much.
 const AT_ONCE: Duration = Duration::from_millis(if cfg!(debug_assertions) { 900 } else { 230 });
+/// Of fewer signals than these all may be too late.
+const FEW: usize = 12;
 /// Of processor time, before the signal.
 const LONGEST: u64 = 3000;
 
@@ -47,7 +49,7 @@ fn signalled(each: usize, seed: u64) {
             left.for_each(|name| std::fs::remove_file(folder.path(&name)).unwrap());
         }
         println!("{line}: {each} signals, {over} too late, at most {longest:?}");
-        assert!(over < each, "{line} is always over");
+        assert!(over < each || each < FEW, "{line} is always over");
     }
 }
 

@@ -10,8 +10,8 @@ use stickslip_documents::Mark;
 
 /// How such a file begins.
 const MAGIC: &[u8] = b"stickslip/journal ";
-/// Bytes of the first line; rows of 4 and of 9 numbers alike fit into it.
-const HEAD: usize = 288;
+/// Bytes of the first line; rows of 7 and of 16 numbers alike fit into it.
+const HEAD: usize = 896;
 
 /// A journal of rows.
 #[derive(Debug)]

@@ -84,7 +84,9 @@ type Row = (PanelDocument, Option<PanelDocument>);
 
 impl<'a> Shown<'a> {
     fn of(run: &RunDocument, part: Part<'a>, l: Quantity) -> Self {
-        let maxima = part.maxima(l);
+        // On a path there are no oscillations to be counted: where the tip keeps up, every rounding is a maximum.
+        let on_path = run.parameters.support_path.is_some();
+        let maxima = if on_path { 0 } else { part.maxima(l) };
         let mean = (part.span.1 - part.span.0) / maxima.max(1) as f64;
         let (period, slips) =
             run.oscillation.as_ref().map_or((mean, 1), |o| (o.period, o.slips.max(1)));

@@ -19,7 +19,12 @@ pub(crate) fn tip_name(tip: &TipDocument) -> String {
 /// Tip, α and r.
 pub(crate) fn model_name(model: &ModelParameters) -> String {
     let [alpha, r] = [model.alpha, model.r].map(seven_digits);
-    format!("{}, α = {alpha}, r = {r}", tip_name(&model.tip))
+    let dragged = if model.no_spring { ", no spring".into() } else { format!(", r = {r}") };
+    let wider = [("b", model.depth_limit), ("T", model.healing_time), ("M", model.inertia)];
+    let there = wider.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    let wider: String =
+        there.map(|(name, value)| format!(", {name} = {}", seven_digits(value))).collect();
+    format!("{}, α = {alpha}{dragged}{wider}", tip_name(&model.tip))
 }
 
 fn gaussians_name(gaussians: &[GaussianDocument]) -> String {

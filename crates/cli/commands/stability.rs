@@ -151,7 +151,7 @@ fn spectrum(arguments: &StabilityArguments, model: &Model) -> Result<Spectrum, F
 
 fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDocument, Failure> {
     let Point { critical, model, .. } = point;
-    let spectrum = if point.has_corner() { wider::none() } else { spectrum(arguments, model)? };
+    let spectrum = if point.has_corner() { Spectrum::none() } else { spectrum(arguments, model)? };
     let asked = arguments.re_above.is_none().then(|| arguments.roots.unwrap_or(DEFAULT_ROOTS));
     let (trapping, creep) = wider::trapping(model);
     let onset = critical.and_then(|critical| wider::onset(model, critical));

@@ -112,7 +112,7 @@ fn are_of(samples: &[Sample], trajectory: &Trajectory, tolerance: f64) -> Result
     let agree = |sample: &Sample| {
         let Sample { t, l, x0 } = *sample;
         let rounding = ROUNDINGS * f64::EPSILON * (1.0 + l.abs() + x0.abs());
-        let differences = [l - stickslip_verify::l(trajectory, t), x0 - trajectory.x0(t)];
+        let differences = [l - trajectory.followed(t), x0 - trajectory.x0(t)];
         differences.iter().all(|difference| difference.abs() <= tolerance + rounding)
     };
     match samples.iter().find(|sample| !agree(sample)) {

@@ -56,7 +56,7 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
         TipFunction::Gaussians(_) | TipFunction::Cosine => {
             let h = Characteristic::of_creep(model);
             let unmoved = h.ratio <= 0.0;
-            if unmoved { none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }
+            if unmoved { Spectrum::none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }
         }
     };
     let roots: Vec<Complex64> = roots.into_iter().filter(|p| p.re > 0.0).collect();
@@ -65,18 +65,11 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
     Ok(Creep { roots, slopes, certificate })
 }
 
-fn none() -> Spectrum {
-    let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };
-    let certificate =
-        Certificate { region, counted: 0, found: 0, largest_residual: 0.0, largest_error: 0.0 };
-    Spectrum { roots: vec![], certificate }
-}
-
 /// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp; squared,
 /// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
 fn bessel(kappa: f64) -> Spectrum {
     if kappa <= 0.0 {
-        return none();
+        return Spectrum::none();
     }
     let transform = CurvatureTransform::new(&TipFunction::Bessel);
     let h = |p: Complex64| {

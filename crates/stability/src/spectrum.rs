@@ -1,6 +1,6 @@
 //! Growth exponents and what is known about them.
 
-use super::certificate::Certificate;
+use super::certificate::{Certificate, Region};
 use num_complex::Complex64;
 
 /// Roots of (29) and what is known about them.
@@ -10,6 +10,17 @@ pub struct Spectrum {
     pub roots: Vec<Complex64>,
     /// That none is missing.
     pub certificate: Certificate,
+}
+
+impl Spectrum {
+    /// No roots, and none looked for.
+    #[must_use]
+    pub fn none() -> Self {
+        let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };
+        let certificate =
+            Certificate { region, counted: 0, found: 0, largest_residual: 0.0, largest_error: 0.0 };
+        Self { roots: vec![], certificate }
+    }
 }
 
 /// λ = rΛ of all roots, by falling real part, a conjugate after its twin.

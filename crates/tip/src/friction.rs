@@ -62,7 +62,6 @@ fn returns(path: &SupportPath) -> Vec<f64> {
     let pieces = || t.windows(2).zip(way.windows(2));
     let first = pieces().map(|(_, way)| way[1] - way[0]).find(|way| way.abs() > 0.0);
     let Some(first) = first else { return vec![] };
-    let ends = (way.len() - 1) as f64;
     let mut found = vec![];
     for (i, (t, way)) in pieces().enumerate() {
         let rises = (way[1] - way[0]) * first > 0.0;
@@ -73,9 +72,10 @@ fn returns(path: &SupportPath) -> Vec<f64> {
         } else if crosses {
             found.push(t[0] - way[0] * (t[1] - t[0]) / (way[1] - way[0]));
         }
-        if way[1].abs() <= 0.0 && (i + 1) as f64 >= ends {
-            found.push(t[1]);
-        }
+    }
+    // Where it stops, too.
+    if let ([.., t], [.., 0.0]) = (t, way) {
+        found.push(*t);
     }
     found
 }

@@ -81,6 +81,16 @@ impl Step {
         self.extension + (support.advance(self.t, t - self.t) - moved)
     }
 
+    /// What a motion is followed by: l; for a support on a path the lag R - x0, without one x0.
+    #[must_use]
+    pub fn followed(&self, support: &Support, t: f64) -> f64 {
+        match support {
+            Support::Moving(r) => self.l(*r, t),
+            Support::Path(_) => self.lag(support, t),
+            Support::None => self.position(support, t),
+        }
+    }
+
     /// x0(t) on its polynomial, for any support.
     #[must_use]
     pub fn position(&self, support: &Support, t: f64) -> f64 {
@@ -223,6 +233,12 @@ impl Trajectory {
     #[must_use]
     pub fn l(&self, t: f64) -> f64 {
         self.step_at(t).l(self.r(), t)
+    }
+
+    /// As [`Step::followed`].
+    #[must_use]
+    pub fn followed(&self, t: f64) -> f64 {
+        self.step_at(t).followed(&self.support, t)
     }
 
     /// R(t) - x0(t).

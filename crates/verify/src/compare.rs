@@ -48,29 +48,10 @@ impl Difference {
 pub struct Sample {
     /// Time, in Γ/k.
     pub t: f64,
-    /// l(t), in σ; for a support on a path the lag R - x0, without a spring x0.
+    /// l(t), in σ, or what else a motion is followed by ([`Step::followed`]).
     pub l: f64,
     /// x0(t), in σ.
     pub x0: f64,
-}
-
-/// What a [`Sample`] of a motion has as l.
-#[must_use]
-pub fn l(motion: &Trajectory, t: f64) -> f64 {
-    match motion.support() {
-        Support::Moving(_) => motion.l(t),
-        Support::Path(_) => motion.lag(t),
-        Support::None => motion.x0(t),
-    }
-}
-
-/// The same of a step.
-pub(super) fn l_within(step: &Step, support: &Support, t: f64) -> f64 {
-    match support {
-        Support::Moving(r) => step.l(*r, t),
-        Support::Path(_) => step.lag(support, t),
-        Support::None => step.position(support, t),
-    }
 }
 
 /// Which samples were compared.
@@ -127,7 +108,7 @@ pub(super) fn compare_l(
 ) -> Judgement {
     let mut judgement = Judgement::new(reference.start(), allowed);
     let mut compare = |t: f64| {
-        judgement.take(difference_in_l(t, l(trajectory, t), l(reference, t), allowed));
+        judgement.take(difference_in_l(t, trajectory.followed(t), reference.followed(t), allowed));
     };
     let end = trajectory.end().min(reference.end());
     for step in trajectory.steps().iter().chain(reference.steps()) {
@@ -189,7 +170,7 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
     /// In l, and in x0 = rt - r - l, which is rounded more coarsely the farther the tip has come.
     fn differences(&self, sample: &Sample, step: &Step) -> (Difference, Difference) {
         let Sample { t, l, x0 } = *sample;
-        let in_l = difference_in_l(t, l, l_within(step, &self.support, t), self.allowed);
+        let in_l = difference_in_l(t, l, step.followed(&self.support, t), self.allowed);
         let rounding = DIGITS * self.support.position(t).abs();
         let largest = (x0 - step.position(&self.support, t)).abs();
         (in_l, Difference { largest, at: t, allowed: in_l.allowed + rounding })

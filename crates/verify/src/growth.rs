@@ -1,7 +1,6 @@
 //! How a small error grows: the distance of two runs that start a little apart.
 
 use super::repeat::Witness;
-use crate::compare::l_within;
 use stickslip_tip::{RunError, Scenario, Step, Support};
 
 /// What becomes of a small disturbance of the start.
@@ -60,7 +59,7 @@ impl Probes {
 
     fn probe(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
         while let Some(t) = self.due().filter(|t| is_due(*t)) {
-            self.l.push(l_within(step, &self.support, t));
+            self.l.push(step.followed(&self.support, t));
         }
     }
 

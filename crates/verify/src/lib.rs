@@ -6,7 +6,7 @@ mod growth;
 mod repeat;
 mod spread;
 
-pub use compare::{ComparedSamples, Difference, Sample, l};
+pub use compare::{ComparedSamples, Difference, Sample};
 pub use growth::Growth;
 
 use compare::{AgainstSamples, Judgement, compare_l, compare_u};

@@ -6,8 +6,8 @@ use crate::commands::model::{tip, wide_model, wider};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::SolveFor;
 use stickslip_stability::{
-    Certificate, Creep, Critical, Onset, OnsetKind, Region, Spectrum, StabilityError, creep,
-    critical_under, onset_at, trapping_alpha,
+    Creep, Critical, Onset, OnsetKind, StabilityError, creep, critical_under, onset_at,
+    trapping_alpha,
 };
 use stickslip_tip::Model;
 
@@ -45,14 +45,6 @@ impl Point {
     pub(super) fn has_corner(&self) -> bool {
         self.kind == Some(OnsetKind::NonSmooth)
     }
-}
-
-/// No exponents.
-pub(super) fn none() -> Spectrum {
-    let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };
-    let certificate =
-        Certificate { region, counted: 0, found: 0, largest_residual: 0.0, largest_error: 0.0 };
-    Spectrum { roots: vec![], certificate }
 }
 
 /// Where tips are trapped, and how they creep: with inertia as without, but under a depth limit, or where the

@@ -39,11 +39,7 @@ impl Drawn for RunDocument {
         let trajectory = self.trajectory()?;
         let part = Part::of(&trajectory, view.x_range);
         let (support, velocity) = (trajectory.support(), |step: &Step, t| step.velocity(t));
-        let first = |step: &Step, t: f64| match support {
-            Support::Moving(r) => step.l(*r, t),
-            Support::Path(_) => step.lag(support, t),
-            Support::None => step.position(support, t),
-        };
+        let first = |step: &Step, t: f64| step.followed(support, t);
         let (labels, name) = match support {
             Support::Moving(_) => (L, "l(t)"),
             Support::Path(_) => (LAG, "R(t) - x₀(t)"),

@@ -42,7 +42,7 @@ pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64)
 }
 
 /// Raises densities that fall too fast from one step to the next, around the period.
-fn graded(mut density: Vec<f64>) -> Vec<f64> {
+pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     let n = density.len();
     for i in 0..2 * n {
         let (here, next) = (density[i % n], (i + 1) % n);

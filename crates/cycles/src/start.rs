@@ -1,7 +1,7 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
 use super::embedding::Embedding;
-use super::mesh::equidistributed;
+use super::mesh::{equidistributed, graded};
 use super::orbit::{Orbit, even_mesh};
 use super::solve::MOST_STEPS;
 use super::{CycleError, Tried};
@@ -125,6 +125,6 @@ pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
         mesh.push(((step.end() - from) / period).min(1.0));
         density.push(period / step.h);
     }
-    let mesh = equidistributed(&mesh, &density);
+    let mesh = equidistributed(&mesh, &graded(density));
     Orbit::of_profile(trajectory.r(), period, mesh, |t| trajectory.l(from + t))
 }

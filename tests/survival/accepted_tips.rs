@@ -155,7 +155,8 @@ impl Count {
             "{regime}, cycle T {:.9}({:.1e}), amplitude {:.6}, stable {}, {} slips",
             of_cycle.0, of_cycle.1, cycle["amplitude_x0"], cycle["stable"], cycle["slips"]
         );
-        if number(&cycle["floquet_error"]) > TELLS_NOTHING || number(&cycle["amplitude_x0"]) < 1e-6 {
+        if number(&cycle["floquet_error"]) > TELLS_NOTHING || number(&cycle["amplitude_x0"]) < 1e-6
+        {
             return Err(format!("{said}, multiplier off by {}", cycle["floquet_error"]));
         }
         let Some(oscillation) = settled.map(|run| &run["oscillation"]) else { return Ok(said) };

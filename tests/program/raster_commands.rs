@@ -86,6 +86,57 @@ fn every_format_and_every_picture_is_written() {
     assert!(!folder.names().iter().any(|name| name.contains("partial")));
 }
 
+/// A shape is scanned line by line: its lines are those of the file, a pulse on the first is felt by all, and every format
+/// holds lines of several lengths.
+#[test]
+fn a_shape_is_scanned_line_by_line() {
+    let folder = Folder::new("raster_area");
+    folder.write("l.csv", "y,start,length\n0,-3,20\n0.5,-3,20\n1,2,12\n1.5,2,12.5\n");
+    let line = "raster --tip gaussian --alpha 0.6 --r 1 --area l.csv --path zigzag";
+    let found = folder.prints_json(line);
+    assert_eq!(
+        (found["parameters"]["lines"].as_u64(), number(&found["parameters"]["pitch"])),
+        (Some(4), 0.5)
+    );
+    let last = |n: usize, what: &str| {
+        number(found["lines"][n]["samples"][what].as_array().unwrap().last().unwrap())
+    };
+    assert!((last(1, "t") - 20.0).abs() < 1e-12 && last(2, "t") <= 12.0 && last(2, "t") > 11.7);
+    // On the way back of line 2 the support ends at -3, the tip behind it.
+    assert!((last(1, "x0") + last(1, "lag") + 3.0).abs() < 1e-9 && last(1, "lag") < 0.0);
+    let volume = -0.6 * 64.5 * 2.0 * std::f64::consts::PI;
+    assert!((number(&found["volume"]) - volume).abs() < 1e-9);
+    let pushed = folder.prints_json(&format!("{line} --pulse 0.1,5,0.5"));
+    for n in 0..4 {
+        let x0 = |document: &Value| number(&document["lines"][n]["samples"]["x0"][40]);
+        assert!((x0(&pushed) - x0(&found)).abs() > 1e-6, "{n}");
+    }
+    folder.write("a.json", pushed.to_string());
+    let again = folder.prints_json("surface a.json --range=-3:17:11 --y 0.5");
+    assert_eq!(again["parameters"], pushed["parameters"]);
+    let schema = folder.prints_json("schema raster");
+    assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&pushed));
+    for name in ["a.csv", "a.npz", "a.gsf"] {
+        folder.prints(&format!("{line} -o {name} --plot {name}.svg"));
+    }
+    let csv = String::from_utf8(folder.read("a.csv")).unwrap();
+    assert!(csv.lines().last().unwrap().starts_with("4,1.5,12.5,"), "{csv}");
+    folder.write("uneven.csv", "0,0,10\n1,0,12\n1,0,12\n0.2,3,9\n");
+    let uneven = "raster --tip gaussian --alpha 0.6 --r 1 --area uneven.csv";
+    folder.prints(&format!("{uneven} -o u.json --plot u.svg"));
+    folder.prints("surface u.json -o u.npz");
+    for (text, words) in [
+        ("0,0,10\n1,0,0\n", ["--area bad.csv", "line 2"]),
+        ("0,0\n", ["--area bad.csv", "y,start,length"]),
+        ("", ["--area bad.csv", "between 1 and"]),
+    ] {
+        folder.write("bad.csv", text);
+        folder.refuses("raster --alpha 1 --r 1 --area bad.csv", &words);
+    }
+    folder.refuses("raster --alpha 1 --r 1 --area l.csv --pitch 1", &["--pitch", "--area"]);
+    folder.refuses(&line.replace("zigzag", "repeat"), &["--path repeat", "area"]);
+}
+
 /// Killed at whatever moment, it goes on from its last line and writes the same bytes.
 #[cfg(unix)]
 #[test]

@@ -31,18 +31,39 @@ pub(crate) struct RasterArguments {
         long,
         value_name = "D",
         allow_hyphen_values = true,
-        required_unless_present = "path",
+        required_unless_present_any = ["path", "area"],
         help_heading = "Scan"
     )]
     pub(crate) pitch: Option<f64>,
 
     /// How many lines.
-    #[arg(long, value_name = "N", help_heading = "Scan")]
-    pub(crate) lines: usize,
+    #[arg(long, value_name = "N", required_unless_present = "area", help_heading = "Scan")]
+    pub(crate) lines: Option<usize>,
 
     /// How far the support goes along each line, in σ; a line lasts X/r.
-    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Scan")]
-    pub(crate) length: f64,
+    #[arg(
+        long,
+        value_name = "X",
+        allow_hyphen_values = true,
+        required_unless_present = "area",
+        help_heading = "Scan"
+    )]
+    pub(crate) length: Option<f64>,
+
+    /// Any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan, in σ. It
+    /// takes the place of --pitch, --lines and --length.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["pitch", "lines", "length"],
+        help_heading = "Scan"
+    )]
+    pub(crate) area: Option<PathBuf>,
+
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T since its start: what disturbs all
+    /// that follow; repeatable.
+    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
+    pub(crate) pulse: Vec<String>,
 
     /// How the support goes from one line to the next.
     #[arg(
@@ -97,6 +118,7 @@ pub(crate) struct RasterArguments {
 
 const USAGE: &str =
     "stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --pitch <D> --lines <N> --length <X> [OPTIONS]
+       stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]
        stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --path repeat --lines <N> --length <X> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
@@ -104,6 +126,8 @@ const EXAMPLES: &str = "Examples:
     stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
   Forth and back, as a height map for Gwyddion:
     stickslip raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --path zigzag --lines 256 --length 60 -o raster.gsf
+  A disc, whose lines examples/areas/circle.csv lists:
+    stickslip raster --tip gaussian --alpha 0.48 --r 1 --area examples/areas/circle.csv --tolerance 1e-6 -o disc.json --plot disc.png
   The same line ten times:
     stickslip raster --alpha 0.4 --r 1 --path repeat --lines 10 --length 40 -o repeated.csv
   Profiles and images of it afterwards:

@@ -72,8 +72,8 @@ pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use raster::{
-    HeightMap, KeptLine, LineHistory, LineRegimeName, PathName, PatternDocument, RasterDocument,
-    RasterHistory, RasterLine, RasterParameters, RasterRegimeName, RasterSamples,
+    AreaDocument, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName, PatternDocument,
+    RasterDocument, RasterHistory, RasterLine, RasterParameters, RasterRegimeName, RasterSamples,
     RasterSurfaceDocument, RasterWork,
 };
 pub use raster_stability::{

@@ -35,5 +35,6 @@ mod units_command;
 mod verification;
 mod verified_lines;
 mod walls;
+mod wider_commands;
 mod wider_law;
 mod written_files;

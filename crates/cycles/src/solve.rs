@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{adapted, residuals};
+use super::mesh::{MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -46,9 +46,6 @@ pub(super) enum NotClosed {
 }
 
 const MOST_ITERATIONS: usize = 15;
-pub(super) const MOST_STEPS: usize = 4000;
-/// A guess may have more, which its mesh does not keep.
-const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 const MOST_MESHES: usize = 8;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;

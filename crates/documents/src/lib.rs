@@ -50,7 +50,7 @@ mod verification;
 mod work;
 
 pub use boundary::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+    BoundaryDocument, BoundaryParameters, BranchDocument, LimitColumns, OnsetColumns, SpacingName,
 };
 pub use checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use compare::{
@@ -92,8 +92,9 @@ pub use scenario::{
 pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};
 pub use stability::{
-    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
-    OnsetKindName, SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
+    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
+    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityParameters,
+    TrappingDocument,
 };
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,

@@ -18,7 +18,7 @@ const WAVE_NUMBERS: u32 = 200;
 const SHOWN: f64 = 0.4;
 
 pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
-    only_papers(&arguments.model, "stability --pitch")?;
+    only_papers(&arguments.model.tip, &arguments.model.wider, "stability --pitch")?;
     let tip = tip(&arguments.model.tip)?;
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let path = arguments.path.unwrap_or(PathName::OneWay);

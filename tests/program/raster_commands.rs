@@ -137,6 +137,38 @@ fn a_shape_is_scanned_line_by_line() {
     folder.refuses(&line.replace("zigzag", "repeat"), &["--path repeat", "area"]);
 }
 
+/// `compare` of a raster: another way to the same motion, and a looser grid farther from it; every option that means
+/// nothing to lines is refused.
+#[test]
+fn a_raster_is_compared_with_rows_of_cells() {
+    let folder = Folder::new("raster_compare");
+    let line =
+        "compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 4 --length 15 --path zigzag";
+    let found = folder.prints_json(&format!("{line} --pulse 0.2,5,1"));
+    let apart = |found: &Value| number(&found["max_difference"]["x0"]);
+    assert!(apart(&found) < 1e-7 && number(&found["max_difference"]["u"]) < 1e-7, "{found}");
+    assert_eq!(found["lines"].as_array().unwrap().len(), 4);
+    assert_eq!(found["grid_u"].as_array().unwrap().len(), 4);
+    assert!(number(&found["speedup"]) > 0.0 && found["grid_work"]["steps"].as_u64() > Some(100));
+    let loose = folder.prints_json(&format!("{line} --grid-tolerance 1e-5"));
+    assert!(apart(&loose) > 10.0 * apart(&found), "{} {}", apart(&loose), apart(&found));
+    folder.write("a.json", found.to_string());
+    folder.prints("plot a.json -o a.svg");
+    folder.write("l.csv", "y,start,length\n0,-3,10\n0.5,-3,9\n");
+    folder.prints("compare --alpha 1 --r 1 --area l.csv --depth-limit 3 -o b.npz --plot b.svg");
+    for (option, words) in [
+        ("--until 30", ["--until", "--lines"]),
+        ("--kick 0.1", ["--kick", "--lines"]),
+        ("--grid uniform", ["--grid", "--lines"]),
+        ("--spacing 2", ["--spacing 2", "at most"]),
+        ("--time-limit 0", ["--time-limit 0", "above 0"]),
+    ] {
+        folder.refuses(&format!("{line} {option}"), &words);
+    }
+    folder.refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["required", "--lines"]);
+    folder.refuses("compare --alpha 1 --r 1", &["required", "--until"]);
+}
+
 /// Killed at whatever moment, it goes on from its last line and writes the same bytes.
 #[cfg(unix)]
 #[test]

@@ -2,10 +2,10 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{FieldArguments, Format, ModelArguments, SamplingArguments};
+use super::{FieldArguments, Format, ModelArguments, SamplingArguments, ScanArguments};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip_documents::{MemoryName, PathName};
+use stickslip_documents::MemoryName;
 
 /// Scan an area line by line, and say what pattern the lines have written.
 ///
@@ -15,65 +15,22 @@ use stickslip_documents::{MemoryName, PathName};
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required(true))
+    mut_arg("r", |r| r.required(true)),
+    mut_arg("pitch", |pitch| pitch.required_unless_present_any(["path", "area"])),
+    mut_arg("lines", |lines| lines.required_unless_present("area")),
+    mut_arg("length", |length| length.required_unless_present("area"))
 )]
 pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip that has no f(x,y) of its own [default: the width of the tip's
-    /// Gaussians].
-    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) width_y: Option<f64>,
-
-    /// Distance of the lines, in σ.
-    #[arg(
-        long,
-        value_name = "D",
-        allow_hyphen_values = true,
-        required_unless_present_any = ["path", "area"],
-        help_heading = "Scan"
-    )]
-    pub(crate) pitch: Option<f64>,
-
-    /// How many lines.
-    #[arg(long, value_name = "N", required_unless_present = "area", help_heading = "Scan")]
-    pub(crate) lines: Option<usize>,
-
-    /// How far the support goes along each line, in σ; a line lasts X/r.
-    #[arg(
-        long,
-        value_name = "X",
-        allow_hyphen_values = true,
-        required_unless_present = "area",
-        help_heading = "Scan"
-    )]
-    pub(crate) length: Option<f64>,
-
-    /// Any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan, in σ. It
-    /// takes the place of --pitch, --lines and --length.
-    #[arg(
-        long,
-        value_name = "FILE",
-        conflicts_with_all = ["pitch", "lines", "length"],
-        help_heading = "Scan"
-    )]
-    pub(crate) area: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) scan: ScanArguments,
 
     /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T since its start: what disturbs all
     /// that follow; repeatable.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
-
-    /// How the support goes from one line to the next.
-    #[arg(
-        long,
-        value_parser = named::<PathName>(),
-        value_name = "PATH",
-        default_value = "one-way",
-        help_heading = "Scan"
-    )]
-    pub(crate) path: PathName,
 
     /// How the past of a line is remembered. All memories give the same motion to the tolerance.
     #[arg(

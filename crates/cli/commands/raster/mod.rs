@@ -10,12 +10,14 @@ use super::job::{Job, format};
 use super::model::wide_model;
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
 use super::run::samples::times;
-use crate::arguments::{Format, RasterArguments, SamplingArguments};
+use crate::arguments::{Format, ModelArguments, RasterArguments, SamplingArguments, ScanArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::distinct;
 use crate::files::input::read_area;
 use crate::interrupt::Interrupt;
-use stickslip_documents::{ModelParameters, PathName, RasterDocument, RasterParameters};
+use stickslip_documents::{
+    MemoryName, ModelParameters, PathName, RasterDocument, RasterParameters,
+};
 use stickslip_raster::{Area, Path, Plan, RasterError};
 use stickslip_tip::{Force, RunError, Scenario};
 
@@ -26,7 +28,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { output, plot, .. } = arguments;
     let read = [
         ("--tip-file", arguments.model.tip.tip_file.as_deref()),
-        ("--area", arguments.area.as_deref()),
+        ("--area", arguments.scan.area.as_deref()),
     ];
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
@@ -51,24 +53,33 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
 
 /// What is to be scanned, and the document's word for it.
 fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
-    let model = wide_model(&arguments.model)?;
-    let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
-    let path = Path::from(arguments.path);
-    let parameters = ModelParameters::of(&model, arguments.model.alpha_above);
-    let mut plan = Plan::over(footprint, model, path, area(arguments)?);
-    let (tolerance, memory) = (arguments.tolerance, arguments.memory.into());
-    plan.law = Scenario { tolerance, memory, ..plan.law };
-    let pulses = parse_pulses(&arguments.pulse)?;
+    let accuracy = (arguments.tolerance, arguments.memory);
+    plan_of(&arguments.model, &arguments.scan, &arguments.pulse, accuracy)
+}
+
+/// The same of any command that scans.
+pub(super) fn plan_of(
+    given: &ModelArguments,
+    scan: &ScanArguments,
+    pulse: &[String],
+    (tolerance, memory): (f64, MemoryName),
+) -> Result<(Plan, RasterParameters), Failure> {
+    let model = wide_model(given)?;
+    let (footprint, width_y) = footprint(scan.width_y, model.tip())?;
+    let parameters = ModelParameters::of(&model, given.alpha_above);
+    let mut plan = Plan::over(footprint, model, Path::from(scan.path), area(scan)?);
+    plan.law = Scenario { tolerance, memory: memory.into(), ..plan.law };
+    let pulses = parse_pulses(pulse)?;
     plan.disturbance =
         Force::new(pulses.clone(), None).map_err(|error| Failure::input("--pulse", error))?;
-    plan.validate().map_err(|error| refused(arguments, error))?;
-    warn_of_idle_pulses(&arguments.pulse, &pulses, (0.0, plan.duration(0)));
+    plan.validate().map_err(|error| refused(scan, error))?;
+    warn_of_idle_pulses(pulse, &pulses, (0.0, plan.duration(0)));
     let parameters = RasterParameters::of(&plan, parameters, width_y);
     Ok((plan, parameters))
 }
 
 /// A rectangle, or the lines of a file.
-fn area(arguments: &RasterArguments) -> Result<Area, Failure> {
+fn area(arguments: &ScanArguments) -> Result<Area, Failure> {
     if let Some(file) = &arguments.area {
         return Ok(Area::Lines(read_area("--area", file)?));
     }
@@ -88,7 +99,7 @@ fn area(arguments: &RasterArguments) -> Result<Area, Failure> {
     Ok(Area::Rectangle { pitch, lines, length })
 }
 
-fn refused(arguments: &RasterArguments, error: RasterError) -> Failure {
+fn refused(arguments: &ScanArguments, error: RasterError) -> Failure {
     let in_file = arguments.area.as_ref().map(|file| format!("--area {}", file.display()));
     let length = || format!("--length {}", Typed(arguments.length.unwrap_or_default()));
     let option = match &error {
@@ -116,7 +127,7 @@ fn refused(arguments: &RasterArguments, error: RasterError) -> Failure {
 }
 
 /// Times since the start of each line.
-fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
+pub(super) fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
     let duration = plan.duration_of(plan.area.longest());
     if sampling.sample_at.is_some() || sampling.sample_every.is_some() {
         return times(sampling, (0.0, duration), "each line");

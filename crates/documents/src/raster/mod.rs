@@ -1,10 +1,15 @@
 //! `stickslip/raster`.
 
+mod compare;
 mod heights;
 mod lines;
 mod parameters;
 mod pattern;
 
+pub use compare::{
+    ComparedLine, RasterCompareDocument, RasterCompareParameters, RasterCompared,
+    RasterComparedWork,
+};
 pub use heights::{HeightMap, RasterSurfaceDocument};
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
 pub use parameters::{AreaDocument, PathName, RasterParameters};

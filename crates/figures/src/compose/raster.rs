@@ -6,8 +6,9 @@ use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip_documents::{
-    ColourName, ColoursName, CurveDocument, FigureDocument, HeightMap, MapDocument, PanelDocument,
-    PathName, RasterDocument, RasterParameters, RasterSurfaceDocument, StyleName,
+    ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
+    PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterParameters,
+    RasterSurfaceDocument, ScaleName, StyleName,
 };
 use stickslip_raster::Plan;
 
@@ -34,6 +35,40 @@ impl Drawn for RasterDocument {
         let lags = lags(self, x)?;
         figure.panels = vec![surface, lags];
         figure.columns = 2;
+        Ok(figure)
+    }
+}
+
+impl Drawn for RasterCompareDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let parameters = &self.parameters.raster;
+        let model = &parameters.model;
+        let title = format!("Raster and grid, {}, {}", model_name(model), path_name(parameters));
+        let mut figure = FigureDocument::new("raster-compare", &title, vec![model.clone()]);
+        let map = HeightMap { x: self.x.clone(), y: self.y.clone(), u: self.closed_u.clone() };
+        let off = self.closed_u.iter().zip(&self.grid_u);
+        let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
+        let apart = HeightMap { u: off.map(row).collect(), ..map.clone() };
+        if is_even(&map.x) && is_even(&map.y) {
+            let mut surface = PanelDocument::new("closed equation", ("x (σ)", "y (σ)"));
+            surface.map = Some(heights(map));
+            let mut difference = PanelDocument::new("less that of the grid", ("x (σ)", "y (σ)"));
+            let z_label = "Δu (kσ²/a)".into();
+            difference.map =
+                Some(MapDocument { z_label, colours: ColoursName::BlueRed, ..heights(apart) });
+            figure.panels = vec![surface, difference];
+        }
+        let mut motions =
+            PanelDocument::new("", ("t since the start of a line (Γ/k)", "|Δx₀| (σ)"));
+        motions.y_scale = ScaleName::Logarithmic;
+        let curve = |line: &ComparedLine| {
+            let pairs = line.closed_x0.iter().zip(&line.grid_x0).map(|(a, b)| (a - b).abs());
+            // Equal values have no place on a logarithmic axis.
+            let apart: Vec<f64> = pairs.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
+            CurveDocument::new(StyleName::Line, "", &line.t, &apart)
+        };
+        motions.curves = self.lines.iter().map(curve).collect();
+        figure.panels.push(motions);
         Ok(figure)
     }
 }

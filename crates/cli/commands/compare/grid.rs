@@ -107,7 +107,7 @@ impl Discretisation {
 /// Local errors below are round-off.
 const LEAST_TOLERANCE: f64 = 1e-15;
 
-fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
+pub(super) fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
     let above_0 = |option: &str, value: f64| {
         let named = format!("{option} {}", Typed(value));
         let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);

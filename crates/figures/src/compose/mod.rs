@@ -21,9 +21,9 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Unusable, read_from, told,
+    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, ResponseDocument, RunDocument,
+    StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -73,7 +73,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 14] = [
+pub const FORMATS: [&str; 15] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -84,6 +84,7 @@ pub const FORMATS: [&str; 14] = [
     ResponseDocument::FORMAT,
     CompareDocument::FORMAT,
     RasterDocument::FORMAT,
+    RasterCompareDocument::FORMAT,
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
@@ -109,6 +110,7 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
         CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
         RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),
+        RasterCompareDocument::FORMAT => boxed::<RasterCompareDocument>(source, &format),
         RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
         RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
         RasterBoundaryDocument::FORMAT => boxed::<RasterBoundaryDocument>(source, &format),

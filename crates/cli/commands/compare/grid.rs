@@ -48,7 +48,7 @@ impl Discretisation {
         let gaussians: Vec<Gaussian> = sum
             .terms()
             .iter()
-            .map(|g| Gaussian { amplitude: g.amplitude, centre: g.center, width: g.width })
+            .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
             .collect();
         let smallest_width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
         let spacing = arguments.spacing.unwrap_or(match name {

@@ -75,7 +75,8 @@ pub use raster::{
     AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
     PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,
     RasterComparedWork, RasterDocument, RasterHistory, RasterLine, RasterParameters,
-    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterWork,
+    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
+    RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use raster_stability::{
     RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,

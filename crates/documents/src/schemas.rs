@@ -3,9 +3,9 @@
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
     FigureDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, ReproductionDocument, ResponseDocument,
-    RunDocument, RunLine, StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument,
-    VerifyDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument,
+    ResponseDocument, RunDocument, RunLine, StabilityDocument, SurfaceDocument, SweepDocument,
+    UnitsDocument, VerifyDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -13,7 +13,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 20] = [
+pub const SCHEMAS: [NamedSchema; 21] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -27,6 +27,7 @@ pub const SCHEMAS: [NamedSchema; 20] = [
     ("continue", || schema_for!(ContinueDocument)),
     ("raster", || schema_for!(RasterDocument)),
     ("raster-compare", || schema_for!(RasterCompareDocument)),
+    ("raster-sweep", || schema_for!(RasterSweepDocument)),
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
     ("raster-stability", || schema_for!(RasterStabilityDocument)),
     ("raster-boundary", || schema_for!(RasterBoundaryDocument)),

@@ -4,7 +4,7 @@ use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
     HeightMap, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
 };
 
 impl Product for RasterDocument {
@@ -97,6 +97,23 @@ impl Product for RasterCompareDocument {
             .row("grid", format!("{} steps, {grid:.0} ms", grid_work.steps))
             .row("speedup", format!("{speedup:.4}"))
             .next(again("-o compare.json --plot compare.png"))
+    }
+}
+
+impl Product for RasterSweepDocument {
+    fn told(&self) -> Told {
+        let mut regimes: Vec<(String, usize)> = vec![];
+        for point in &self.points {
+            let name = point.regime.map_or("failed".into(), |regime| regime.to_string());
+            match regimes.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, many)) => *many += 1,
+                None => regimes.push((name, 1)),
+            }
+        }
+        let each: Vec<String> =
+            regimes.iter().map(|(name, many)| format!("{many} {name}")).collect();
+        let told = Told::new(format!("{} rasters: {}", self.points.len(), each.join(", ")));
+        told.next(again("-o map.json --plot map.svg"))
     }
 }
 

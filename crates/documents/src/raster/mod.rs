@@ -5,6 +5,7 @@ mod heights;
 mod lines;
 mod parameters;
 mod pattern;
+mod sweep;
 
 pub use compare::{
     ComparedLine, RasterCompareDocument, RasterCompareParameters, RasterCompared,
@@ -14,6 +15,7 @@ pub use heights::{HeightMap, RasterSurfaceDocument};
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
 pub use parameters::{AreaDocument, PathName, RasterParameters};
 pub use pattern::{PatternDocument, RasterRegimeName};
+pub use sweep::{RasterSweepDocument, RasterSweepParameters, RasterSweepPoint};
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{FORMAT_VERSION, Software, Unusable};

@@ -9,6 +9,7 @@ mod drawn;
 mod labels;
 mod raster;
 mod raster_stability;
+mod raster_sweep;
 mod response;
 mod run;
 mod stability;
@@ -22,8 +23,8 @@ use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, ResponseDocument, RunDocument,
-    StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read_from, told,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
+    RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -73,7 +74,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 15] = [
+pub const FORMATS: [&str; 16] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -81,6 +82,7 @@ pub const FORMATS: [&str; 15] = [
     CycleDocument::FORMAT,
     ContinueDocument::FORMAT,
     SweepDocument::FORMAT,
+    RasterSweepDocument::FORMAT,
     ResponseDocument::FORMAT,
     CompareDocument::FORMAT,
     RasterDocument::FORMAT,
@@ -107,6 +109,7 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         CycleDocument::FORMAT => boxed::<CycleDocument>(source, &format),
         ContinueDocument::FORMAT => boxed::<ContinueDocument>(source, &format),
         SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
+        RasterSweepDocument::FORMAT => boxed::<RasterSweepDocument>(source, &format),
         ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
         CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
         RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),

@@ -6,8 +6,8 @@ use serde_json::Value;
 use std::process::Stdio;
 use std::time::Duration;
 use stickslip_raster::{Path, Plan, Scanned, Scanning};
-use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_stability::{Raster, RasterPath, WiderRaster};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 const GAUSSIAN: &str = "raster --tip gaussian --alpha 0.6 --r 1 --pitch 0.5";
 
@@ -244,7 +244,20 @@ fn a_raster_under_the_wider_law_is_one_too() {
         "raster --alpha -1 --no-spring --pitch 1 --lines 3 --length 15",
         &["--r", "required"],
     );
-    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "paper's law"]);
+    // β = 1 has its corner there, other tips have a linear theory.
+    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "corner"]);
+    let line = "stability --tip gaussian --r 1 --pitch 1 --depth-limit 8";
+    let limited = folder.prints_json(line);
+    let wider = Wider { depth_limit: Some(8.0), ..Wider::default() };
+    let wanted = WiderRaster::new(&round(), wider, (1.0, 1.0), 1.0).unwrap().critical().unwrap();
+    assert!((number(&limited["critical"]["alpha"]) - wanted.alpha).abs() < 1e-12);
+    assert_eq!(limited["parameters"]["depth_limit"], 8.0);
+    let healing = "stability --tip gaussian --r 1 --pitch 1 --healing-time 100";
+    let growing = folder.prints_json(&format!("{healing} --length 60 --alpha 1.7"));
+    assert_eq!(growing["stable"], false);
+    folder.refuses(healing, &["--length", "heals"]);
+    folder.refuses(&format!("{line} --length 60"), &["--length", "does not heal"]);
+    folder.refuses(&format!("{line} --path zigzag"), &["--path", "one-way"]);
 }
 
 /// Thresholds and angles, in the document as in the library.

@@ -24,6 +24,7 @@ mod embedding;
 mod ended;
 mod error;
 mod lattice;
+mod leading;
 mod linearisation;
 mod mesh;
 mod multipliers;
@@ -160,8 +161,9 @@ impl Cycle {
         &self.motion
     }
 
-    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a
-    /// period. Those of the sum that stands for f, which another sum has not, are left out. One of them is 1, that of a shift in time.
+    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a period.
+    /// One of them is 1, that of a shift in time. Those of the sum that stands for f, which another sum has not, are
+    /// left out; of a footprint with much detail only those above 0.01 are surely all there.
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);

@@ -79,7 +79,7 @@ pub(super) fn close(
     let state = 2.0 * equation.short.terms().len() as f64 + 1.0;
     for _ in 0..MOST_MESHES {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
-        let first = if equation.short_is_precise() { &short } else { &fine };
+        let first = if equation.short_is_precise { &short } else { &fine };
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
             let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
             let (linearisation, count) = newton.solve(solved, enough)?;
@@ -165,12 +165,9 @@ impl NotClosed {
 }
 
 impl Closed {
-    /// The monodromy matrix ∂X(T)/∂X(0), in the sum that multipliers are computed in.
-    pub(super) fn monodromy(&self) -> Option<DMatrix<f64>> {
-        if self.equation.short_is_precise() {
-            return Some(self.linearisation.monodromy());
-        }
-        self.monodromy_in(&self.equation.precise)
+    /// The monodromy matrix ∂X(T)/∂X(0), in the short sum.
+    pub(super) fn monodromy(&self) -> DMatrix<f64> {
+        self.linearisation.monodromy()
     }
 
     /// The same in another sum.

@@ -1,7 +1,7 @@
 //! `stickslip boundary`.
 
 use super::examples::examples;
-use super::{Interval, OutletArguments, TipArguments};
+use super::{Interval, OutletArguments, TipArguments, WiderArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -12,12 +12,16 @@ pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) tip: TipArguments,
 
+    #[command(flatten)]
+    pub(crate) wider: WiderArguments,
+
     /// First and last r, and how many there are, both included.
     #[arg(
         long,
         value_name = "LO:HI:N",
         allow_hyphen_values = true,
-        required_unless_present = "pitch_range"
+        required_unless_present = "pitch_range",
+        help_heading = "Boundary"
     )]
     pub(crate) r_range: Option<Interval>,
 
@@ -85,5 +89,7 @@ const EXAMPLES: &str = "Examples:
     stickslip boundary --tip-file tip.csv --r-range 0.01:100:401 --logarithmic -o boundary.csv
   Criticality along it:
     stickslip boundary --r-range 0.01:100 --logarithmic --plot-onset criticality.svg
+  With a depth limit, with the one below which nothing is unstable at each r:
+    stickslip boundary --beta 0 --depth-limit 5 --r-range 0.2:3:100 -o limited.json --plot limited.svg
   Where lines begin to ripple together, and at what angle:
     stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 -o pitch.csv --plot pitch.svg";

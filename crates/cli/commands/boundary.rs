@@ -1,10 +1,11 @@
 //! `stickslip boundary`.
 
 mod raster;
+mod wider;
 
 use super::figure::{Figure, undrawn};
 use super::job::Job;
-use super::model::tip;
+use super::model::{only_papers, refuse_endless, tip, wider};
 use super::progress::Progress;
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::failure::Failure;
@@ -15,7 +16,7 @@ use stickslip_documents::{
 };
 use stickslip_figures::Size;
 use stickslip_stability::{Boundary, Critical, StabilityError};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 const DEFAULT_POINTS: usize = 200;
 const MOST_POINTS: usize = 100_000;
@@ -30,15 +31,27 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     distinct(&written, &read)?;
     let tip = tip(&arguments.tip)?;
     if let Some(pitches) = &arguments.pitch_range {
+        only_papers(&arguments.tip, &arguments.wider, "boundary --pitch-range")?;
         return raster::boundary(arguments, pitches, tip);
     }
     let missing = || Failure::input(OPTION, "give the range of r, LO:HI:N");
     let typed = arguments.r_range.as_ref().ok_or_else(missing)?;
     let range = range(OPTION, typed, arguments.points)?;
+    refuse_endless(&arguments.tip, &arguments.wider)?;
+    let law = wider(&arguments.wider);
+    let papers = law.is_papers() && tip != TipFunction::Cosine;
     let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
 
-    let document = document(arguments, &tip, typed, range)?;
+    let spacing =
+        if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
+    let (ends, points) = range;
+    let asked = Asked { ends, values: abscissas(ends, points, spacing), spacing };
+    let document = if papers {
+        document(&asked, &tip, typed)?
+    } else {
+        wider::document(&asked, (&law, &tip), typed)?
+    };
     if let Some(figure) = plot_onset {
         let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
         figure.write(&onset, &Size::default())?;
@@ -47,6 +60,19 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
 }
 
 const OPTION: &str = "--r-range";
+
+/// The r asked for.
+struct Asked {
+    ends: [f64; 2],
+    values: Vec<f64>,
+    spacing: SpacingName,
+}
+
+impl Asked {
+    fn parameters(&self, law: &Wider, tip: &TipFunction) -> BoundaryParameters {
+        BoundaryParameters::new((tip, law), self.ends, (self.values.len(), self.spacing))
+    }
+}
 
 /// First and last, and how many.
 fn range(
@@ -87,23 +113,20 @@ fn abscissas([low, high]: [f64; 2], points: usize, spacing: SpacingName) -> Vec<
 }
 
 fn document(
-    arguments: &BoundaryArguments,
+    asked: &Asked,
     tip: &TipFunction,
     typed: &Interval,
-    (range, points): ([f64; 2], usize),
 ) -> Result<BoundaryDocument, Failure> {
     let refused = |error: StabilityError| typed.refused(OPTION, error);
-    let spacing =
-        if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
     let boundary = Boundary::new(tip);
-    let asked = abscissas(range, points, spacing);
-    let mut progress = Progress::new(0.0, 2.0 * asked.len() as f64).at_every_call();
+    let points = asked.values.len();
+    let mut progress = Progress::new(0.0, 2.0 * points as f64).at_every_call();
     let mut done = 0.0;
-    let mut found = Vec::with_capacity(asked.len());
-    for r in &asked {
+    let mut found = Vec::with_capacity(points);
+    for r in &asked.values {
         found.push(boundary.at(*r));
         done += 1.0;
-        progress.counted(done, || format!("{done} of {} steps", 2 * asked.len()));
+        progress.counted(done, || format!("{done} of {} steps", 2 * points));
     }
     let first_error = found.iter().find_map(|at| at.err());
     let along: Vec<Critical> = found.into_iter().filter_map(Result::ok).collect();
@@ -111,23 +134,26 @@ fn document(
         return Err(refused(error));
     }
     let left_out = points - along.len();
-    let branches = boundary.branches(range[0], range[1], points).map_err(refused)?;
+    let [low, high] = asked.ends;
+    let branches = boundary.branches(low, high, points).map_err(refused)?;
     let mut onset = OnsetColumns::default();
     for at in &along {
         onset.push(tip, at);
         done += 1.0;
-        progress.counted(done, || format!("{done} of {} steps", 2 * asked.len()));
+        progress.counted(done, || format!("{done} of {} steps", 2 * points));
     }
     Ok(BoundaryDocument {
         format: BoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
-        parameters: BoundaryParameters { tip: tip.into(), r_range: range, points, spacing },
+        parameters: asked.parameters(&Wider::default(), tip),
         wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
         r: along.iter().map(|at| at.r).collect(),
         alpha: along.iter().map(|at| at.alpha).collect(),
         onset,
         branches: branches.into_iter().map(Into::into).collect(),
+        kind: vec![],
+        limits: None,
         remarks: first_error
             .map(|error| format!("{left_out} values of r are left out: {error}"))
             .into_iter()

@@ -16,38 +16,42 @@ const MOST_DETAILS: f64 = 1e5;
 /// The model that the options ask for, where only the paper's law makes sense, or is known: others are refused by
 /// name.
 pub(crate) fn model(arguments: &ModelArguments, command: &str) -> Result<Model, Failure> {
-    only_papers(arguments, command)?;
+    only_papers(&arguments.tip, &arguments.wider, command)?;
     wide_model(arguments)
 }
 
 /// Refuses the options of the wider law.
-pub(crate) fn only_papers(arguments: &ModelArguments, command: &str) -> Result<(), Failure> {
-    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
+pub(crate) fn only_papers(
+    tip: &TipArguments,
+    wider: &WiderArguments,
+    command: &str,
+) -> Result<(), Failure> {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *wider;
     let given = [
         ("--depth-limit", depth_limit),
         ("--healing-time", healing_time),
         ("--inertia", inertia),
         ("--no-spring", no_spring.then_some(0.0)),
-        ("--tip cosine", (arguments.tip.tip == Some(TipName::Cosine)).then_some(0.0)),
+        ("--tip cosine", (tip.tip == Some(TipName::Cosine)).then_some(0.0)),
     ];
     match given.into_iter().find(|(_, value)| value.is_some()) {
         None => Ok(()),
         Some((option, _)) => Err(Failure::input(
             option,
             format!(
-                "`{command}` knows the paper's law only: leave it out (`run`, `compare`, `stability` and `response` know the wider law)"
+                "`{command}` knows the paper's law only: leave it out (`run`, `compare`, `stability`, `boundary` and `response` know the wider law)"
             ),
         )),
     }
 }
 
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
-pub(crate) fn refuse_endless(arguments: &ModelArguments) -> Result<(), Failure> {
-    if arguments.wider.no_spring {
+pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
+    if wider.no_spring {
         let message = "nothing drags the tip: there is no steady motion behind a support";
         return Err(Failure::input("--no-spring", message));
     }
-    if arguments.tip.tip == Some(TipName::Cosine) && arguments.wider.healing_time.is_none() {
+    if tip.tip == Some(TipName::Cosine) && wider.healing_time.is_none() {
         let message =
             "goes on for ever, and so does what it left in steady motion: give --healing-time";
         return Err(Failure::input("--tip cosine", message));
@@ -56,14 +60,14 @@ pub(crate) fn refuse_endless(arguments: &ModelArguments) -> Result<(), Failure> 
 }
 
 /// What the options ask for of the wider law.
-pub(crate) fn wider(arguments: &ModelArguments) -> Wider {
-    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = arguments.wider;
+pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *arguments;
     Wider { depth_limit, healing_time, inertia, spring: !no_spring }
 }
 
 /// The model that the options ask for, under the wider law too.
 pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    let (wider, no_spring) = (wider(arguments), arguments.wider.no_spring);
+    let (wider, no_spring) = (wider(&arguments.wider), arguments.wider.no_spring);
     let tip = tip(&arguments.tip)?;
     if wider.is_papers() && tip != TipFunction::Cosine {
         return model_of(tip, r(arguments)?, arguments.alpha, arguments.alpha_above);

@@ -42,7 +42,7 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &ResponseArguments) -> Result<Self, Failure> {
-        refuse_endless(&arguments.model)?;
+        refuse_endless(&arguments.model.tip, &arguments.model.wider)?;
         let model = wide_model(&arguments.model)?;
         let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
         judge_count("--modes", arguments.modes)?;

@@ -49,8 +49,8 @@ struct Point {
 
 impl Point {
     fn asked(arguments: &StabilityArguments) -> Result<Self, Failure> {
-        refuse_endless(&arguments.model)?;
-        if !wider_law(&arguments.model).is_papers() {
+        refuse_endless(&arguments.model.tip, &arguments.model.wider)?;
+        if !wider_law(&arguments.model.wider).is_papers() {
             return Self::under_wider_law(arguments);
         }
         let tip = tip(&arguments.model.tip)?;
@@ -162,6 +162,7 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         .chain(why("trapping", trapping.err()))
         .collect();
     said.extend(why("trapping", creep.as_ref().err().copied()));
+    said.dedup();
     let rates = creep.as_ref().map(|creep| creep.rates()).unwrap_or_default();
     let attracting = creep.as_ref().ok().and_then(|creep| creep.attracting());
     if !rates.is_empty() && attracting.is_none() {
@@ -198,6 +199,7 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         roots: spectrum.roots.iter().map(|z| complex(z.re, z.im)).collect(),
         certificate: (&spectrum.certificate).into(),
         onset: onset.as_ref().ok().map(OnsetDocument::from),
+        limits: wider::limits(model),
         remarks: said,
     })
 }

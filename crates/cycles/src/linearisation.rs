@@ -51,19 +51,11 @@ impl Linearisation {
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(1 + 2 * equation.short.terms().len());
         let (mut stages, mut stiffness) = (vec![], vec![]);
-        let mut extension = orbit.extension;
-        let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
-        for (n, ((ends, h), d)) in steps.enumerate() {
-            if stop::is_asked() {
-                return Err(Singular);
-            }
-            let slopes = (past.of_step(n), &solved.of_step(n).slope());
-            let step = LinearStep::new(equation, slopes, (extension, h, d));
-            stages.push(step.carry(free, ends[1] - ends[0], &mut end).ok_or(Singular)?);
+        let gap = along(equation, orbit, (&past, solved), |_, step, share| {
+            stages.push(step.carry(free, share, &mut end)?);
             stiffness.push(step.stiffness());
-            extension += equation.r * h - d[STAGES - 1];
-        }
-        let gap = extension - orbit.extension;
+            Some(())
+        })?;
         let phase = Phase::new(equation, orbit.extension, solved, free);
         Ok(Self { gap, end, stages, phase, stiffness })
     }
@@ -138,6 +130,28 @@ impl Linearisation {
             stages: stages.map(|s| std::array::from_fn(|i| s.change(i, &unknowns))).collect(),
         }
     }
+}
+
+/// Deals with every step, of which it tells the number and the share of the period, in turn; how far rt - x0 gets.
+/// The sums are as in [`Linearisation::new`].
+pub(super) fn along(
+    equation: &Embedding,
+    orbit: &Orbit,
+    (past, solved): (&Past, &Past),
+    mut each: impl FnMut(usize, &LinearStep, f64) -> Option<()>,
+) -> Result<f64, Singular> {
+    let mut extension = orbit.extension;
+    let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
+    for (n, ((ends, h), d)) in steps.enumerate() {
+        if stop::is_asked() {
+            return Err(Singular);
+        }
+        let slopes = (past.of_step(n), &solved.of_step(n).slope());
+        let step = LinearStep::new(equation, slopes, (extension, h, d));
+        each(n, &step, ends[1] - ends[0]).ok_or(Singular)?;
+        extension += equation.r * h - d[STAGES - 1];
+    }
+    Ok(extension - orbit.extension)
 }
 
 impl Phase {

@@ -11,6 +11,9 @@ const AIM: f64 = 0.4;
 /// Neighbours are no more than so many times as dense.
 const GRADING: f64 = 2.0;
 const FEWEST: usize = 10;
+pub(super) const MOST_STEPS: usize = 4000;
+/// A guess may have more, which its mesh does not keep.
+pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
 /// Largest residual of (18) within each step, estimated from where its polynomial begins: there the true
 /// velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
@@ -55,7 +58,8 @@ pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     density
 }
 
-/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh.
+/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh. They are no more
+/// than it takes to see that there are too many.
 pub(super) fn equidistributed(mesh: &[f64], density: &[f64]) -> Vec<f64> {
     let mut cumulated = vec![0.0];
     let mut total = 0.0;
@@ -64,7 +68,7 @@ pub(super) fn equidistributed(mesh: &[f64], density: &[f64]) -> Vec<f64> {
         cumulated.push(total);
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let steps = (total.ceil() as usize).max(FEWEST);
+    let steps = (total.ceil() as usize).clamp(FEWEST, MOST_STEPS_OF_GUESS + 1);
     let place = |i: usize| {
         let wanted = total * i as f64 / steps as f64;
         let after = cumulated.partition_point(|c| *c <= wanted).clamp(1, density.len());
@@ -72,4 +76,16 @@ pub(super) fn equidistributed(mesh: &[f64], density: &[f64]) -> Vec<f64> {
     };
     let inner = (1..steps).map(place);
     [0.0].into_iter().chain(inner).chain([1.0]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_ends_where_there_are_too_many_steps() {
+        let mesh = equidistributed(&[0.0, 0.5, 1.0], &[1e12, 1e300]);
+        assert_eq!(mesh.len(), MOST_STEPS_OF_GUESS + 2);
+        assert!(mesh.windows(2).all(|ends| ends[0] <= ends[1]));
+    }
 }

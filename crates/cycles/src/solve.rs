@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{adapted, residuals};
+use super::mesh::{MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -46,9 +46,6 @@ pub(super) enum NotClosed {
 }
 
 const MOST_ITERATIONS: usize = 15;
-pub(super) const MOST_STEPS: usize = 4000;
-/// A guess may have more, which its mesh does not keep.
-const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 const MOST_MESHES: usize = 8;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
@@ -82,7 +79,7 @@ pub(super) fn close(
     let state = 2.0 * equation.short.terms().len() as f64 + 1.0;
     for _ in 0..MOST_MESHES {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
-        let first = if equation.short_is_precise() { &short } else { &fine };
+        let first = if equation.short_is_precise { &short } else { &fine };
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
             let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
             let (linearisation, count) = newton.solve(solved, enough)?;
@@ -168,12 +165,9 @@ impl NotClosed {
 }
 
 impl Closed {
-    /// The monodromy matrix ∂X(T)/∂X(0), in the sum that multipliers are computed in.
-    pub(super) fn monodromy(&self) -> Option<DMatrix<f64>> {
-        if self.equation.short_is_precise() {
-            return Some(self.linearisation.monodromy());
-        }
-        self.monodromy_in(&self.equation.precise)
+    /// The monodromy matrix ∂X(T)/∂X(0), in the short sum.
+    pub(super) fn monodromy(&self) -> DMatrix<f64> {
+        self.linearisation.monodromy()
     }
 
     /// The same in another sum.

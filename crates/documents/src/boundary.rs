@@ -1,11 +1,11 @@
 //! `stickslip/boundary`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{CriticalityName, Software, TipDocument};
+use crate::{CriticalityName, ModelParameters, OnsetKindName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{BoundaryBranch, Critical, onset_at};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// The stability boundary. `Omega`, `r`, `alpha` and the columns of `onset` have equal lengths.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -30,8 +30,14 @@ pub struct BoundaryDocument {
     pub onset: OnsetColumns,
     /// The whole curve (42), (43) within the range of r, by stretches on which Ω runs without a gap.
     /// Where there are several, or where one turns back in r, its parts above αc(r) are where further
-    /// pairs of roots cross.
+    /// pairs of roots cross. None under a wider law.
     pub branches: Vec<BranchDocument>,
+    /// Under a wider law: whether linear theory decides, for each r.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub kind: Vec<OnsetKindName>,
+    /// Under a wider law: what leaves nothing unstable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitColumns>,
     /// What is left out, and why; empty if nothing is.
     pub remarks: Vec<String>,
 }
@@ -63,6 +69,30 @@ pub struct BoundaryParameters {
     pub points: usize,
     /// How that range is divided.
     pub spacing: SpacingName,
+    /// b of (61), in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T, in Γ/k, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k, where the tip has inertia.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+}
+
+/// Depth limits and memories under which no α makes steady motion unstable.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitColumns {
+    /// Every r that was asked for, also those without a critical α.
+    pub r: Vec<f64>,
+    /// b_c of each, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
+    /// the inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady
+    /// tip is 0, the corner of |h|.
+    pub least_depth_limit: Vec<Option<f64>>,
+    /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null
+    /// where there is none for this tip.
+    pub memory_length: Option<f64>,
 }
 
 /// The small oscillation along the boundary, to leading order in α - αc. Null where that says nothing.
@@ -100,6 +130,17 @@ impl OnsetColumns {
         columns
     }
 
+    /// Of so many points, none of which is known.
+    #[must_use]
+    pub fn unknown(points: usize) -> Self {
+        Self {
+            criticality: vec![None; points],
+            amplitude_squared_slope: vec![None; points],
+            period_slope: vec![None; points],
+            lyapunov: vec![None; points],
+        }
+    }
+
     /// Adds what is born at a point of the boundary.
     pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
         let onset = onset_at(tip, *at).ok();
@@ -107,6 +148,27 @@ impl OnsetColumns {
         self.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
         self.period_slope.push(onset.map(|o| o.period_slope));
         self.lyapunov.push(onset.map(|o| o.lyapunov));
+    }
+}
+
+impl BoundaryParameters {
+    /// These of a law.
+    #[must_use]
+    pub fn new(
+        (tip, wider): (&TipFunction, &Wider),
+        r_range: [f64; 2],
+        (points, spacing): (usize, SpacingName),
+    ) -> Self {
+        let Wider { depth_limit, healing_time, inertia, .. } = *wider;
+        Self { tip: tip.into(), r_range, points, spacing, depth_limit, healing_time, inertia }
+    }
+
+    /// A point of the boundary as a model.
+    #[must_use]
+    pub fn at(&self, r: f64, alpha: f64) -> ModelParameters {
+        let Self { depth_limit, healing_time, inertia, .. } = *self;
+        let papers = ModelParameters::papers(self.tip.clone(), alpha, None, r);
+        ModelParameters { depth_limit, healing_time, inertia, ..papers }
     }
 }
 

@@ -50,7 +50,7 @@ mod verification;
 mod work;
 
 pub use boundary::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, OnsetColumns, SpacingName,
+    BoundaryDocument, BoundaryParameters, BranchDocument, LimitColumns, OnsetColumns, SpacingName,
 };
 pub use checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use compare::{
@@ -72,9 +72,11 @@ pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use raster::{
-    HeightMap, KeptLine, LineHistory, LineRegimeName, PathName, PatternDocument, RasterDocument,
-    RasterHistory, RasterLine, RasterParameters, RasterRegimeName, RasterSamples,
-    RasterSurfaceDocument, RasterWork,
+    AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
+    PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,
+    RasterComparedWork, RasterDocument, RasterHistory, RasterLine, RasterParameters,
+    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
+    RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use raster_stability::{
     RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,
@@ -92,8 +94,9 @@ pub use scenario::{
 pub use schemas::{NamedSchema, SCHEMAS, schema};
 pub use software::{FORMAT_VERSION, Software};
 pub use stability::{
-    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, OnsetDocument,
-    OnsetKindName, SolveFor, StabilityDocument, StabilityParameters, TrappingDocument,
+    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
+    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityParameters,
+    TrappingDocument,
 };
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,

@@ -32,6 +32,9 @@ pub struct StabilityDocument {
     pub certificate: CertificateDocument,
     /// What is born at the critical point; null where the leading order says nothing, see `remarks`.
     pub onset: Option<OnsetDocument>,
+    /// Under a wider law: what leaves nothing unstable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsDocument>,
     /// Why something is null, short or inexact; empty if nothing is.
     pub remarks: Vec<String>,
 }
@@ -94,6 +97,19 @@ pub struct CriticalDocument {
     /// Under the wider law: whether linear theory decides there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<OnsetKindName>,
+}
+
+/// Depth limit and memory under which no α makes steady motion unstable.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsDocument {
+    /// b_c(r), in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and the
+    /// inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady tip
+    /// is 0, the corner of |h|.
+    pub least_depth_limit: Option<f64>,
+    /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit.
+    /// Null where there is none for this tip.
+    pub memory_length: Option<f64>,
 }
 
 /// What small deviations obey at the critical point.
@@ -177,11 +193,16 @@ impl CriticalDocument {
     /// A critical point, and of which kind it is under the wider law.
     pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
         let Critical { alpha, r, omega, period, wavelength } = *critical;
-        let kind = kind.map(|kind| match kind {
-            OnsetKind::Smooth => OnsetKindName::Smooth,
-            OnsetKind::NonSmooth => OnsetKindName::NonSmooth,
-        });
-        Self { alpha, r, omega, period, wavelength, kind }
+        Self { alpha, r, omega, period, wavelength, kind: kind.map(OnsetKindName::from) }
+    }
+}
+
+impl From<OnsetKind> for OnsetKindName {
+    fn from(kind: OnsetKind) -> Self {
+        match kind {
+            OnsetKind::Smooth => Self::Smooth,
+            OnsetKind::NonSmooth => Self::NonSmooth,
+        }
     }
 }
 

@@ -64,7 +64,7 @@ impl Start {
 
 /// A model with what was given in place of its own.
 fn changed(before: &Model, arguments: &ModelArguments) -> Result<Model, Failure> {
-    only_papers(arguments, "cycle")?;
+    only_papers(&arguments.tip, &arguments.wider, "cycle")?;
     let ModelArguments { tip: asked, r, alpha, alpha_above, .. } = arguments;
     let given = asked.tip.is_some()
         || asked.beta.is_some()

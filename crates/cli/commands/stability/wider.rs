@@ -4,10 +4,10 @@ use super::Point;
 use crate::arguments::StabilityArguments;
 use crate::commands::model::{tip, wide_model, wider};
 use crate::failure::{Failure, Typed};
-use stickslip_documents::SolveFor;
+use stickslip_documents::{LimitsDocument, SolveFor};
 use stickslip_stability::{
-    Creep, Critical, Onset, OnsetKind, StabilityError, creep, critical_under, onset_at,
-    trapping_alpha,
+    Creep, Critical, Onset, OnsetKind, StabilityError, creep, critical_under, least_depth_limit,
+    memory_length, onset_at, trapping_alpha,
 };
 use stickslip_tip::Model;
 
@@ -26,7 +26,7 @@ impl Point {
         }
         let r =
             model.r.ok_or_else(|| Failure::input("--r", "αc is a function of r: give --r R"))?;
-        let (law, tip) = (wider(model), tip(&model.tip)?);
+        let (law, tip) = (wider(&model.wider), tip(&model.tip)?);
         let found = critical_under(&law, &tip, r);
         let kind = found.as_ref().ok().map(|found| found.kind);
         let critical = found.map(|found| found.critical);
@@ -61,6 +61,15 @@ pub(super) fn trapping(
             (Err(error), Err(error))
         }
     }
+}
+
+/// What leaves nothing unstable; nothing is said of it under the paper's law.
+pub(super) fn limits(model: &Model) -> Option<LimitsDocument> {
+    let (law, tip) = (model.wider(), model.tip());
+    (!law.is_papers()).then(|| LimitsDocument {
+        least_depth_limit: least_depth_limit(law, tip, model.r()).ok(),
+        memory_length: memory_length(tip).ok(),
+    })
 }
 
 /// What is born at the critical point, to leading order.

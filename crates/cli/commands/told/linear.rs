@@ -3,8 +3,8 @@
 use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
-    BoundaryDocument, ComplexDocument, CriticalityName, ResponseDocument, StabilityDocument,
-    to_its_digits,
+    BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
+    StabilityDocument, to_its_digits,
 };
 
 /// What holds of the numbers of a critical point.
@@ -53,6 +53,15 @@ impl Product for StabilityDocument {
         };
         let certain =
             if self.certificate.complete { "none is missing" } else { "some may be missing" };
+        let limits = self.limits.as_ref();
+        let least = limits.and_then(|limits| limits.least_depth_limit);
+        let length = limits.and_then(|limits| limits.memory_length);
+        let told = told
+            .maybe("always stable below", least.map(|b| format!("b = {}", digits(b, 7))))
+            .maybe(
+                "always stable below rT",
+                length.map(|l| format!("{} σ, without a depth limit", digits(l, 7))),
+            );
         told.maybe("leading growth exponent", self.roots.first().map(root))
             .row("growth exponents", format!("{}, {certain}", self.roots.len()))
             .remarks(&self.remarks)
@@ -74,17 +83,42 @@ impl Product for BoundaryDocument {
         let highest = self.alpha.iter().copied().fold(0.0, f64::max);
         let [low, high] = [lowest, highest].map(|alpha| digits(alpha, 7));
         let [first, last] = self.parameters.r_range.map(|r| digits(r, 7));
+        let limits = self.limits.as_ref();
+        if points == 0 {
+            let stable = format!("steady motion is stable at every α and r from {first} to {last}");
+            return least(Told::new(stable), limits).remarks(&self.remarks);
+        }
         let told =
             Told::new(format!("αc from {low} to {high} at {points} r from {first} to {last}"));
         let sub = self.onset.criticality.iter();
         let sub = sub.filter(|c| **c == Some(CriticalityName::Subcritical)).count();
-        told.row("r", format!("{points} from {first} to {last}"))
-            .row("αc", format!("from {low} to {high}"))
-            .row("subcritical at", format!("{sub} of them"))
-            .row("stretches of the curve", self.branches.len().to_string())
-            .remarks(&self.remarks)
-            .next(again("-o boundary.csv --plot boundary.svg"))
+        let told = told
+            .row("r", format!("{points} from {first} to {last}"))
+            .row("αc", format!("from {low} to {high}"));
+        let told = match limits {
+            Some(_) => least(told, limits),
+            None => told
+                .row("subcritical at", format!("{sub} of them"))
+                .row("stretches of the curve", self.branches.len().to_string()),
+        };
+        told.remarks(&self.remarks).next(again("-o boundary.csv --plot boundary.svg"))
     }
+}
+
+/// What leaves nothing unstable.
+fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
+    let depths = limits.map(|limits| limits.least_depth_limit.iter().copied().flatten());
+    let depths: Vec<f64> = depths.into_iter().flatten().collect();
+    let lowest = depths.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = depths.iter().copied().fold(0.0, f64::max);
+    let [low, high] = [lowest, highest].map(|b| digits(b, 7));
+    let range = (!depths.is_empty()).then(|| format!("b = {low} to {high}, by r"));
+    told.maybe("always stable below", range).maybe(
+        "always stable below rT",
+        limits
+            .and_then(|limits| limits.memory_length)
+            .map(|length| format!("{} σ, without a depth limit", digits(length, 7))),
+    )
 }
 
 impl Product for ResponseDocument {

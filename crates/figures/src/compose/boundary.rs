@@ -2,7 +2,7 @@
 
 use super::drawn::{Drawn, View};
 use super::labels::{ALPHA, R};
-use super::tip::tip_name;
+use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use stickslip_documents::{
@@ -17,7 +17,11 @@ impl Drawn for BoundaryDocument {
     /// The critical α over r, the unstable region above it shaded, and the lines within
     /// that where further pairs of roots cross.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let title = format!("Where steady motion is stable, {}", tip_name(&self.parameters.tip));
+        if self.r.is_empty() {
+            let message = "steady motion is stable for every α at each of these r";
+            return Err(FigureError::Nothing(message.into()));
+        }
+        let title = format!("Where steady motion is stable, {}", law_name(&any(self)));
         let mut figure = FigureDocument::new("boundary", &title, models(self));
         let scale = scale(self);
         let mut panel = PanelDocument::new("", (R, ALPHA));
@@ -59,7 +63,7 @@ impl Drawn for BoundaryDocument {
 /// # Errors
 /// None of the points of the boundary has a criticality.
 pub fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
-    let title = format!("What is born at the boundary, {}", tip_name(&document.parameters.tip));
+    let title = format!("What is born at the boundary, {}", law_name(&any(document)));
     let mut figure = FigureDocument::new("criticality", &title, models(document));
     let slopes = &document.onset.amplitude_squared_slope;
     let excess: Vec<f64> = slopes
@@ -106,9 +110,12 @@ fn scale(document: &BoundaryDocument) -> ScaleName {
 /// That of the first point.
 fn models(document: &BoundaryDocument) -> Vec<ModelParameters> {
     let first = document.r.first().zip(document.alpha.first());
-    let tip = &document.parameters.tip;
-    let model = |(r, alpha): (&f64, &f64)| ModelParameters::papers(tip.clone(), *alpha, None, *r);
-    first.map(model).into_iter().collect()
+    first.map(|(r, alpha)| document.parameters.at(*r, *alpha)).into_iter().collect()
+}
+
+/// The law of all points, at whatever α and r.
+fn any(document: &BoundaryDocument) -> ModelParameters {
+    document.parameters.at(document.parameters.r_range[0], 0.0)
 }
 
 /// A name in either region, where it is highest, but away from the sides.

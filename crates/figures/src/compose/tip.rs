@@ -20,11 +20,18 @@ pub(crate) fn tip_name(tip: &TipDocument) -> String {
 pub(crate) fn model_name(model: &ModelParameters) -> String {
     let [alpha, r] = [model.alpha, model.r].map(seven_digits);
     let dragged = if model.no_spring { ", no spring".into() } else { format!(", r = {r}") };
+    format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), wider_name(model))
+}
+
+/// Tip, and what a wider law adds: the same at every α and r.
+pub(crate) fn law_name(model: &ModelParameters) -> String {
+    format!("{}{}", tip_name(&model.tip), wider_name(model))
+}
+
+fn wider_name(model: &ModelParameters) -> String {
     let wider = [("b", model.depth_limit), ("T", model.healing_time), ("M", model.inertia)];
     let there = wider.into_iter().filter_map(|(name, value)| Some((name, value?)));
-    let wider: String =
-        there.map(|(name, value)| format!(", {name} = {}", seven_digits(value))).collect();
-    format!("{}, α = {alpha}{dragged}{wider}", tip_name(&model.tip))
+    there.map(|(name, value)| format!(", {name} = {}", seven_digits(value))).collect()
 }
 
 fn gaussians_name(gaussians: &[GaussianDocument]) -> String {

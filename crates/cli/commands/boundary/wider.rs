@@ -1,0 +1,83 @@
+//! `stickslip boundary` under the wider law.
+
+use super::{Asked, OPTION};
+use crate::arguments::Interval;
+use crate::commands::progress::Progress;
+use crate::failure::{Failure, Typed};
+use std::f64::consts::TAU;
+use stickslip_documents::{BoundaryDocument, FORMAT_VERSION, LimitColumns, OnsetColumns, Software};
+use stickslip_stability::{
+    OnsetKind, StabilityError, WiderCritical, critical_under, least_depth_limit, memory_length,
+};
+use stickslip_tip::{TipFunction, Wider, WiderError};
+
+/// αc of each r, and what leaves nothing unstable. That nothing is unstable at all is an answer too.
+pub(super) fn document(
+    asked: &Asked,
+    (law, tip): (&Wider, &TipFunction),
+    typed: &Interval,
+) -> Result<BoundaryDocument, Failure> {
+    let points = asked.values.len();
+    let mut progress = Progress::new(0.0, points as f64).at_every_call();
+    let (mut along, mut left_out, mut least) = (vec![], vec![], vec![]);
+    for (n, r) in asked.values.iter().enumerate() {
+        match critical_under(law, tip, *r) {
+            Ok(found) => along.push(found),
+            Err(error @ (StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. })) => {
+                left_out.push(error);
+            }
+            Err(StabilityError::Wider(error)) => return Err(refused(&error)),
+            Err(error) => return Err(typed.refused(OPTION, error)),
+        }
+        least.push(least_depth_limit(law, tip, *r).ok());
+        progress.counted(n as f64 + 1.0, || format!("{} of {points} steps", n + 1));
+    }
+    let column = |of: fn(&WiderCritical) -> f64| along.iter().map(of).collect();
+    Ok(BoundaryDocument {
+        format: BoundaryDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: asked.parameters(law, tip),
+        wave_number: column(|at| TAU / at.critical.wavelength),
+        r: column(|at| at.critical.r),
+        alpha: column(|at| at.critical.alpha),
+        onset: OnsetColumns::unknown(along.len()),
+        branches: vec![],
+        kind: along.iter().map(|at| at.kind.into()).collect(),
+        limits: Some(LimitColumns {
+            r: asked.values.clone(),
+            least_depth_limit: least,
+            memory_length: memory_length(tip).ok(),
+        }),
+        remarks: remarks(&along, &left_out),
+    })
+}
+
+fn remarks(along: &[WiderCritical], left_out: &[StabilityError]) -> Vec<String> {
+    let first = left_out.first();
+    let mut said: Vec<String> = first
+        .map(|error| format!("{} values of r are left out: {error}", left_out.len()))
+        .into_iter()
+        .collect();
+    if along.iter().any(|at| at.kind == OnsetKind::NonSmooth) {
+        let message = "kind non-smooth: the height under the tip is 0 in steady motion, where |h| of the depth limit \
+                       has a corner: alpha is where a small oscillation keeps its amplitude, and at finite amplitude \
+                       onset moves";
+        said.push(message.into());
+    }
+    if !along.is_empty() {
+        said.push(
+            "onset: the leading order of small cycles is had under the paper's law only".into(),
+        );
+    }
+    said
+}
+
+fn refused(error: &WiderError) -> Failure {
+    let (option, value) = match *error {
+        WiderError::DepthLimit(b) => ("--depth-limit", b),
+        WiderError::HealingTime(time) => ("--healing-time", time),
+        WiderError::Inertia(mass) => ("--inertia", mass),
+    };
+    Failure::input(format!("{option} {}", Typed(value)), error)
+}

@@ -15,18 +15,26 @@ pub(super) const MOST_STEPS: usize = 4000;
 /// A guess may have more, which its mesh does not keep.
 pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
-/// Largest residual of (18) within each step, estimated from where its polynomial begins: there the true
-/// velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
+/// Largest residual of (18) within each step, estimated from where its polynomial begins, and that of the next: there
+/// the true velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
 /// interpolation errs by `stiffness` times that in the force.
 pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
-    let residual = |n: usize| {
+    let (mut defects, mut interpolation) = (vec![], vec![]);
+    for n in 0..steps {
         let before = (n + steps - 1) % steps;
         let (d, d_before) = (&orbit.stages[n], &orbit.stages[before]);
-        let defect = defect(d, h[n], velocity_at_end(d_before, h[before]));
-        let interpolation = interpolation_error(d, h[n], (d_before, h[before]));
-        defect.abs() + stiffness[n] * interpolation
+        defects.push(defect(d, h[n], velocity_at_end(d_before, h[before])).abs());
+        interpolation.push(interpolation_error(d, h[n], (d_before, h[before])));
+    }
+    let residual = |n: usize| {
+        // What a defect is made of, a derivative, may grow within the step: its end is the next one's beginning.
+        let next = (n + 1) % steps;
+        let ratio = h[n] / h[next];
+        let at_end = defects[next] * ratio.powf(ORDER);
+        let interpolation = interpolation[n].max(interpolation[next] * ratio.powf(ORDER + 1.0));
+        defects[n].max(at_end) + stiffness[n].max(stiffness[next]) * interpolation
     };
     (0..steps).map(residual).collect()
 }

@@ -10,8 +10,8 @@ use super::solve::Closed;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use std::sync::Arc;
-use stickslip_tip::eigenvalues;
 use stickslip_tip::memory::{Fit, accuracy_needed};
+use stickslip_tip::{TipFunction, eigenvalues};
 
 /// What is left of an exponential after a period need not be told from multipliers if it is below this.
 const FADED: f64 = 1e-3;
@@ -25,7 +25,10 @@ const SAME: (f64, f64) = (1e-4, 1e-2);
 pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     let mut found = sorted(closed.monodromy()?)?;
     let equation = &closed.equation;
-    if slowest_left(&equation.precise, equation.r * closed.orbit.period) < FADED {
+    let healed = equation.wider.left_after(closed.orbit.period);
+    let left = healed * slowest_left(&equation.precise, equation.r * closed.orbit.period);
+    // The sum that stands for cos x is cos x.
+    if left < FADED || equation.tip == TipFunction::Cosine {
         return Some(found);
     }
     let others = sorted(closed.monodromy_in(&another(equation)?)?)?;

@@ -102,7 +102,7 @@ pub(crate) struct SweepArguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepThen {
     Merge(MergeArguments),
-    Raster(RasterSweepArguments),
+    Raster(Box<RasterSweepArguments>),
 }
 
 /// Put the parts of a sweep together: byte for byte what one sweep over all points would have written.

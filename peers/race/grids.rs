@@ -52,7 +52,7 @@ pub(crate) fn rows(reference: &Reference) -> Vec<Value> {
         let remark = "time extrapolated from 20 steps; error that of (b), the same scheme";
         rows.push(row("grid (a), uniform", setting, seconds * span / short, Some(error), remark));
     }
-    let term = |amplitude, centre| Gaussian { amplitude, centre, width: 1.0 };
+    let term = |amplitude, center| Gaussian { amplitude, center, width: 1.0 };
     let gaussians = vec![term(1.0, 0.0), term(-0.5, 2.0), term(-0.5, -2.0)];
     for (spacing, digits) in
         [(0.6, 4), (0.5, 5), (0.5, 6), (0.46, 7), (0.43, 8), (0.4, 9), (0.38, 10), (0.36, 11)]

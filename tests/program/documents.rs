@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 11] = [
+const OTHERS: [(&str, &str); 13] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
@@ -72,6 +72,11 @@ const OTHERS: [(&str, &str); 11] = [
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
     ("raster", "raster --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
+    (
+        "raster-sweep",
+        "sweep raster --tip gaussian --r 1 --pitch 1 --alpha 0.5:1:2 --lines 3 --length 10",
+    ),
+    ("raster-compare", "compare --tip gaussian --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
     ("raster-boundary", "boundary --tip gaussian --pitch-range 0.5:2:4 --r 1"),
     ("raster-stability", "stability --r 1 --pitch 1 --alpha 0.5"),
     (

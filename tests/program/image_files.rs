@@ -80,7 +80,7 @@ fn gsf_images_are_read_with_their_place_and_units() {
         for name in ["XYUnits", "ZUnits"] {
             assert_eq!(about[name], unit, "{about}");
         }
-        // 121 by 15 pixels of 0.25, the first centred on (20, -2).
+        // 121 by 15 pixels of 0.25, the first centered on (20, -2).
         for (name, value) in
             [("XReal", 30.25), ("YReal", 3.75), ("XOffset", 19.875), ("YOffset", -2.125)]
         {

@@ -26,6 +26,7 @@ mod outcomes;
 mod people;
 mod pictures;
 mod raster_commands;
+mod raster_sweeps;
 mod refusals;
 mod resume;
 mod stability_commands;

@@ -6,8 +6,8 @@ use serde_json::Value;
 use std::process::Stdio;
 use std::time::Duration;
 use stickslip_raster::{Path, Plan, Scanned, Scanning};
-use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_stability::{Raster, RasterPath, WiderRaster};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 const GAUSSIAN: &str = "raster --tip gaussian --alpha 0.6 --r 1 --pitch 0.5";
 
@@ -86,6 +86,89 @@ fn every_format_and_every_picture_is_written() {
     assert!(!folder.names().iter().any(|name| name.contains("partial")));
 }
 
+/// A shape is scanned line by line: its lines are those of the file, a pulse on the first is felt by all, and every format
+/// holds lines of several lengths.
+#[test]
+fn a_shape_is_scanned_line_by_line() {
+    let folder = Folder::new("raster_area");
+    folder.write("l.csv", "y,start,length\n0,-3,20\n0.5,-3,20\n1,2,12\n1.5,2,12.5\n");
+    let line = "raster --tip gaussian --alpha 0.6 --r 1 --area l.csv --path zigzag";
+    let found = folder.prints_json(line);
+    assert_eq!(
+        (found["parameters"]["lines"].as_u64(), number(&found["parameters"]["pitch"])),
+        (Some(4), 0.5)
+    );
+    let last = |n: usize, what: &str| {
+        number(found["lines"][n]["samples"][what].as_array().unwrap().last().unwrap())
+    };
+    assert!((last(1, "t") - 20.0).abs() < 1e-12 && last(2, "t") <= 12.0 && last(2, "t") > 11.7);
+    // On the way back of line 2 the support ends at -3, the tip behind it.
+    assert!((last(1, "x0") + last(1, "lag") + 3.0).abs() < 1e-9 && last(1, "lag") < 0.0);
+    let volume = -0.6 * 64.5 * 2.0 * std::f64::consts::PI;
+    assert!((number(&found["volume"]) - volume).abs() < 1e-9);
+    let pushed = folder.prints_json(&format!("{line} --pulse 0.1,5,0.5"));
+    for n in 0..4 {
+        let x0 = |document: &Value| number(&document["lines"][n]["samples"]["x0"][40]);
+        assert!((x0(&pushed) - x0(&found)).abs() > 1e-6, "{n}");
+    }
+    folder.write("a.json", pushed.to_string());
+    let again = folder.prints_json("surface a.json --range=-3:17:11 --y 0.5");
+    assert_eq!(again["parameters"], pushed["parameters"]);
+    let schema = folder.prints_json("schema raster");
+    assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&pushed));
+    for name in ["a.csv", "a.npz", "a.gsf"] {
+        folder.prints(&format!("{line} -o {name} --plot {name}.svg"));
+    }
+    let csv = String::from_utf8(folder.read("a.csv")).unwrap();
+    assert!(csv.lines().last().unwrap().starts_with("4,1.5,12.5,"), "{csv}");
+    folder.write("uneven.csv", "0,0,10\n1,0,12\n1,0,12\n0.2,3,9\n");
+    let uneven = "raster --tip gaussian --alpha 0.6 --r 1 --area uneven.csv";
+    folder.prints(&format!("{uneven} -o u.json --plot u.svg"));
+    folder.prints("surface u.json -o u.npz");
+    for (text, words) in [
+        ("0,0,10\n1,0,0\n", ["--area bad.csv", "line 2"]),
+        ("0,0\n", ["--area bad.csv", "y,start,length"]),
+        ("", ["--area bad.csv", "between 1 and"]),
+    ] {
+        folder.write("bad.csv", text);
+        folder.refuses("raster --alpha 1 --r 1 --area bad.csv", &words);
+    }
+    folder.refuses("raster --alpha 1 --r 1 --area l.csv --pitch 1", &["--pitch", "--area"]);
+    folder.refuses(&line.replace("zigzag", "repeat"), &["--path repeat", "area"]);
+}
+
+/// `compare` of a raster: another way to the same motion, and a looser grid farther from it; every option that means
+/// nothing to lines is refused.
+#[test]
+fn a_raster_is_compared_with_rows_of_cells() {
+    let folder = Folder::new("raster_compare");
+    let line =
+        "compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 4 --length 15 --path zigzag";
+    let found = folder.prints_json(&format!("{line} --pulse 0.2,5,1"));
+    let apart = |found: &Value| number(&found["max_difference"]["x0"]);
+    assert!(apart(&found) < 1e-7 && number(&found["max_difference"]["u"]) < 1e-7, "{found}");
+    assert_eq!(found["lines"].as_array().unwrap().len(), 4);
+    assert_eq!(found["grid_u"].as_array().unwrap().len(), 4);
+    assert!(number(&found["speedup"]) > 0.0 && found["grid_work"]["steps"].as_u64() > Some(100));
+    let loose = folder.prints_json(&format!("{line} --grid-tolerance 1e-5"));
+    assert!(apart(&loose) > 10.0 * apart(&found), "{} {}", apart(&loose), apart(&found));
+    folder.write("a.json", found.to_string());
+    folder.prints("plot a.json -o a.svg");
+    folder.write("l.csv", "y,start,length\n0,-3,10\n0.5,-3,9\n");
+    folder.prints("compare --alpha 1 --r 1 --area l.csv --depth-limit 3 -o b.npz --plot b.svg");
+    for (option, words) in [
+        ("--until 30", ["--until", "--lines"]),
+        ("--kick 0.1", ["--kick", "--lines"]),
+        ("--grid uniform", ["--grid", "--lines"]),
+        ("--spacing 2", ["--spacing 2", "at most"]),
+        ("--time-limit 0", ["--time-limit 0", "above 0"]),
+    ] {
+        folder.refuses(&format!("{line} {option}"), &words);
+    }
+    folder.refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["required", "--lines"]);
+    folder.refuses("compare --alpha 1 --r 1", &["required", "--until"]);
+}
+
 /// Killed at whatever moment, it goes on from its last line and writes the same bytes.
 #[cfg(unix)]
 #[test]
@@ -161,7 +244,20 @@ fn a_raster_under_the_wider_law_is_one_too() {
         "raster --alpha -1 --no-spring --pitch 1 --lines 3 --length 15",
         &["--r", "required"],
     );
-    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "paper's law"]);
+    // β = 1 has its corner there, other tips have a linear theory.
+    folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "corner"]);
+    let line = "stability --tip gaussian --r 1 --pitch 1 --depth-limit 8";
+    let limited = folder.prints_json(line);
+    let wider = Wider { depth_limit: Some(8.0), ..Wider::default() };
+    let wanted = WiderRaster::new(&round(), wider, (1.0, 1.0), 1.0).unwrap().critical().unwrap();
+    assert!((number(&limited["critical"]["alpha"]) - wanted.alpha).abs() < 1e-12);
+    assert_eq!(limited["parameters"]["depth_limit"], 8.0);
+    let healing = "stability --tip gaussian --r 1 --pitch 1 --healing-time 100";
+    let growing = folder.prints_json(&format!("{healing} --length 60 --alpha 1.7"));
+    assert_eq!(growing["stable"], false);
+    folder.refuses(healing, &["--length", "heals"]);
+    folder.refuses(&format!("{line} --length 60"), &["--length", "does not heal"]);
+    folder.refuses(&format!("{line} --path zigzag"), &["--path", "one-way"]);
 }
 
 /// Thresholds and angles, in the document as in the library.

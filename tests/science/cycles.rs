@@ -13,7 +13,7 @@ use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle};
 use stickslip_outcome::run_and_judge;
 use stickslip_stability::{critical, onset};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::{Model, Run, Scenario, TipFunction, Trajectory, run};
+use stickslip_tip::{Gaussian, Model, Run, Scenario, TipFunction, Trajectory, run};
 
 fn tip(beta: f64) -> TipFunction {
     TipFunction::triple_gaussian(beta, 1.0).unwrap()
@@ -257,5 +257,32 @@ fn the_ripple_is_that_of_a_run() {
                 .unwrap();
         let difference = (ripple.amplitude - cycle.amplitude_u()).abs();
         Acceptance { floor: 1e-8, slack: 0.0 }.judge(&format!("{case:?}"), difference, 0.0);
+    }
+}
+
+/// A footprint with a narrow trough, and one in relaxation: to loose tolerances the sum that stands for f errs by
+/// more than the mesh, or the mesh by more than at its ends.
+#[test]
+fn errors_hold_whatever_tolerance_is_asked() {
+    let lobe = |amplitude: f64, center: f64, width: f64| {
+        [center, -center].map(|center| Gaussian { amplitude, center, width })
+    };
+    let mut terms = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
+    terms.extend([lobe(0.3, 2.3, 0.5), lobe(-0.5, 2.5, 0.2)].into_iter().flatten());
+    let troughs = TipFunction::gaussian_sum(terms).unwrap();
+    let onset = critical(&troughs, 1.0).unwrap().alpha;
+    let cases = [
+        Model::new(troughs, 1.05 * onset, 1.0).unwrap(),
+        Model::new(TipFunction::gaussian(1.0).unwrap(), 2.6, 1.0).unwrap(),
+    ];
+    for model in cases {
+        let best = cycle(&model, 1e-10).unwrap();
+        for tolerance in [1e-5, 1e-6, 1e-7, 1e-8] {
+            let found = cycle(&model, tolerance).unwrap();
+            let most = found.error() + best.error();
+            let off = [found.period() - best.period(), found.amplitude_x0() - best.amplitude_x0()];
+            assert!(off.iter().all(|off| off.abs() <= most), "{tolerance}: {off:?}, {most}");
+            assert!(most < 30.0 * tolerance, "{tolerance}: {most}");
+        }
     }
 }

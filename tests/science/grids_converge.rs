@@ -100,7 +100,7 @@ fn the_uniform_and_the_windowed_grid_come_to_the_closed_equation_at_order_2() {
 }
 
 fn spectral(spacing: f64) -> Method {
-    let term = |amplitude, centre| Gaussian { amplitude, centre, width: 1.0 };
+    let term = |amplitude, center| Gaussian { amplitude, center, width: 1.0 };
     Method::Spectral { gaussians: vec![term(1.0, 0.0), term(-0.5, 2.0), term(-0.5, -2.0)], spacing }
 }
 

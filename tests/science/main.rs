@@ -15,6 +15,7 @@ mod grids_converge;
 mod memories_agree;
 mod properties;
 mod raster_documents;
+mod rasters_on_grids;
 mod regimes;
 mod scaling_laws;
 mod stability_against_runs;

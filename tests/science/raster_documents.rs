@@ -37,7 +37,7 @@ fn a_raster_comes_back_from_its_document() {
         let text = serde_json::to_string(&document).unwrap();
         let back: RasterDocument = read(&text, RasterDocument::FORMAT).unwrap();
         let (again, found) = back.scanned().unwrap();
-        assert_eq!((again.path, again.lines), (plan.path, plan.lines));
+        assert_eq!((again.path, again.lines()), (plan.path, plan.lines()));
         for (a, b) in found.iter().zip(&lines) {
             assert_eq!((a.track(), a.trajectory()), (b.track(), b.trajectory()));
         }

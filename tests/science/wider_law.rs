@@ -60,7 +60,7 @@ fn by_grid(scenario: &Scenario, times: &[f64], tolerance: f64) -> Vec<f64> {
     let problem = Problem::under(law, rates, footprint, start).unwrap().with_force(&force);
     let gaussians = sum.terms().iter();
     let gaussians = gaussians
-        .map(|g| Gaussian { amplitude: g.amplitude, centre: g.center, width: g.width })
+        .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
         .collect();
     let method = Method::Spectral { gaussians, spacing: std::f64::consts::PI / 8.7 };
     let request = Request { times, points: &[] };

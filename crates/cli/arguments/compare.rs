@@ -3,22 +3,42 @@
 use super::examples::examples;
 use super::named::named;
 use super::{
-    DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, StartArguments,
+    DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, ScanArguments,
+    StartArguments,
 };
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use stickslip_documents::{GridName, MemoryName};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), mut_arg("r", |r| r.required_unless_present("no_spring")))]
+#[command(
+    override_usage = USAGE,
+    after_help = examples(EXAMPLES),
+    mut_arg("r", |r| r.required_unless_present("no_spring")),
+    mut_arg("pitch", |pitch| pitch.requires("lines").conflicts_with_all(OF_A_RUN)),
+    mut_arg("lines", |lines| lines.requires("length").conflicts_with_all(OF_A_RUN)),
+    mut_arg("length", |length| length.requires("lines")),
+    mut_arg("area", |area| area.conflicts_with_all(OF_A_RUN)),
+    mut_arg("path", |path| path.requires("rastered")),
+    mut_arg("width_y", |width| width.requires("rastered")),
+    group(ArgGroup::new("rastered").args(["lines", "area"]).multiple(true))
+)]
 pub(crate) struct CompareArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
     /// Time at which both end (they start as `stickslip run` does), in Γ/k.
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub(crate) until: f64,
+    #[arg(
+        long,
+        value_name = "T",
+        allow_hyphen_values = true,
+        required_unless_present_any = ["lines", "area"]
+    )]
+    pub(crate) until: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) scan: ScanArguments,
 
     #[command(flatten)]
     pub(crate) start: StartArguments,
@@ -101,7 +121,25 @@ pub(crate) struct CompareArguments {
 }
 
 const USAGE: &str =
-    "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]";
+    "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --pitch <D> --lines <N> --length <X> [OPTIONS]
+       stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]";
+
+/// What lines of a raster have not: they start flat, end where they do, and are compared with one kind of grid.
+const OF_A_RUN: [&str; 12] = [
+    "until",
+    "start",
+    "start_position",
+    "kick",
+    "support_path",
+    "start_velocity",
+    "noise",
+    "seed",
+    "initial_surface",
+    "force_file",
+    "grid",
+    "grid_until",
+];
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:
@@ -110,5 +148,7 @@ const EXAMPLES: &str = "Examples:
     stickslip compare --alpha-above 0.01 --r 1 --start paper --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:
     stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
+  A raster against rows of cells:
+    stickslip compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 24 --length 40 -o rasters.json --plot rasters.png
   Against the paper's own grid, for a time unit of it:
     stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid uniform --spacing 0.001 --step 0.04 --grid-until 17";

@@ -2,10 +2,10 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{FieldArguments, Format, ModelArguments, SamplingArguments};
+use super::{FieldArguments, Format, ModelArguments, SamplingArguments, ScanArguments};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip_documents::{MemoryName, PathName};
+use stickslip_documents::MemoryName;
 
 /// Scan an area line by line, and say what pattern the lines have written.
 ///
@@ -15,44 +15,22 @@ use stickslip_documents::{MemoryName, PathName};
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required(true))
+    mut_arg("r", |r| r.required(true)),
+    mut_arg("pitch", |pitch| pitch.required_unless_present_any(["path", "area"])),
+    mut_arg("lines", |lines| lines.required_unless_present("area")),
+    mut_arg("length", |length| length.required_unless_present("area"))
 )]
 pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
 
-    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip that has no f(x,y) of its own [default: the width of the tip's
-    /// Gaussians].
-    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) width_y: Option<f64>,
+    #[command(flatten)]
+    pub(crate) scan: ScanArguments,
 
-    /// Distance of the lines, in σ.
-    #[arg(
-        long,
-        value_name = "D",
-        allow_hyphen_values = true,
-        required_unless_present = "path",
-        help_heading = "Scan"
-    )]
-    pub(crate) pitch: Option<f64>,
-
-    /// How many lines.
-    #[arg(long, value_name = "N", help_heading = "Scan")]
-    pub(crate) lines: usize,
-
-    /// How far the support goes along each line, in σ; a line lasts X/r.
-    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Scan")]
-    pub(crate) length: f64,
-
-    /// How the support goes from one line to the next.
-    #[arg(
-        long,
-        value_parser = named::<PathName>(),
-        value_name = "PATH",
-        default_value = "one-way",
-        help_heading = "Scan"
-    )]
-    pub(crate) path: PathName,
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T since its start: what disturbs all
+    /// that follow; repeatable.
+    #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
+    pub(crate) pulse: Vec<String>,
 
     /// How the past of a line is remembered. All memories give the same motion to the tolerance.
     #[arg(
@@ -97,6 +75,7 @@ pub(crate) struct RasterArguments {
 
 const USAGE: &str =
     "stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --pitch <D> --lines <N> --length <X> [OPTIONS]
+       stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]
        stickslip raster (--alpha <A> | --alpha-above <D>) --r <R> --path repeat --lines <N> --length <X> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
@@ -104,6 +83,8 @@ const EXAMPLES: &str = "Examples:
     stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
   Forth and back, as a height map for Gwyddion:
     stickslip raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --path zigzag --lines 256 --length 60 -o raster.gsf
+  A disc, whose lines examples/areas/circle.csv lists:
+    stickslip raster --tip gaussian --alpha 0.48 --r 1 --area examples/areas/circle.csv --tolerance 1e-6 -o disc.json --plot disc.png
   The same line ten times:
     stickslip raster --alpha 0.4 --r 1 --path repeat --lines 10 --length 40 -o repeated.csv
   Profiles and images of it afterwards:

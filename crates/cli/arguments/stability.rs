@@ -47,6 +47,16 @@ pub(crate) struct StabilityArguments {
     #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Raster")]
     pub(crate) width_y: Option<f64>,
 
+    /// How far the support goes along each line, in σ, for a surface that heals meanwhile.
+    #[arg(
+        long,
+        value_name = "X",
+        allow_hyphen_values = true,
+        requires = "pitch",
+        help_heading = "Raster"
+    )]
+    pub(crate) length: Option<f64>,
+
     /// At least N growth exponents: all those right of a line chosen so [default: 10].
     #[arg(long, value_name = "N", conflicts_with = "re_above")]
     pub(crate) roots: Option<usize>,
@@ -79,5 +89,7 @@ const EXAMPLES: &str = "Examples:
   Lines half a width apart: where ripples set in, and how they grow above that:
     stickslip stability --tip gaussian --r 1 --pitch 0.5
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 -o growth.csv --plot growth.svg
+  The same where the tip has inertia and grooves are limited in depth:
+    stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 --inertia 0.3
   Another pass over the same line:
     stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv";

@@ -3,6 +3,7 @@
 mod closed;
 mod grid;
 mod pace;
+mod raster;
 
 use super::job::{Job, judge_places};
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
@@ -19,6 +20,9 @@ use stickslip_tip::Scenario;
 const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    if arguments.scan.lines.is_some() || arguments.scan.area.is_some() {
+        return raster::compare(arguments);
+    }
     let read = files_read(&arguments.model, &arguments.disturbance);
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
@@ -62,13 +66,7 @@ impl Asked {
                 format!("is longer than the run of the grid: at most {} will do", Typed(longest)),
             ));
         }
-        let time_limit = arguments.time_limit;
-        if time_limit.is_nan() || time_limit <= 0.0 {
-            return Err(Failure::input(
-                format!("--time-limit {}", Typed(time_limit)),
-                "must be a number of seconds above 0",
-            ));
-        }
+        let time_limit = time_limit(arguments)?;
         Ok(Self { scenario, disturbance, discretisation, grid_until, time_limit })
     }
 
@@ -82,6 +80,18 @@ impl Asked {
         self.discretisation.fits(high - low + 2.0 * reach)?;
         Ok(super::surface::evenly(low - reach, high + reach, POINTS))
     }
+}
+
+/// Seconds that either side may take.
+fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
+    let time_limit = arguments.time_limit;
+    if time_limit.is_nan() || time_limit <= 0.0 {
+        return Err(Failure::input(
+            format!("--time-limit {}", Typed(time_limit)),
+            "must be a number of seconds above 0",
+        ));
+    }
+    Ok(time_limit)
 }
 
 fn document(
@@ -138,7 +148,7 @@ fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters 
         initial_surface: run.initial_surface,
         pulses: run.pulses,
         force: run.force,
-        until: arguments.until,
+        until: asked.scenario.until,
         tolerance: arguments.tolerance,
         memory: arguments.memory,
         grid: arguments.grid,

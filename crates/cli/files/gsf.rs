@@ -9,7 +9,7 @@ use std::fmt::Write;
 pub(crate) struct Field<'a> {
     /// Without `=`, at which some readers would split it.
     pub(crate) title: &'a str,
-    /// x and y of the first pixel's centre.
+    /// x and y of the first pixel's center.
     pub(crate) first: [f64; 2],
     /// Distances of the pixels in x and y.
     pub(crate) spacing: [f64; 2],
@@ -34,7 +34,7 @@ pub(crate) fn gsf(field: &Field) -> Vec<u8> {
     for (axis, i) in [("X", 0), ("Y", 1)] {
         let spacing = field.spacing[i];
         line(&format!("{axis}Real"), &format!("{:e}", spacing * counts[i] as f64));
-        // Of the image's edge, half a pixel before the first centre.
+        // Of the image's edge, half a pixel before the first center.
         line(&format!("{axis}Offset"), &format!("{:e}", field.first[i] - 0.5 * spacing));
     }
     if !field.unit.is_empty() {

@@ -7,6 +7,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use stickslip_documents::{self as documents, RasterDocument, RunDocument, Unusable};
+use stickslip_raster::AreaLine;
 
 /// Two columns read from a CSV file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
@@ -50,6 +51,15 @@ pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<C
     let text = read_text(option, path, LARGEST_TABLE)?;
     parse_columns(&text, heading)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+/// Lines of an area, y,start,length.
+pub(crate) fn read_area(option: &str, path: &Path) -> Result<Vec<AreaLine>, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    let [y, start, length] = parse_table(&text, "y,start,length")
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
+    let columns = y.into_iter().zip(start).zip(length);
+    Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
 }
 
 /// A profile x,u; or one surface t,x,u, as `surface` writes it.

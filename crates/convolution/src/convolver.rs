@@ -14,12 +14,12 @@ use crate::{Density, Field, Kernel, Plan};
 /// **Who must cover what.** One call sees a window of [`length`](Self::length) cells of the
 /// density, and nothing else.
 /// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window see every
-///   source that matters, whether or not others lie outside. A window centred on `x` leaves room
+///   source that matters, whether or not others lie outside. A window centered on `x` leaves room
 ///   for targets up to `(separation − reach)/2` from `x`.
 /// - A kernel without: all sources must lie in the window, and the targets within `separation` of
 ///   each of them.
 ///
-/// [`first_cell_about`](Self::first_cell_about) centres the window.
+/// [`first_cell_about`](Self::first_cell_about) centers the window.
 pub struct Convolver {
     plan: Plan,
     /// `K̂/(length φ̂²)` up to half the Nyquist wavenumber; zero beyond.
@@ -73,7 +73,7 @@ impl Convolver {
         self.plan.length
     }
 
-    /// The first cell of the window centred on `position`.
+    /// The first cell of the window centered on `position`.
     pub fn first_cell_about(&self, position: f64) -> i64 {
         (position / self.plan.spacing).round() as i64 - self.plan.length as i64 / 2
     }

@@ -9,17 +9,17 @@ use crate::window::WIDTH;
 /// Lattice points per period of the band edge are twice what the sampling theorem asks.
 pub(crate) const UPSAMPLING: f64 = 2.0;
 
-/// Widths between the ends of a taper and its centre: erfc(5.95)/2 = 2e-17.
+/// Widths between the ends of a taper and its center: erfc(5.95)/2 = 2e-17.
 const TAPER_HALF_WIDTHS: f64 = 5.95;
 
 /// What a taper adds to the band, in inverse widths: exp(−12.4²/4) = 2e-17.
 const TAPER_BAND_WIDTHS: f64 = 12.4;
 
-/// The factor `χ(ξ) = ½ erfc((|ξ| − centre)/width)` that ends a kernel without reach.
+/// The factor `χ(ξ) = ½ erfc((|ξ| − center)/width)` that ends a kernel without reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {
     /// Where χ is one half.
-    pub centre: f64,
+    pub center: f64,
     /// The scale on which it falls.
     pub width: f64,
 }
@@ -27,18 +27,18 @@ pub struct Taper {
 impl Taper {
     /// χ(ξ).
     pub fn value(&self, separation: f64) -> f64 {
-        0.5 * libm::erfc((separation.abs() - self.centre) / self.width)
+        0.5 * libm::erfc((separation.abs() - self.center) / self.width)
     }
 
     /// The taper that leaves separations up to `separation` alone and makes the fewest cells,
     /// `(2A + 11.9w)(band + 12.4/w)` up to a factor, hence `w² ≈ 2A/band`.
     fn beyond(separation: f64, band: f64) -> Self {
         let width = (2.0 * separation.max(1.0 / band) / band).sqrt();
-        Self { centre: separation + TAPER_HALF_WIDTHS * width, width }
+        Self { center: separation + TAPER_HALF_WIDTHS * width, width }
     }
 
     fn end(&self) -> f64 {
-        self.centre + TAPER_HALF_WIDTHS * self.width
+        self.center + TAPER_HALF_WIDTHS * self.width
     }
 }
 
@@ -64,7 +64,7 @@ impl Plan {
     /// A window of length `P` sums the kernel as if sources repeated with period `P`. The nearest
     /// repetition is at `P − separation` or farther, beyond the reach if `P ≥ separation + reach`;
     /// 48 cells are added for the windows of sources and targets at either end (see
-    /// [`margin`](Self::margin)), and 3 because it is centred on a cell.
+    /// [`margin`](Self::margin)), and 3 because it is centered on a cell.
     ///
     /// # Panics
     /// If the band is not positive and finite, or the separation or reach negative or not finite.

@@ -43,7 +43,7 @@ pub struct Window {
     /// The same, weight by weight, for [`read`](Self::read).
     even_of: [[f64; PAIRS]; HALF],
     odd_of: [[f64; PAIRS]; HALF],
-    /// φ at the nodes of the transform, from the centre outwards.
+    /// φ at the nodes of the transform, from the center outwards.
     nodes: [f64; NODES + 1],
 }
 
@@ -114,9 +114,9 @@ impl Window {
     /// By the trapezoidal rule, whose error is φ̂ at 4π − κ: round-off, like φ at its ends.
     pub fn transform(&self, kappa: f64) -> f64 {
         let step = kappa / NODES_PER_CELL as f64;
-        let off_centre: f64 =
+        let off_center: f64 =
             (1..=NODES).rev().map(|node| self.nodes[node] * (node as f64 * step).cos()).sum();
-        (self.nodes[0] + 2.0 * off_centre) / NODES_PER_CELL as f64
+        (self.nodes[0] + 2.0 * off_center) / NODES_PER_CELL as f64
     }
 }
 

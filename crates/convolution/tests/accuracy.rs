@@ -160,6 +160,6 @@ fn a_taper_within_the_separation_is_noticed() {
         (field.value(99.0) - value(99.0)).abs()
     };
     accept("tapered beyond", error(good), TOLERANCE);
-    let taper = good.taper.map(|t| stickslip_convolution::Taper { centre: 100.0, ..t });
+    let taper = good.taper.map(|t| stickslip_convolution::Taper { center: 100.0, ..t });
     assert!(error(Plan { taper, ..good }) > 1e-3);
 }

@@ -54,7 +54,7 @@ fn a_window_about_the_tip_sees_all_that_matters_of_a_long_memory() {
 }
 
 #[test]
-fn a_centred_window_has_the_promised_room_for_targets() {
+fn a_centered_window_has_the_promised_room_for_targets() {
     let value = TRIPLE_SLOPE.value();
     let kernel = TRIPLE_SLOPE.with(&value);
     let mut field = Field::new();

@@ -23,8 +23,8 @@ pub(super) struct Embedding {
     pub(super) wider: Wider,
     pub(super) fine: Arc<Fit>,
     pub(super) short: Arc<Fit>,
-    /// In which multipliers are computed: the short sum, where that is good enough.
-    pub(super) precise: Arc<Fit>,
+    /// Whether derivatives in the short sum are those of f.
+    pub(super) short_is_precise: bool,
     /// Wave number beyond which f does not vary, as far as steps are concerned.
     pub(super) band: f64,
 }
@@ -46,7 +46,6 @@ const ACCURACY_OF_SHORT: f64 = 1e-8;
 /// Waves of a lattice of exponents, where no few exponentials follow f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
 const MOST_WAVES_OF_SHORT: usize = 120;
-const MOST_WAVES_OF_MULTIPLIERS: usize = 200;
 /// What a step may miss of f, as a displacement, and the waves that this leaves over those of round-off.
 const ACCURACY_OF_STEPS: f64 = 1e-5;
 const WAVES_OF_ROUND_OFF: f64 = 1.5;
@@ -94,17 +93,8 @@ impl Embedding {
             return Err(CycleError::Rough { allowed, reached: times * allowed });
         }
         let short = sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_SHORT)?;
-        let precise = (short.certificate().slope
-            > accuracy_needed(model, 10.0 * ACCURACY_OF_SHORT))
-        .then(|| sum(ACCURACY_OF_SHORT, MOST_WAVES_OF_MULTIPLIERS));
-        let precise = precise.transpose()?.unwrap_or_else(|| Arc::clone(&short));
-        // Heights are forgotten more slowly than slopes, and under a depth limit ask for more.
-        let limited = model.wider().depth_limit.is_some();
-        let precise = if limited && fine.terms().len() <= MOST_WAVES_OF_MULTIPLIERS / 4 {
-            Arc::clone(&fine)
-        } else {
-            precise
-        };
+        let short_is_precise =
+            short.certificate().slope <= accuracy_needed(model, 10.0 * ACCURACY_OF_SHORT);
         let nominal = tip.band();
         let is_usual = Fit::cached(&tip, accuracy_needed(model, ACCURACY_OF_SHORT)).is_ok();
         let band = if is_usual {
@@ -114,12 +104,7 @@ impl Embedding {
             nominal.min(WAVES_OF_ROUND_OFF * seen)
         };
         let wider = *model.wider();
-        Ok(Self { tip, alpha, r, wider, fine, short, precise, band })
-    }
-
-    /// Whether derivatives in the short sum are those of f.
-    pub(super) fn short_is_precise(&self) -> bool {
-        Arc::ptr_eq(&self.short, &self.precise)
+        Ok(Self { tip, alpha, r, wider, fine, short, short_is_precise, band })
     }
 
     /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.
@@ -129,7 +114,7 @@ impl Embedding {
 
     /// How far back from the farthest point reached the sums still hold.
     pub(super) fn retreat(&self) -> f64 {
-        self.fine.retreat().min(self.short.retreat()).min(self.precise.retreat())
+        self.fine.retreat().min(self.short.retreat())
     }
 
     pub(super) fn parameter(&self, which: Parameter) -> f64 {

@@ -31,6 +31,7 @@ mod ended;
 mod error;
 mod guessed;
 mod lattice;
+mod leading;
 mod linearisation;
 mod mesh;
 mod multipliers;
@@ -56,6 +57,7 @@ use multipliers::multipliers;
 use num_complex::Complex;
 use ripple::Ripple;
 use solve::Closed;
+use stickslip_tip::memory::displacement;
 use stickslip_tip::motion::latest_extrema;
 use stickslip_tip::{Model, Support, Trajectory};
 
@@ -71,10 +73,13 @@ const LEAST_MULTIPLIER: f64 = 1e-6;
 
 /// Of [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
+/// Residuals beyond which ends of steps are no longer that much better than what lies between them.
+const COARSE: f64 = 1e-7;
 const ERROR_PER_GAP: f64 = 0.01;
-/// The same under a wider law is so many times that: measured beside the non-smooth onset (β = 1, b = 5, α = 1.076) and on a
-/// cycle of inertia that swings back far (α = 6, r = 0.5, T = 20, M = 0.5), from 1e-5 to 1e-9, at most 2.5 and 3 times.
-const ERROR_UNDER_WIDER: f64 = 5.0;
+const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
+/// Under a depth limit heights err too, and by more than slopes: measured beside the non-smooth onset (β = 1, b = 5,
+/// α = 1.076) from 1e-4 to 1e-9, at most a third of this.
+const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
 
 /// A periodic solution of (18). Lengths in σ, times in Γ/k.
 #[derive(Clone)]
@@ -168,8 +173,9 @@ impl Cycle {
         &self.motion
     }
 
-    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a
-    /// period. Those of the sum that stands for f, which another sum has not, are left out. One of them is 1, that of a shift in time.
+    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a period.
+    /// One of them is 1, that of a shift in time. Those of the sum that stands for f, which another sum has not, are
+    /// left out; of a footprint with much detail only those above 0.01 are surely all there.
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
@@ -207,14 +213,23 @@ impl Cycle {
     /// Estimate of the error of the period (in Γ/k) and of the amplitude of x0 (in σ).
     ///
     /// Both are had at the ends of steps, which err by far less than the residual would make them; a slow
-    /// multiplier makes more of that. Measured against residuals of 1e-11 from αc + 1e-5 to relaxation, with a
-    /// margin of ten.
+    /// multiplier makes more of that. What the sum misses that stands for f displaces the tip everywhere, and adds
+    /// up in the same way. Measured against residuals of 1e-11 from αc + 1e-5 to relaxation, with a margin of ten;
+    /// what comes of the sum with one of two and a half.
     #[must_use]
     pub fn error(&self) -> f64 {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);
-        let papers = self.model.wider().is_papers();
-        let times = if papers { 1.0 } else { ERROR_UNDER_WIDER };
-        times * self.residual() * (ERROR_OVER_RESIDUAL + ERROR_PER_GAP / gap)
+        let over_residual = ERROR_OVER_RESIDUAL * (1.0 + self.residual() / COARSE).sqrt();
+        let of_steps = self.residual() * (over_residual + ERROR_PER_GAP / gap);
+        let limited = self.model.wider().depth_limit.is_some();
+        let over = if limited { ERROR_OVER_DISPLACEMENT_LIMITED } else { ERROR_OVER_DISPLACEMENT };
+        let of_the_sum = over * self.displacement() * (1.0 + 1.0 / gap);
+        of_steps + of_the_sum
+    }
+
+    /// How far what the sum misses of f' may displace the tip, in σ.
+    fn displacement(&self) -> f64 {
+        displacement(&self.model, self.closed.equation.fine.certificate().slope)
     }
 
     /// The same of the amplitude of the surface left behind, in kσ²/a.

@@ -55,26 +55,14 @@ impl Linearisation {
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(equation.state_len());
         let (mut stages, mut heights, mut stiffness) = (vec![], vec![], vec![]);
-        let (mut extension, first) = (orbit.extension, orbit.velocity());
-        let mut velocity = first;
-        let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
-        for (n, ((ends, h), d)) in steps.enumerate() {
-            if stop::is_asked() {
-                return Err(Singular);
-            }
-            let (carved, node_heights) = (&carved[n], orbit.heights.get(n));
-            let step = Solved { extension, velocity, h, d, heights: node_heights, carved };
-            let step = LinearStep::new(equation, (past.of_step(n), solved.of_step(n)), step);
-            let (of_stages, of_heights) =
-                step.carry(free, ends[1] - ends[0], &mut end).ok_or(Singular)?;
+        let gap = along(equation, orbit, (&past, solved), |_, step, share| {
+            let (of_stages, of_heights) = step.carry(free, share, &mut end)?;
             stages.push(of_stages);
             heights.extend(of_heights);
             stiffness.push(step.stiffness());
-            extension += equation.r * h - d[STAGES - 1];
-            velocity = velocity_at_end(d, h);
-        }
-        let gap = extension - orbit.extension;
-        let phase = Phase::new(equation, (orbit.extension, first), solved, free);
+            Some(())
+        })?;
+        let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
         Ok(Self { gap, end, stages, heights, phase, stiffness })
     }
 
@@ -152,6 +140,31 @@ impl Linearisation {
             heights: changes(&self.heights),
         }
     }
+}
+
+/// Deals with every step, of which it tells the number and the share of the period, in turn; how far rt - x0 gets.
+/// The sums are as in [`Linearisation::new`].
+pub(super) fn along(
+    equation: &Embedding,
+    orbit: &Orbit,
+    (past, solved): (&Past, &Past),
+    mut each: impl FnMut(usize, &LinearStep, f64) -> Option<()>,
+) -> Result<f64, Singular> {
+    let carved = orbit.carved(&equation.wider);
+    let (mut extension, mut velocity) = (orbit.extension, orbit.velocity());
+    let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
+    for (n, ((ends, h), d)) in steps.enumerate() {
+        if stop::is_asked() {
+            return Err(Singular);
+        }
+        let (carved, heights) = (&carved[n], orbit.heights.get(n));
+        let step = Solved { extension, velocity, h, d, heights, carved };
+        let step = LinearStep::new(equation, (past.of_step(n), solved.of_step(n)), step);
+        each(n, &step, ends[1] - ends[0]).ok_or(Singular)?;
+        extension += equation.r * h - d[STAGES - 1];
+        velocity = velocity_at_end(d, h);
+    }
+    Ok(extension - orbit.extension)
 }
 
 impl Phase {

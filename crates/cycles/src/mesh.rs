@@ -21,6 +21,9 @@ const SLIVER: f64 = 0.02;
 const NEGLIGIBLE: f64 = 1e-6;
 const ROUND_OFF: f64 = 1e-12;
 const SMALL: f64 = 1e-3;
+pub(super) const MOST_STEPS: usize = 4000;
+/// A guess may have more, which its mesh does not keep.
+pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
 /// Largest residual of (18) within each step, estimated from where its polynomial begins: there the true
 /// velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
@@ -113,7 +116,7 @@ fn graded(mut density: Vec<f64>) -> Vec<f64> {
 }
 
 /// Ends of steps that each hold the same share of the density, constant on each step of the old mesh; of as much as
-/// there is between corners, each of which ends a step.
+/// there is between corners, each of which ends a step. They are no more than it takes to see that there are too many.
 pub(super) fn equidistributed(mesh: &[f64], density: &[f64], corners: &[f64]) -> Vec<f64> {
     let mut cumulated = vec![0.0];
     let mut total = 0.0;
@@ -135,9 +138,22 @@ pub(super) fn equidistributed(mesh: &[f64], density: &[f64], corners: &[f64]) ->
         let fewest = FEWEST as f64 * (end - ends[ends.len() - 1]);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let steps = (to - from).ceil().max(fewest.ceil()).max(1.0) as usize;
+        let steps = steps.min(MOST_STEPS_OF_GUESS + 1);
         ends.extend((1..steps).map(|i| place(from + (to - from) * i as f64 / steps as f64)));
         ends.push(end);
         from = to;
     }
     ends
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_ends_where_there_are_too_many_steps() {
+        let mesh = equidistributed(&[0.0, 0.5, 1.0], &[1e12, 1e300], &[]);
+        assert_eq!(mesh.len(), MOST_STEPS_OF_GUESS + 2);
+        assert!(mesh.windows(2).all(|ends| ends[0] <= ends[1]));
+    }
 }

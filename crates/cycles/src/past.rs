@@ -90,6 +90,12 @@ fn spent_in(e: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
 }
 
 impl PastOfStep<'_> {
+    /// By how much the state where the step starts changes if the tip is moved on there by 1, the past staying.
+    pub(super) fn moved_on(&self) -> impl Iterator<Item = f64> + '_ {
+        let moved = || self.zeta.iter().zip(self.terms).map(|(zeta, term)| zeta * term.exponent);
+        [-1.0].into_iter().chain(moved().map(|z| z.re)).chain(moved().map(|z| z.im))
+    }
+
     /// Slope of the past groove at the stages, over α.
     pub(super) fn slope(&self) -> Stages {
         self.sum(|value, _| value.re)

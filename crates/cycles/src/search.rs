@@ -284,5 +284,7 @@ fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, No
         })?;
         return solve(&far, closed.orbit, tolerance);
     }
-    Cycle::new(closed).map_err(|_| NotClosed::Lost)
+    // What swings by no more than its error is steady motion.
+    let swings = |cycle: &Cycle| cycle.slips() > 0 && cycle.amplitude_x0() > cycle.error();
+    Cycle::new(closed).ok().filter(swings).ok_or(NotClosed::Lost)
 }

@@ -1,5 +1,6 @@
 //! How quantities along the orbit depend on its unknowns: rows of derivatives.
 
+use nalgebra::DMatrix;
 use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
 
@@ -28,6 +29,25 @@ impl Sensitivity {
             identity.row_mut(i)[i] = 1.0;
         }
         identity
+    }
+
+    /// Of a state with respect to others, each of which moves it by a column.
+    pub(super) fn of(columns: &DMatrix<f64>) -> Self {
+        let mut found = Self::zeros(columns.nrows(), columns.ncols() + CONSTANTS);
+        for (k, column) in columns.column_iter().enumerate() {
+            found.set_column(k, column.iter().copied());
+        }
+        found
+    }
+
+    pub(super) fn set_column(&mut self, k: usize, column: impl Iterator<Item = f64>) {
+        column.enumerate().for_each(|(i, value)| self.row_mut(i)[k] = value);
+    }
+
+    /// The columns again.
+    pub(super) fn columns(&self) -> DMatrix<f64> {
+        let rows = self.entries.len() / self.stride();
+        DMatrix::from_fn(rows, self.columns - CONSTANTS, |i, k| self.row(i)[k])
     }
 
     /// Entries of a row in memory, the last of them idle.

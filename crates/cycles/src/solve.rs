@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{Aim, adapted, residuals};
+use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -46,9 +46,6 @@ pub(super) enum NotClosed {
 }
 
 const MOST_ITERATIONS: usize = 15;
-pub(super) const MOST_STEPS: usize = 4000;
-/// A guess may have more, which its mesh does not keep.
-const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 const MOST_MESHES: usize = 8;
 /// And under a wider law: to follow the corners of |h|, and where inertia rings.
 const MOST_MESHES_OF_WIDER: usize = 20;
@@ -61,8 +58,6 @@ pub(super) const MOST_WORK: f64 = 4e8;
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
 /// What can be had, over the residual at which meshes no longer help.
 const MARGIN: f64 = 2.0;
-/// Under a wider law residuals are not below this part of what is allowed.
-const SHARE_OF_SUM: f64 = 0.3;
 /// A correction of this size leaves an error of its square.
 const ENOUGH: f64 = 1e-9;
 /// Enough to see how far the mesh must be refined.
@@ -94,7 +89,7 @@ pub(super) fn close(
     let mut short_of_it = 0;
     for _ in 0..meshes {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
-        let first = if equation.short_is_precise() { &short } else { &fine };
+        let first = if equation.short_is_precise { &short } else { &fine };
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
             let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
             let (linearisation, count) = newton.solve(solved, enough)?;
@@ -123,9 +118,6 @@ pub(super) fn close(
             }
             if enough <= ENOUGH {
                 let linearisation = Arc::new(linearisation);
-                // The sum that stands for f errs by as much as is allowed, and its heights err by more than its slopes.
-                let papers = equation.wider.is_papers();
-                let residual = residual.max(if papers { 0.0 } else { SHARE_OF_SUM * allowed });
                 return Ok(Closed { equation, orbit, linearisation, residual, iterations });
             }
         }
@@ -208,12 +200,9 @@ impl NotClosed {
 }
 
 impl Closed {
-    /// The monodromy matrix ∂X(T)/∂X(0), in the sum that multipliers are computed in.
-    pub(super) fn monodromy(&self) -> Option<DMatrix<f64>> {
-        if self.equation.short_is_precise() {
-            return Some(self.linearisation.monodromy());
-        }
-        self.monodromy_in(&self.equation.precise)
+    /// The monodromy matrix ∂X(T)/∂X(0), in the short sum.
+    pub(super) fn monodromy(&self) -> DMatrix<f64> {
+        self.linearisation.monodromy()
     }
 
     /// The same in another sum.

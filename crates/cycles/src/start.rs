@@ -1,9 +1,8 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
 use super::embedding::Embedding;
-use super::mesh::equidistributed;
+use super::mesh::{MOST_STEPS, equidistributed};
 use super::orbit::{Orbit, Profile, even_mesh};
-use super::solve::MOST_STEPS;
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;

@@ -223,9 +223,9 @@ impl<'a> LinearStep<'a> {
             let (re, im) = (1 + j, 1 + modes + j);
             state.multiply_pair(re, im, e[STAGES - 1] * left);
             let weight = term.weight * e[STAGES - 1];
-            let spent = |b: &Stages| -> [Complex<f64>; STAGES] {
-                std::array::from_fn(|k| weight * e[k].inv() * b[k])
-            };
+            let visit = e.map(|e| weight * e.inv());
+            let spent =
+                |b: &Stages| -> [Complex<f64>; STAGES] { std::array::from_fn(|k| visit[k] * b[k]) };
             let stays = spent(&stays);
             for k in 0..STAGES {
                 let mut change = -term.exponent * stays[k] * self.carved.times;

@@ -132,6 +132,8 @@ fn narrow_lobes() {
     judge("0.3", sum(&[(1.0, 0.0, 1.0), (0.3, 1.5, 0.3)]), 1.05, 500, 2);
     // A panic in the Schur decomposition once.
     judge("0.1", sum(&[(1.0, 0.0, 1.0), (-0.1, 2.0, 0.1)]), 1.03, 600, 2);
+    // The largest was left out once: two sums of too few exponentials did not agree on it.
+    judge("0.07", sum(&[(1.0, 0.0, 1.0), (0.09, 3.15, 0.07), (-0.04, 3.4, 0.4)]), 1.01, 800, 2);
 }
 
 #[test]

@@ -48,8 +48,9 @@ pub struct CycleDocument {
     pub slips: usize,
     /// One period from where l is largest, sampled at uneven times: densely where the motion is fast.
     pub profile: CycleProfile,
-    /// Floquet multipliers by falling modulus, down to 1e-6, the one above the real axis first of each
-    /// pair: a small deviation is multiplied by them in each period. One is 1, that of a shift in time.
+    /// Floquet multipliers by falling modulus, down to 1e-6 (0.01 for footprints with much detail), the one above the
+    /// real axis first of each pair: a small deviation is multiplied by them in each period. One is 1, that of a shift
+    /// in time.
     pub floquet: Vec<ComplexDocument>,
     /// How far the multiplier that should be 1 is from it.
     pub floquet_error: f64,

@@ -72,9 +72,11 @@ pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use raster::{
-    HeightMap, KeptLine, LineHistory, LineRegimeName, PathName, PatternDocument, RasterDocument,
-    RasterHistory, RasterLine, RasterParameters, RasterRegimeName, RasterSamples,
-    RasterSurfaceDocument, RasterWork,
+    AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
+    PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,
+    RasterComparedWork, RasterDocument, RasterHistory, RasterLine, RasterParameters,
+    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
+    RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use raster_stability::{
     RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,

@@ -46,6 +46,9 @@ pub struct RasterStabilityParameters {
     pub path: PathName,
     /// Distance of the lines, in σ; null where all are the same.
     pub pitch: Option<f64>,
+    /// X, the length of a line, in σ, which counts where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
     /// Whether α is the critical one, for want of another.
     pub at_critical_point: bool,
 }

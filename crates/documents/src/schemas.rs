@@ -2,9 +2,10 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
-    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    FigureDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument,
+    ResponseDocument, RunDocument, RunLine, StabilityDocument, SurfaceDocument, SweepDocument,
+    UnitsDocument, VerifyDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -12,7 +13,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 19] = [
+pub const SCHEMAS: [NamedSchema; 21] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -25,6 +26,8 @@ pub const SCHEMAS: [NamedSchema; 19] = [
     ("cycle", || schema_for!(CycleDocument)),
     ("continue", || schema_for!(ContinueDocument)),
     ("raster", || schema_for!(RasterDocument)),
+    ("raster-compare", || schema_for!(RasterCompareDocument)),
+    ("raster-sweep", || schema_for!(RasterSweepDocument)),
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
     ("raster-stability", || schema_for!(RasterStabilityDocument)),
     ("raster-boundary", || schema_for!(RasterBoundaryDocument)),

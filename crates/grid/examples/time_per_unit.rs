@@ -45,7 +45,7 @@ fn report(name: &str, (run, seconds): &(Run, f64), exact: &Run) {
 }
 
 fn main() -> Result<(), GridError> {
-    let term = |amplitude, centre| Gaussian { amplitude, centre, width: 1.0 };
+    let term = |amplitude, center| Gaussian { amplitude, center, width: 1.0 };
     let gaussians = vec![term(1.0, 0.0), term(-0.5, 2.0), term(-0.5, -2.0)];
     let spectral = |spacing| Method::Spectral { gaussians: gaussians.clone(), spacing };
     let fine = std::f64::consts::PI / 8.7;

@@ -31,9 +31,9 @@ impl Bell {
         Self { spacing, steepness, right, left }
     }
 
-    /// Index of the cell nearest to `centre`.
-    pub(crate) fn nearest(&self, centre: f64) -> i64 {
-        (centre / self.spacing).round() as i64
+    /// Index of the cell nearest to `center`.
+    pub(crate) fn nearest(&self, center: f64) -> i64 {
+        (center / self.spacing).round() as i64
     }
 
     /// Cells on either side of the nearest that [`Bell::add`] fills.
@@ -41,10 +41,10 @@ impl Bell {
         self.right.len()
     }
 
-    /// Adds `factor` times the Gaussian about `centre`; `out` must hold all of its cells.
-    pub(crate) fn add(&self, factor: f64, centre: f64, out: &mut Patch) {
-        let nearest = self.nearest(centre);
-        let d = nearest as f64 * self.spacing - centre;
+    /// Adds `factor` times the Gaussian about `center`; `out` must hold all of its cells.
+    pub(crate) fn add(&self, factor: f64, center: f64, out: &mut Patch) {
+        let nearest = self.nearest(center);
+        let d = nearest as f64 * self.spacing - center;
         let peak = factor * (-self.steepness * d * d).exp();
         let q = (-2.0 * self.steepness * d * self.spacing).exp();
         let (q2, p) = (q * q, 1.0 / q);
@@ -85,13 +85,13 @@ mod tests {
         let (width, spacing) = (0.7, 0.36);
         let bell = Bell::new(width, spacing);
         for k in -20..20 {
-            let centre = 0.037 * f64::from(k);
+            let center = 0.037 * f64::from(k);
             let mut patch = Patch::default();
             let half = bell.half_width();
-            patch.reset(bell.nearest(centre) - half as i64, 2 * half + 1);
-            bell.add(3.0, centre, &mut patch);
+            patch.reset(bell.nearest(center) - half as i64, 2 * half + 1);
+            bell.add(3.0, center, &mut patch);
             for (cell, value) in (patch.first..).zip(&patch.values) {
-                let z = (cell as f64 * spacing - centre) / width;
+                let z = (cell as f64 * spacing - center) / width;
                 let exact = 3.0 * (-0.5 * z * z).exp();
                 assert!((value - exact).abs() <= 3e-14 * exact, "{value} for {exact} at z = {z}");
             }

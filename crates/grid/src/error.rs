@@ -42,7 +42,7 @@ pub enum GridError {
     /// Requested times must be finite, ascending, at or after the start.
     #[error("requested time {0}: times must be finite, ascending and not before the start")]
     Time(f64),
-    /// A Gaussian needs finite amplitude and centre, and a width > 0; there must be one.
+    /// A Gaussian needs finite amplitude and center, and a width > 0; there must be one.
     #[error("a lattice of Gaussians needs at least one, with finite numbers and width > 0")]
     Gaussians,
     /// The interpolation must reach over at least one cell.

@@ -13,7 +13,7 @@ pub struct Footprint<'a> {
 
 impl<'a> Footprint<'a> {
     /// `value` is f; |f| beyond `reach` must be below round-off, about 1e-17 of its largest value.
-    /// For Gaussians that is 8.8 widths beyond the outermost centre. [`Footprint::reach_of`] finds it.
+    /// For Gaussians that is 8.8 widths beyond the outermost center. [`Footprint::reach_of`] finds it.
     ///
     /// # Errors
     /// `reach` not finite or not positive.

@@ -31,7 +31,7 @@
 //! let end = start.time() + 10.0;
 //! let problem = Problem::new(alpha, r, footprint, start)?;
 //! let request = Request { times: &[end], points: &[14.0] };
-//! let gaussians = vec![Gaussian { amplitude: 1.0, centre: 0.0, width: 1.0 }];
+//! let gaussians = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
 //! let method = Method::Spectral { gaussians, spacing: 0.36 };
 //! let run = solve(&problem, &method, &Stepping::absolute(1e-10), &request)?;
 //! // α < αc and no kick: steady motion, 10 further on; and the groove there is as deep as it gets.
@@ -49,6 +49,7 @@ mod marcher;
 mod method;
 mod patch;
 mod problem;
+mod raster;
 mod run;
 mod scheme;
 mod sinc;
@@ -65,6 +66,7 @@ pub use error::GridError;
 pub use footprint::Footprint;
 pub use method::{Method, solve, solve_observed};
 pub use problem::Problem;
+pub use raster::{Layer, LineObserver, Scan, ScanLine, Scanned, scan};
 pub use run::{Observer, Request, Run, Work};
 pub use start::Start;
 pub use stepping::Stepping;

@@ -28,11 +28,19 @@ pub(crate) struct Marcher<'a, S> {
     stages: Vec<Stage>,
     scratch: Scratch,
     work: Work,
+    /// Told where the tip was in every accepted step.
+    visited: Option<&'a mut Visited<'a>>,
 }
 
-/// x0', x0'' with inertia, and the imprint at one stage.
+/// Told what a step adds to ∫ w g(x0) dt: for each stage its time, x0, and h b w.
+pub(crate) type Visited<'a> = dyn FnMut(&[(f64, f64, f64)]) + 'a;
+
+/// Time, x0, w, x0', x0'' with inertia, and the imprint at one stage.
 #[derive(Default, Clone)]
 struct Stage {
+    time: f64,
+    position: f64,
+    weight: f64,
     velocity: f64,
     acceleration: f64,
     imprint: Patch,
@@ -75,15 +83,26 @@ impl<'a, S: Scheme> Marcher<'a, S> {
             stages,
             scratch,
             work,
+            visited: None,
         }
     }
 
+    /// The same, telling of every accepted step where the tip was.
+    pub(crate) fn telling(self, visited: &'a mut Visited<'a>) -> Self {
+        Self { visited: Some(visited), ..self }
+    }
+
     /// Runs through the requested times.
-    pub(crate) fn run(
+    pub(crate) fn run(self, request: &Request, observe: &mut Observer) -> Result<Run, GridError> {
+        self.run_to_velocity(request, observe).map(|(run, _)| run)
+    }
+
+    /// The same, with x0' at the end where there is inertia.
+    pub(crate) fn run_to_velocity(
         mut self,
         request: &Request,
         observe: &mut Observer,
-    ) -> Result<Run, GridError> {
+    ) -> Result<(Run, f64), GridError> {
         let mut x0 = Vec::with_capacity(request.times.len());
         self.evaluate(0, self.t, self.x0, 0.0);
         for &time in request.times {
@@ -91,7 +110,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
             x0.push(self.x0);
         }
         let u = request.points.iter().map(|&x| self.height(x)).collect();
-        Ok(Run { x0, u, work: self.work })
+        Ok((Run { x0, u, work: self.work }, self.velocity))
     }
 
     fn advance_to(&mut self, target: f64, observe: &mut Observer) -> Result<(), GridError> {
@@ -164,6 +183,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
             }
         };
         let stage = &mut self.stages[i];
+        (stage.time, stage.position, stage.weight) = (t, x, weight);
         (stage.velocity, stage.acceleration) = (velocity, acceleration);
         self.scheme.imprint(x, &mut stage.imprint);
         let weight = weight / left;
@@ -220,6 +240,12 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         let cells = self.cells.range(carved.first, carved.values.len());
         for (cell, du) in cells.iter_mut().zip(&carved.values) {
             *cell += du;
+        }
+        if let Some(visited) = &mut self.visited {
+            let visit =
+                |(b, stage): (&f64, &Stage)| (stage.time, stage.position, h * b * stage.weight);
+            let visits: Vec<_> = self.tableau.b.iter().zip(&self.stages).map(visit).collect();
+            visited(&visits);
         }
         self.velocity += h * self.slope(&self.tableau.b, |stage| stage.acceleration);
         self.t += h;

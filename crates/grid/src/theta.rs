@@ -5,13 +5,13 @@ use crate::bell::Bell;
 use crate::patch::Patch;
 use crate::scheme::Scheme;
 
-/// `amplitude` · exp(-(x - `centre`)²/2`width`²)
+/// `amplitude` · exp(-(x - `center`)²/2`width`²)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaussian {
     /// a
     pub amplitude: f64,
     /// c
-    pub centre: f64,
+    pub center: f64,
     /// w > 0
     pub width: f64,
 }
@@ -39,7 +39,7 @@ impl Theta {
     /// `spacing` in units of the smallest width.
     pub(crate) fn new(gaussians: &[Gaussian], spacing: f64) -> Result<Self, GridError> {
         let usable = |g: &Gaussian| {
-            g.amplitude.is_finite() && g.centre.is_finite() && g.width.is_finite() && g.width > 0.0
+            g.amplitude.is_finite() && g.center.is_finite() && g.width.is_finite() && g.width > 0.0
         };
         if gaussians.is_empty() || !gaussians.iter().all(usable) {
             return Err(GridError::Gaussians);
@@ -49,7 +49,7 @@ impl Theta {
         let spacing = spacing * width;
         let write = |g: &Gaussian| {
             let narrowed = (g.width * g.width - half).sqrt();
-            (g.amplitude * g.width / narrowed, g.centre, Bell::new(narrowed, spacing))
+            (g.amplitude * g.width / narrowed, g.center, Bell::new(narrowed, spacing))
         };
         Ok(Self {
             spacing,
@@ -72,8 +72,8 @@ impl Scheme for Theta {
             (first.min(nearest - half), last.max(nearest + half))
         });
         out.reset(ends.0, (ends.1 + 1 - ends.0) as usize);
-        for (amplitude, centre, bell) in &self.write {
-            bell.add(*amplitude, tip + centre, out);
+        for (amplitude, center, bell) in &self.write {
+            bell.add(*amplitude, tip + center, out);
         }
     }
 
@@ -81,10 +81,10 @@ impl Scheme for Theta {
         self.height_stencil(x, out);
         // -(x - x_j)/variance, from the nearest cell outwards so that the subtraction is exact there.
         let middle = out.first + self.read.half_width() as i64;
-        let off_centre = x - middle as f64 * self.spacing;
+        let off_center = x - middle as f64 * self.spacing;
         let mut cell = -(self.read.half_width() as f64);
         for weight in &mut out.values {
-            *weight *= (cell * self.spacing - off_centre) * self.read_steepness;
+            *weight *= (cell * self.spacing - off_center) * self.read_steepness;
             cell += 1.0;
         }
     }

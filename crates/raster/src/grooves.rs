@@ -11,11 +11,11 @@
 //! three complex numbers for each width of length.
 
 use crate::line::Line;
+use crate::path::Track;
 use crate::plan::Plan;
 use num_complex::Complex64;
-use std::collections::VecDeque;
 use stickslip_convolution::{Density, Spectra};
-use stickslip_tip::{Footprint, Layer, Relief};
+use stickslip_tip::{Footprint, Layer, Relief, Wider};
 
 /// ρ̂ of the lines at one y: all of them, however many.
 struct Row {
@@ -36,7 +36,8 @@ pub(crate) struct Grooves {
     footprint: Footprint,
     alpha: f64,
     /// What is left of a groove after another line, where the surface heals.
-    left: f64,
+    wider: Wider,
+    r: f64,
     reach_across: f64,
     /// Along x: how far a groove goes beyond where the tip was.
     reach_along: f64,
@@ -44,10 +45,12 @@ pub(crate) struct Grooves {
     /// Where the supports go, and how far outside of that tips may be.
     supports: (f64, f64),
     spare: f64,
-    /// Whether rows beyond reach are dropped.
-    forgets: bool,
+    /// Between which y the lines that are still to come lie, after so many; empty where no row is dropped.
+    ahead: Vec<(f64, f64)>,
+    /// Lines so far.
+    count: usize,
     stretch: Stretch,
-    rows: VecDeque<Row>,
+    rows: Vec<Row>,
 }
 
 impl Stretch {
@@ -77,19 +80,21 @@ impl Grooves {
     }
 
     fn with(plan: &Plan, forgets: bool) -> Self {
-        let (reach_along, band, supports) = (plan.reach_along(), plan.band(), (0.0, plan.length));
+        let (reach_along, band, supports) = (plan.reach_along(), plan.band(), plan.area.ends());
         Self {
             alpha: plan.law.model.alpha(),
-            left: plan.law.model.wider().left_after(plan.duration()),
+            wider: *plan.law.model.wider(),
+            r: plan.law.model.r(),
             reach_across: plan.reach_across(),
             reach_along,
             band,
             supports,
             spare: reach_along,
-            forgets,
+            ahead: if forgets { ahead(plan) } else { vec![] },
+            count: 0,
             stretch: Stretch::new(&plan.footprint, band, supports, 2.0 * reach_along),
             footprint: plan.footprint.clone(),
-            rows: VecDeque::new(),
+            rows: vec![],
         }
     }
 
@@ -103,25 +108,25 @@ impl Grooves {
             self.widen(farthest, lines);
             return;
         }
-        self.put(line.track().y, &positions, &weights);
+        self.put(&line.track(), &positions, &weights);
     }
 
-    fn put(&mut self, y: f64, positions: &[f64], weights: &[f64]) {
-        if self.left < 1.0 {
-            let left = self.left;
+    fn put(&mut self, track: &Track, positions: &[f64], weights: &[f64]) {
+        let (y, left) = (track.y, self.wider.left_after(track.length / self.r));
+        if left < 1.0 {
             self.rows.iter_mut().flat_map(|row| &mut row.spectrum).for_each(|rho| *rho *= left);
         }
         let mut density = Density::new(self.stretch.spectra.spacing());
         positions.iter().zip(weights).for_each(|(x, weight)| density.add(*x, *weight));
         let spectrum = self.stretch.spectra.of(&density);
-        match self.rows.back_mut().filter(|row| same(row.y, y)) {
+        match self.rows.iter_mut().rev().find(|row| same(row.y, y)) {
             Some(row) => row.spectrum.iter_mut().zip(&spectrum).for_each(|(all, new)| *all += new),
-            None => self.rows.push_back(Row { y, spectrum }),
+            None => self.rows.push(Row { y, spectrum }),
         }
-        if self.forgets {
-            while self.rows.front().is_some_and(|row| (row.y - y).abs() > self.reach_across) {
-                self.rows.pop_front();
-            }
+        self.count += 1;
+        if let Some((low, high)) = self.ahead.get(self.count) {
+            let (low, high) = (low - self.reach_across, high + self.reach_across);
+            self.rows.retain(|row| row.y >= low && row.y <= high);
         }
     }
 
@@ -134,9 +139,10 @@ impl Grooves {
         let beyond = self.spare + self.reach_along;
         self.stretch = Stretch::new(&self.footprint, self.band, self.supports, beyond);
         self.rows.clear();
+        self.count = 0;
         for line in lines {
             let (positions, weights) = line.residence();
-            self.put(line.track().y, &positions, &weights);
+            self.put(&line.track(), &positions, &weights);
         }
     }
 
@@ -158,14 +164,14 @@ impl Grooves {
         }
     }
 
-    /// What a tip on the line y finds; with `mirrored_about` X in the frame X - x. `None` where no line is within reach.
-    pub(crate) fn relief(&mut self, y: f64, mirrored_about: Option<f64>) -> Option<Relief> {
-        let heights = self.surface(y)?;
+    /// What a tip finds along this way, in the frame of the way. `None` where no line is within reach.
+    pub(crate) fn relief(&mut self, track: &Track) -> Option<Relief> {
+        let heights = self.surface(track.y)?;
         let slope = |(height, k): (&Complex64, &f64)| Complex64::new(0.0, *k) * height;
         let slopes: Vec<Complex64> =
             heights.iter().zip(&self.stretch.wave_numbers).map(slope).collect();
         let fields = (self.stretch.spectra.field(&heights), self.stretch.spectra.field(&slopes));
-        Some(Relief::on_lattice(fields.0, fields.1, mirrored_about))
+        Some(Relief::on_lattice(fields.0, fields.1, (track.start, track.backward)))
     }
 
     /// The heights on the line y, at every x.
@@ -194,6 +200,19 @@ impl Grooves {
     }
 }
 
+/// The smallest and the largest y of the lines from each on; of the last, those of no line.
+fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
+    let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut ahead = vec![ends];
+    for n in (0..plan.lines()).rev() {
+        let y = plan.track(n).y;
+        ends = (ends.0.min(y), ends.1.max(y));
+        ahead.push(ends);
+    }
+    ahead.reverse();
+    ahead
+}
+
 /// Lines at the same y differ by nothing: theirs are the same products.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
@@ -208,7 +227,7 @@ mod tests {
     fn plan() -> Plan {
         let tip = TipFunction::gaussian(1.0).unwrap();
         let footprint = Footprint::separable(tip.clone(), 1.3).unwrap();
-        Plan::new(footprint, Model::new(tip, 0.7, 1.0).unwrap(), Path::OneWay, 0.8, 20, 15.0)
+        Plan::new(footprint, Model::new(tip, 0.7, 1.0).unwrap(), Path::OneWay, 0.8, 61, 15.0)
     }
 
     /// Line n of a tip that goes evenly from `from` to `to`.
@@ -247,7 +266,7 @@ mod tests {
         }
         let mut again = Grooves::of_all(&plan, &lines);
         for y in [0.0, 2.1, 4.0] {
-            let relief = grooves.relief(y, None).unwrap();
+            let relief = grooves.relief(&Track { y, ..plan.track(0) }).unwrap();
             let x: Vec<f64> = (0..220).map(|i| 0.5 * f64::from(i) - 40.0).collect();
             let whole = again.heights(y, &x);
             for (x, whole) in x.iter().zip(whole) {
@@ -266,10 +285,10 @@ mod tests {
         let mut grooves = Grooves::new(&plan);
         for n in 1..=lines.len() {
             grooves.add(&lines[..n]);
-            assert!(grooves.rows.len() <= 1 + (plan.reach_across() / plan.pitch) as usize);
+            assert!(grooves.rows.len() <= 1 + (plan.reach_across() / 0.8) as usize);
         }
         let y = plan.track(60).y;
-        let relief = grooves.relief(y, None).unwrap();
+        let relief = grooves.relief(&plan.track(60)).unwrap();
         for x in [-2.0, 3.3, 9.0, 15.5] {
             assert!((relief.height(x) - direct(&plan, &lines, x, y)).abs() < 1e-13);
         }

@@ -28,6 +28,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod area;
+mod error;
 mod grooves;
 mod line;
 mod path;
@@ -36,9 +38,11 @@ mod plan;
 mod scan;
 mod surface;
 
+pub use area::Area;
+pub use error::{MOST_LINES, RasterError};
 pub use line::Line;
-pub use path::{Path, Track};
+pub use path::{AreaLine, Path, Track};
 pub use pattern::{LineRegime, Pattern, Regime, line_regime, pattern};
-pub use plan::{MOST_LINES, Plan, RasterError};
+pub use plan::Plan;
 pub use scan::Scanning;
 pub use surface::{Scanned, volume};

@@ -18,8 +18,21 @@ pub struct Track {
     pub y: f64,
     /// Where the support starts.
     pub start: f64,
+    /// How far it goes.
+    pub length: f64,
     /// Towards smaller x.
     pub backward: bool,
+}
+
+/// One line of an area. Lengths in σ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AreaLine {
+    /// Where it lies.
+    pub y: f64,
+    /// Its smallest x.
+    pub start: f64,
+    /// How far the support goes along it.
+    pub length: f64,
 }
 
 impl Path {
@@ -27,8 +40,14 @@ impl Path {
     #[must_use]
     pub fn track(self, n: usize, pitch: f64, length: f64) -> Track {
         let y = if self == Self::Repeat { 0.0 } else { pitch * n as f64 };
+        self.along(n, AreaLine { y, start: 0.0, length })
+    }
+
+    /// Line number n, counted from 0, where it lies there.
+    #[must_use]
+    pub fn along(self, n: usize, AreaLine { y, start, length }: AreaLine) -> Track {
         let backward = self == Self::Zigzag && n % 2 == 1;
-        Track { y, start: if backward { length } else { 0.0 }, backward }
+        Track { y, start: if backward { start + length } else { start }, length, backward }
     }
 }
 

@@ -1,8 +1,9 @@
 //! Everything that defines a raster, and what no raster can be made of.
 
+use crate::area::Area;
+use crate::error::RasterError;
 use crate::path::{Path, Track};
-use stickslip_tip::{Footprint, Force, Model, RunError, Scenario, Start};
-use thiserror::Error;
+use stickslip_tip::{Footprint, Force, Model, Scenario, Start};
 
 /// Everything that defines a raster. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone)]
@@ -11,67 +12,14 @@ pub struct Plan {
     pub footprint: Footprint,
     /// How the support goes from one line to the next.
     pub path: Path,
-    /// Distance of the lines; not looked at by [`Path::Repeat`].
-    pub pitch: f64,
-    /// How many.
-    pub lines: usize,
-    /// How far the support goes along each.
-    pub length: f64,
+    /// Where the lines lie.
+    pub area: Area,
     /// External force on the first line, by the time since its start: what disturbs all others.
     pub disturbance: Force,
     /// The law, the tolerance and the memory of every line; start, end, kick and force are those of the line.
     pub law: Scenario,
 }
 
-/// Why a raster was refused or could not be finished.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum RasterError {
-    /// A pitch that is no distance.
-    #[error(
-        "the pitch must be a finite number above 0, and at least {least:.1e} for a footprint that reaches {reach:.3} across, not {pitch:?}"
-    )]
-    Pitch {
-        /// As given.
-        pitch: f64,
-        /// Reach of the footprint across the lines.
-        reach: f64,
-        /// The smallest.
-        least: f64,
-    },
-    /// A length that is no distance, or that no lattice holds.
-    #[error(
-        "the length of a line must be a finite number above 0 and at most {most:.1e}, not {length:?}"
-    )]
-    Length {
-        /// As given.
-        length: f64,
-        /// The largest.
-        most: f64,
-    },
-    /// None, or more than are kept.
-    #[error("a raster has between 1 and {MOST_LINES} lines, not {0}")]
-    Lines(usize),
-    /// Nothing that could be scanned with.
-    #[error("a raster needs a spring: without one there is no support that goes along lines")]
-    NoSpring,
-    /// A footprint without reach.
-    #[error("a raster needs a footprint that fades along the lines, as J0 does not")]
-    NeverFades,
-    /// The tip is not f(x,0).
-    #[error("the tip function of the law is not the footprint's section y = 0")]
-    Section,
-    /// A line could not be run.
-    #[error("line {line}: {error}")]
-    Line {
-        /// Counted from 1.
-        line: usize,
-        /// Why.
-        error: RunError,
-    },
-}
-
-/// The most lines; their histories take some 20 kB each at 100 widths.
-pub const MOST_LINES: usize = 1_000_000;
 /// Lines within reach of one.
 const MOST_WITHIN_REACH: f64 = 1e4;
 /// Points of the lattice that a line is held on.
@@ -90,8 +38,14 @@ impl Plan {
         lines: usize,
         length: f64,
     ) -> Self {
-        let law = Scenario::new(model, length);
-        Self { footprint, path, pitch, lines, length, disturbance: Force::default(), law }
+        Self::over(footprint, model, path, Area::Rectangle { pitch, lines, length })
+    }
+
+    /// The same over an area.
+    #[must_use]
+    pub fn over(footprint: Footprint, model: Model, path: Path, area: Area) -> Self {
+        let law = Scenario::new(model, area.longest());
+        Self { footprint, path, area, disturbance: Force::default(), law }
     }
 
     /// # Errors
@@ -109,35 +63,52 @@ impl Plan {
         if (0..20).any(|i| differs(0.37 * f64::from(i) * 8.7 / section.band())) {
             return Err(RasterError::Section);
         }
-        let (pitch, reach) = (self.pitch, self.reach_across());
-        let least = reach / MOST_WITHIN_REACH;
-        if self.path != Path::Repeat && !(pitch.is_finite() && pitch >= least) {
-            return Err(RasterError::Pitch { pitch, reach, least });
+        let (reach, most) = (self.reach_across(), MOST_POINTS / self.band());
+        match (&self.area, self.path) {
+            (Area::Rectangle { pitch, length, .. }, path) => {
+                let (pitch, length, least) = (*pitch, *length, reach / MOST_WITHIN_REACH);
+                if path != Path::Repeat && !(pitch.is_finite() && pitch >= least) {
+                    return Err(RasterError::Pitch { pitch, reach, least });
+                }
+                if !(length > 0.0 && length <= most) {
+                    return Err(RasterError::Length { length, most });
+                }
+            }
+            (Area::Lines(_), Path::Repeat) => return Err(RasterError::RepeatedArea),
+            (Area::Lines(_), _) => {}
         }
-        let most = MOST_POINTS / self.band();
-        if !(self.length > 0.0 && self.length <= most) {
-            return Err(RasterError::Length { length: self.length, most });
-        }
-        if !(1..=MOST_LINES).contains(&self.lines) {
-            return Err(RasterError::Lines(self.lines));
-        }
-        self.line((0.0, 0.0), true).validate().map_err(|error| RasterError::Line { line: 1, error })
+        self.area.validate(most, (reach, MOST_WITHIN_REACH))?;
+        let longest =
+            Scenario { until: self.duration_of(self.area.longest()), ..self.line(0, (0.0, 0.0)) };
+        longest.validate().map_err(|error| RasterError::Line { line: 1, error })
+    }
+
+    /// How many lines.
+    #[must_use]
+    pub fn lines(&self) -> usize {
+        self.area.len()
     }
 
     /// Line number n, counted from 0.
     #[must_use]
     pub fn track(&self, n: usize) -> Track {
-        self.path.track(n, self.pitch, self.length)
+        self.area.track(self.path, n)
     }
 
-    /// How long each line takes, X/r.
+    /// How long line number n, counted from 0, takes: X/r.
     #[must_use]
-    pub fn duration(&self) -> f64 {
-        self.length / self.law.model.r()
+    pub fn duration(&self, n: usize) -> f64 {
+        self.duration_of(self.track(n).length)
     }
 
-    /// The run of a line whose tip starts `ahead` of the support, with this velocity if it has inertia.
-    pub(crate) fn line(&self, (ahead, velocity): (f64, f64), is_first: bool) -> Scenario {
+    /// How long the support takes for a length.
+    #[must_use]
+    pub fn duration_of(&self, length: f64) -> f64 {
+        length / self.law.model.r()
+    }
+
+    /// The run of line n, whose tip starts `ahead` of the support, with this velocity if it has inertia.
+    pub(crate) fn line(&self, n: usize, (ahead, velocity): (f64, f64)) -> Scenario {
         let has_inertia = self.law.model.wider().inertia.is_some();
         Scenario {
             start: Start::Flat,
@@ -145,8 +116,8 @@ impl Plan {
             kick: -ahead,
             start_velocity: has_inertia.then_some(velocity),
             path: None,
-            until: self.duration(),
-            force: if is_first { self.disturbance.clone() } else { Force::default() },
+            until: self.duration(n),
+            force: if n == 0 { self.disturbance.clone() } else { Force::default() },
             ..self.law.clone()
         }
     }

@@ -1,9 +1,10 @@
 //! Lines one after the other, to be stopped and taken up again between any two.
 
+use crate::error::RasterError;
 use crate::grooves::Grooves;
 use crate::line::Line;
 use crate::path::{Path, Track};
-use crate::plan::{Plan, RasterError};
+use crate::plan::Plan;
 use stickslip_tip::{InitialSurface, Running, Step, stop};
 
 /// A raster under way.
@@ -41,12 +42,15 @@ impl<'a> Scanning<'a> {
         &self.lines
     }
 
-    /// What the tip will find on the next line, in the frame of that line: what earlier lines left within reach.
+    /// What the tip will find on the next line, in the frame of that line: what earlier lines left within reach. Flat
+    /// where no line is left.
     #[must_use]
     pub fn surface_ahead(&mut self) -> InitialSurface {
+        if self.lines.len() >= self.plan.lines() {
+            return InitialSurface::flat();
+        }
         let track = self.plan.track(self.lines.len());
-        let mirrored_about = track.backward.then_some(track.start);
-        let relief = self.grooves.relief(track.y, mirrored_about);
+        let relief = self.grooves.relief(&track);
         relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
     }
 
@@ -57,12 +61,12 @@ impl<'a> Scanning<'a> {
     /// The tolerance cannot be met.
     pub fn next_line(&mut self) -> Result<Option<&Line>, RasterError> {
         let n = self.lines.len();
-        if n == self.plan.lines {
+        if n == self.plan.lines() {
             return Ok(None);
         }
         let track = self.plan.track(n);
         let surface = self.surface_ahead();
-        let scenario = self.plan.line(self.begins(track), n == 0);
+        let scenario = self.plan.line(n, self.begins(track));
         let failed = |error| RasterError::Line { line: n + 1, error };
         let mut running = Running::new(&scenario, &surface).map_err(failed)?;
         let mut steps: Vec<Step> = vec![];

@@ -40,8 +40,9 @@ impl Scanned {
 /// visits, and less what has healed. By the paper's law -α (X/r) ∫∫f for each line.
 #[must_use]
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
-    let left = plan.law.model.wider().left_after(plan.duration());
+    let left =
+        |line: &Line| plan.law.model.wider().left_after(plan.duration_of(line.track().length));
     let time = |line: &Line| line.residence().1.iter().sum::<f64>();
-    let all = lines.iter().fold(0.0, |sum, line| sum * left + time(line));
+    let all = lines.iter().fold(0.0, |sum, line| sum * left(line) + time(line));
     -plan.law.model.alpha() * plan.footprint.integral() * all
 }

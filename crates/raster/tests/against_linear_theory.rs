@@ -32,7 +32,7 @@ fn spectrum(line: &Line, q: f64) -> Complex64 {
 /// the end nor the edge to them.
 fn ripples(plan: &Plan, q: f64) -> Vec<Complex64> {
     let one = |sign: f64| {
-        let pulse = Pulse { amplitude: sign * WEAK, time: 0.5 * plan.length, width: 0.7 };
+        let pulse = Pulse { amplitude: sign * WEAK, time: 0.5 * plan.area.longest(), width: 0.7 };
         let disturbance = Force::new(vec![pulse], None).unwrap();
         scanned(&Plan { disturbance, ..plan.clone() })
     };
@@ -49,15 +49,19 @@ fn plan(beta: f64, width_y: f64, alpha: f64, path: Path, size: (f64, usize, f64)
     plan
 }
 
+fn pitch(plan: &Plan) -> f64 {
+    plan.area.pitch(plan.path).unwrap_or_default()
+}
+
 /// The largest relative error of δρ̂_n against the recurrence.
 fn worst(plan: &Plan, width_y: f64, q: f64) -> f64 {
-    let theory = Raster::new(&plan.footprint, 1.0, plan.pitch).unwrap();
+    let theory = Raster::new(&plan.footprint, 1.0, pitch(plan)).unwrap();
     let gain = theory.repeat_gain(plan.law.model.alpha(), q) - 1.0;
     let found = ripples(plan, q);
     let mut worst = 0.0_f64;
     for n in 1..found.len() {
         let height = |m: usize| {
-            let z = plan.pitch * (n - m) as f64 / width_y;
+            let z = pitch(plan) * (n - m) as f64 / width_y;
             (-0.5 * z * z).exp()
         };
         let felt: Complex64 = (0..n).map(|m| found[m] * height(m)).sum();

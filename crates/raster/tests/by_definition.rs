@@ -7,126 +7,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use stickslip_raster::{Line, Path, Plan, Scanned, Scanning, volume};
+use stickslip_raster::{Area, AreaLine, Line, Path, Plan, Scanned, Scanning, volume};
 use stickslip_tip::{
     Footprint, Gaussian2d, InitialSurface, Model, Relief, Running, TipFunction, Wider,
 };
 
-type Formula = fn(f64, f64) -> f64;
+mod definition;
 
-const SPACING: f64 = 0.4;
-const BEYOND: f64 = 12.0;
-/// Of a Runge-Kutta step; its error is its fourth power.
-const STEP: f64 = 0.002;
-
-/// Position and velocity of the tip, and heights on every row.
-#[derive(Clone)]
-struct State {
-    x0: f64,
-    /// Of a tip with inertia.
-    v: f64,
-    u: Vec<Vec<f64>>,
-}
-
-struct Definition {
-    f: Formula,
-    wider: Wider,
-    alpha: f64,
-    r: f64,
-    length: f64,
-    pitch: f64,
-    x: Vec<f64>,
-    state: State,
-}
-
-impl Definition {
-    fn new(f: Formula, model: &Model, (pitch, lines, length): (f64, usize, f64)) -> Self {
-        let points = ((length + 2.0 * BEYOND) / SPACING) as usize;
-        let x: Vec<f64> = (0..points).map(|i| SPACING * i as f64 - BEYOND).collect();
-        let state = State { x0: 0.0, v: 0.0, u: vec![vec![0.0; points]; lines] };
-        let (wider, alpha, r) = (*model.wider(), model.alpha(), model.r());
-        Self { f, wider, alpha, r, length, pitch, x, state }
-    }
-
-    /// u_x on a row.
-    fn slope(&self, u: &[f64], at: f64) -> f64 {
-        let pi = std::f64::consts::PI;
-        let term = |(x, u): (&f64, &f64)| {
-            let z = (at - x) / SPACING;
-            let sinc = if z.abs() < 1e-4 {
-                -pi * pi * z / 3.0
-            } else {
-                (pi * z).cos() / z - (pi * z).sin() / (pi * z * z)
-            };
-            u * sinc / SPACING
-        };
-        self.x.iter().zip(u).map(term).sum()
-    }
-
-    /// u on a row.
-    fn height(&self, u: &[f64], at: f64) -> f64 {
-        let pi = std::f64::consts::PI;
-        let term = |(x, u): (&f64, &f64)| {
-            let z = pi * (at - x) / SPACING;
-            if z.abs() < 1e-8 { *u } else { u * z.sin() / z }
-        };
-        self.x.iter().zip(u).map(term).sum()
-    }
-
-    fn rate(&self, state: &State, row: usize, support: f64) -> State {
-        let weight = match self.wider.depth_limit {
-            Some(limit) => (-self.height(&state.u[row], state.x0).abs() / limit).exp(),
-            None => 1.0,
-        };
-        let healing = self.wider.healing_time.map_or(0.0, |time| 1.0 / time);
-        let carve = |n: usize| {
-            let y = self.pitch * (n as f64 - row as f64);
-            let at = self.x.iter().zip(&state.u[n]);
-            at.map(|(x, u)| -self.alpha * weight * (self.f)(x - state.x0, y) - healing * u)
-                .collect()
-        };
-        let force = support - state.x0 - self.slope(&state.u[row], state.x0);
-        let (x0, v) = match self.wider.inertia {
-            Some(mass) => (state.v, (force - state.v) / mass),
-            None => (force, 0.0),
-        };
-        State { x0, v, u: (0..state.u.len()).map(carve).collect() }
-    }
-
-    /// One line; x0 at the end of every hundredth step.
-    fn line(&mut self, n: usize, row: usize, path: Path) -> Vec<(f64, f64)> {
-        let track = path.track(n, self.pitch, self.length);
-        if path != Path::Zigzag {
-            (self.state.x0, self.state.v) = (0.0, 0.0);
-        }
-        let steps = (self.length / self.r / STEP).round() as usize;
-        let mut told = vec![];
-        for i in 0..steps {
-            let support = |c: f64| track.x(self.r * STEP * (i as f64 + c));
-            let s = &self.state;
-            let a = self.rate(s, row, support(0.0));
-            let b = self.rate(&s.moved(&a, 0.5 * STEP), row, support(0.5));
-            let c = self.rate(&s.moved(&b, 0.5 * STEP), row, support(0.5));
-            let d = self.rate(&s.moved(&c, STEP), row, support(1.0));
-            let s = s.moved(&a, STEP / 6.0).moved(&b, STEP / 3.0);
-            self.state = s.moved(&c, STEP / 3.0).moved(&d, STEP / 6.0);
-            if (i + 1) % 100 == 0 {
-                told.push((STEP * (i as f64 + 1.0), self.state.x0));
-            }
-        }
-        told
-    }
-}
-
-impl State {
-    fn moved(&self, rate: &Self, by: f64) -> Self {
-        let row = |(u, v): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
-            u.iter().zip(v).map(|(u, v)| u + by * v).collect()
-        };
-        let v = self.v + by * rate.v;
-        Self { x0: self.x0 + by * rate.x0, v, u: self.u.iter().zip(&rate.u).map(row).collect() }
-    }
-}
+use definition::{Definition, Formula, given};
 
 fn scanned(plan: &Plan) -> Vec<Line> {
     let mut scanning = Scanning::new(plan).unwrap();
@@ -143,16 +31,25 @@ fn plan(footprint: Footprint, (alpha, r): (f64, f64), path: Path, size: (f64, us
 
 /// Largest differences of x0 on any line and of u on any row.
 fn differences(plan: &Plan, f: Formula) -> (f64, f64) {
-    let rows = if plan.path == Path::Repeat { 1 } else { plan.lines };
-    let mut slow = Definition::new(f, &plan.law.model, (plan.pitch, rows, plan.length));
+    let given = given(plan);
+    let mut y: Vec<f64> = given.iter().map(|line| line.0).collect();
+    y.sort_by(f64::total_cmp);
+    y.dedup();
+    let ends = given.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), line| {
+        (low.min(line.1), high.max(line.2))
+    });
+    let mut slow = Definition::new(f, &plan.law.model, y.clone(), ends);
     let lines = scanned(plan);
     let mut worst_x0 = 0.0_f64;
     for (n, line) in lines.iter().enumerate() {
-        for (t, x0) in slow.line(n, n.min(rows - 1), plan.path) {
+        let (at, from, to) = given[n];
+        let row = y.iter().position(|y| (y - at).abs() < 1e-12).unwrap();
+        let is_zigzag = plan.path == Path::Zigzag;
+        let ends = if is_zigzag && n % 2 == 1 { (to, from) } else { (from, to) };
+        for (t, x0) in slow.line(row, ends, is_zigzag) {
             worst_x0 = worst_x0.max((line.x0(t) - x0).abs());
         }
     }
-    let y: Vec<f64> = (0..rows).map(|n| plan.track(n).y).collect();
     let u = Scanned::new(plan, &lines).heights(&slow.x, &y);
     let miss = |((n, i), u): ((usize, usize), &f64)| (u - slow.state.u[n][i]).abs();
     (worst_x0, u.indexed_iter().map(miss).fold(0.0, f64::max))
@@ -232,6 +129,29 @@ fn lines_under_the_wider_law_are_those_of_the_full_equations() {
         let tip = plan.law.model.tip().clone();
         plan.law.model = Model::under(wider, tip, 0.8, 1.0).unwrap();
         judge(name, &plan, gaussian);
+    }
+}
+
+/// An L of lines that begin at several x and are of several lengths, one of them twice, and one that goes back to where
+/// lines have been: by the paper's law, and by all of the wider one.
+#[test]
+fn lines_of_any_shape_are_those_of_the_full_equations() {
+    let line = |(y, start, length): (f64, f64, f64)| AreaLine { y, start, length };
+    let shape = [(0.0, -4.0, 14.0), (0.6, -4.5, 15.0), (1.2, 3.0, 8.0), (1.2, 3.0, 8.0)];
+    let shape: Vec<AreaLine> = shape.into_iter().chain([(0.3, -2.0, 12.0)]).map(line).collect();
+    for path in [Path::OneWay, Path::Zigzag] {
+        let mut plan = plan(round(), (0.8, 1.0), path, (0.0, 1, 1.0));
+        plan.area = Area::Lines(shape.clone());
+        judge("shape", &plan, gaussian);
+        let wider = Wider {
+            depth_limit: Some(3.0),
+            healing_time: Some(20.0),
+            inertia: Some(0.5),
+            ..Wider::default()
+        };
+        let tip = plan.law.model.tip().clone();
+        plan.law.model = Model::under(wider, tip, 0.8, 1.0).unwrap();
+        judge("shape, all", &plan, gaussian);
     }
 }
 

@@ -13,6 +13,9 @@
 //! `docs/stability.md` derives it.
 
 mod growth;
+mod wider;
+
+pub use wider::WiderRaster;
 
 use super::transform::CurvatureTransform;
 use super::{StabilityError, critical};

@@ -81,6 +81,12 @@ impl Force {
         Self { function: Some(Arc::new(function)), ..Self::default() }
     }
 
+    /// Its pulses.
+    #[must_use]
+    pub fn pulses(&self) -> &[Pulse] {
+        &self.pulses
+    }
+
     /// Fext(t).
     #[must_use]
     pub fn value(&self, t: f64) -> f64 {

@@ -111,10 +111,10 @@ impl Relief {
     }
 
     /// A height and its slope given as fields of one lattice, 0 beyond their ends, where both must have vanished: what
-    /// other passes of a tip left. With `mirrored_about` X it is that of X - x.
+    /// other passes of a tip left. It is that of X + x, or of X - x where it is mirrored, for `along` (X, whether so).
     #[must_use]
-    pub fn on_lattice(heights: Field, slopes: Field, mirrored_about: Option<f64>) -> Self {
-        Self(Shape::OnLattice(OnLattice::new(heights, slopes, mirrored_about)))
+    pub fn on_lattice(heights: Field, slopes: Field, along: (f64, bool)) -> Self {
+        Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }
 
     /// Its height at x.

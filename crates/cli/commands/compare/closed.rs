@@ -31,11 +31,12 @@ pub(super) fn scenario(
     arguments: &CompareArguments,
     disturbance: &Disturbance,
 ) -> Result<Scenario, Failure> {
+    let until = arguments.until.unwrap_or_default();
     let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
     let scenario = Scenario {
         tolerance: arguments.tolerance,
         memory: arguments.memory.into(),
-        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, arguments.until)?
+        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, until)?
     };
     within_range(&arguments.model, &scenario)?;
     scenario.validate().map_err(explained)?;

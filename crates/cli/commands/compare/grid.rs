@@ -48,7 +48,7 @@ impl Discretisation {
         let gaussians: Vec<Gaussian> = sum
             .terms()
             .iter()
-            .map(|g| Gaussian { amplitude: g.amplitude, centre: g.center, width: g.width })
+            .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
             .collect();
         let smallest_width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
         let spacing = arguments.spacing.unwrap_or(match name {
@@ -107,7 +107,7 @@ impl Discretisation {
 /// Local errors below are round-off.
 const LEAST_TOLERANCE: f64 = 1e-15;
 
-fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
+pub(super) fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
     let above_0 = |option: &str, value: f64| {
         let named = format!("{option} {}", Typed(value));
         let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);

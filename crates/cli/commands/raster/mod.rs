@@ -8,21 +8,28 @@ pub(in crate::commands) use heights::field;
 use super::footprint::footprint;
 use super::job::{Job, format};
 use super::model::wide_model;
+use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
 use super::run::samples::times;
-use crate::arguments::{Format, RasterArguments, SamplingArguments};
+use crate::arguments::{Format, ModelArguments, RasterArguments, SamplingArguments, ScanArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::distinct;
+use crate::files::input::read_area;
 use crate::interrupt::Interrupt;
-use stickslip_documents::{ModelParameters, PathName, RasterDocument, RasterParameters};
-use stickslip_raster::{Path, Plan, RasterError};
-use stickslip_tip::{RunError, Scenario};
+use stickslip_documents::{
+    MemoryName, ModelParameters, PathName, RasterDocument, RasterParameters,
+};
+use stickslip_raster::{Area, Path, Plan, RasterError};
+use stickslip_tip::{Force, RunError, Scenario};
 
 /// One sample in so much of the way of the support, by default, in widths of the tip.
 const SAMPLE: f64 = 0.25;
 
 pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { output, plot, .. } = arguments;
-    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
+    let read = [
+        ("--tip-file", arguments.model.tip.tip_file.as_deref()),
+        ("--area", arguments.scan.area.as_deref()),
+    ];
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
         && output.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf"));
@@ -46,9 +53,36 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
 
 /// What is to be scanned, and the document's word for it.
 fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
-    let model = wide_model(&arguments.model)?;
-    let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
-    let path = Path::from(arguments.path);
+    let accuracy = (arguments.tolerance, arguments.memory);
+    plan_of(&arguments.model, &arguments.scan, &arguments.pulse, accuracy)
+}
+
+/// The same of any command that scans.
+pub(super) fn plan_of(
+    given: &ModelArguments,
+    scan: &ScanArguments,
+    pulse: &[String],
+    (tolerance, memory): (f64, MemoryName),
+) -> Result<(Plan, RasterParameters), Failure> {
+    let model = wide_model(given)?;
+    let (footprint, width_y) = footprint(scan.width_y, model.tip())?;
+    let parameters = ModelParameters::of(&model, given.alpha_above);
+    let mut plan = Plan::over(footprint, model, Path::from(scan.path), area(scan)?);
+    plan.law = Scenario { tolerance, memory: memory.into(), ..plan.law };
+    let pulses = parse_pulses(pulse)?;
+    plan.disturbance =
+        Force::new(pulses.clone(), None).map_err(|error| Failure::input("--pulse", error))?;
+    plan.validate().map_err(|error| refused(scan, error))?;
+    warn_of_idle_pulses(pulse, &pulses, (0.0, plan.duration(0)));
+    let parameters = RasterParameters::of(&plan, parameters, width_y);
+    Ok((plan, parameters))
+}
+
+/// A rectangle, or the lines of a file.
+fn area(arguments: &ScanArguments) -> Result<Area, Failure> {
+    if let Some(file) = &arguments.area {
+        return Ok(Area::Lines(read_area("--area", file)?));
+    }
     let pitch = match (arguments.path, arguments.pitch) {
         (PathName::Repeat, None) => 0.0,
         (PathName::Repeat, Some(pitch)) => {
@@ -60,21 +94,22 @@ fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure
             return Err(Failure::input("--pitch", "give the distance of the lines, --pitch D"));
         }
     };
-    let parameters = ModelParameters::of(&model, arguments.model.alpha_above);
-    let (lines, length) = (arguments.lines, arguments.length);
-    let mut plan = Plan::new(footprint, model, path, pitch, lines, length);
-    let (tolerance, memory) = (arguments.tolerance, arguments.memory.into());
-    plan.law = Scenario { tolerance, memory, ..plan.law };
-    plan.validate().map_err(|error| refused(&plan, error))?;
-    let parameters = RasterParameters::of(&plan, parameters, width_y);
-    Ok((plan, parameters))
+    let (lines, length) =
+        (arguments.lines.unwrap_or_default(), arguments.length.unwrap_or_default());
+    Ok(Area::Rectangle { pitch, lines, length })
 }
 
-fn refused(plan: &Plan, error: RasterError) -> Failure {
+fn refused(arguments: &ScanArguments, error: RasterError) -> Failure {
+    let in_file = arguments.area.as_ref().map(|file| format!("--area {}", file.display()));
+    let length = || format!("--length {}", Typed(arguments.length.unwrap_or_default()));
     let option = match &error {
         RasterError::Pitch { pitch, .. } => format!("--pitch {}", Typed(*pitch)),
         RasterError::Length { length, .. } => format!("--length {}", Typed(*length)),
-        RasterError::Lines(lines) => format!("--lines {lines}"),
+        RasterError::Lines(lines) => in_file.unwrap_or(format!("--lines {lines}")),
+        RasterError::AreaLine { .. } | RasterError::Extent { .. } | RasterError::Crowded { .. } => {
+            in_file.unwrap_or_default()
+        }
+        RasterError::RepeatedArea => "--path repeat".into(),
         RasterError::NoSpring => "--no-spring".into(),
         RasterError::NeverFades | RasterError::Section => "--tip".into(),
         RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
@@ -86,18 +121,18 @@ fn refused(plan: &Plan, error: RasterError) -> Failure {
         RasterError::Line { error: RunError::Modes(error), .. } => {
             return Failure::input("--memory modes", error);
         }
-        RasterError::Line { .. } => format!("--length {}", Typed(plan.length)),
+        RasterError::Line { .. } => in_file.unwrap_or_else(length),
     };
     Failure::input(option, error)
 }
 
 /// Times since the start of each line.
-fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
-    let duration = plan.duration();
+pub(super) fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
+    let duration = plan.duration_of(plan.area.longest());
     if sampling.sample_at.is_some() || sampling.sample_every.is_some() {
         return times(sampling, (0.0, duration), "each line");
     }
     let width = 8.7 / plan.footprint.path().band();
-    let count = (plan.length / (SAMPLE * width)).ceil().clamp(2.0, 2000.0);
+    let count = (plan.area.longest() / (SAMPLE * width)).ceil().clamp(2.0, 2000.0);
     Ok((0..=count as usize).map(|i| duration * i as f64 / count).collect())
 }

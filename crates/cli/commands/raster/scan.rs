@@ -20,13 +20,13 @@ pub(super) fn scan(
     interrupt: &Interrupt,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
     let mut finished = match file {
-        Some(file) => Finished::beside(file, parameters, |index| index < plan.lines)?,
+        Some(file) => Finished::beside(file, parameters, |index| index < plan.lines())?,
         None => Finished::in_memory(),
     };
     let failed = |error: stickslip_raster::RasterError| Failure::Run(error.to_string());
     let mut scanning = Scanning::resumed(plan, taken_up(plan, &finished)).map_err(failed)?;
     let kept: HashSet<usize> = finished.parts().iter().map(|line| line.index).collect();
-    let (first, count) = (scanning.lines().len(), plan.lines);
+    let (first, count) = (scanning.lines().len(), plan.lines());
     if let (Some(path), true) = (finished.path(), first > 0) {
         remark(format_args!("stickslip: {first} of {count} lines are in {}", path.display()));
     }

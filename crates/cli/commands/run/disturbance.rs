@@ -115,7 +115,7 @@ pub(crate) fn files_read<'a>(
     ]
 }
 
-/// exp(-9²/2) = 3e-18: a force of the size of the others is below round-off so many widths from its centre.
+/// exp(-9²/2) = 3e-18: a force of the size of the others is below round-off so many widths from its center.
 const WIDTHS_FELT: f64 = 9.0;
 
 /// Says of each force that ends before the motion begins, or begins after it has ended, that nothing feels it. No

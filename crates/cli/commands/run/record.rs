@@ -125,6 +125,9 @@ impl Record {
     /// Fills the record with what a journal holds up to a mark, which is all until time t, and goes on with it.
     pub(super) fn resume(&mut self, path: &Path, mark: Mark, t: f64) -> Result<(), Failure> {
         let unusable = |error: io::Error| {
+            if error.kind() == io::ErrorKind::WouldBlock {
+                return Failure::input(format!("--resume {}", path.display()), IN_USE);
+            }
             let needed = "the checkpoint cannot be resumed without it";
             Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
         };

@@ -1,9 +1,11 @@
 //! `stickslip stability --pitch`.
 
+mod wider;
+
 use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
 use crate::commands::job::Job;
-use crate::commands::model::{model_of, only_papers, tip};
+use crate::commands::model::{model_of, tip, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
     FORMAT_VERSION, ModelParameters, PathName, RasterGrowth, RasterStabilityDocument,
@@ -18,7 +20,9 @@ const WAVE_NUMBERS: u32 = 200;
 const SHOWN: f64 = 0.4;
 
 pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
-    only_papers(&arguments.model.tip, &arguments.model.wider, "stability --pitch")?;
+    if !wider_law(&arguments.model.wider).is_papers() {
+        return wider::stability(arguments);
+    }
     let tip = tip(&arguments.model.tip)?;
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let path = arguments.path.unwrap_or(PathName::OneWay);
@@ -102,6 +106,7 @@ fn document(
             width_y,
             path,
             pitch: arguments.pitch,
+            length: None,
             at_critical_point: !is_given,
         },
         critical: critical.as_ref().map(Into::into),
@@ -112,16 +117,19 @@ fn document(
 }
 
 fn growth(raster: &Raster, path: PathName, alpha: f64, band: f64) -> RasterGrowth {
+    growth_of(band, |q| {
+        let z = match path {
+            PathName::Repeat => raster.repeat_gain(alpha, q),
+            _ => raster.growth(alpha, q),
+        };
+        z.to_polar()
+    })
+}
+
+/// |z| and arg z over wave numbers.
+fn growth_of(band: f64, z: impl Fn(f64) -> (f64, f64)) -> RasterGrowth {
     let number = |i: u32| SHOWN * band * f64::from(i) / f64::from(WAVE_NUMBERS);
     let q: Vec<f64> = (1..=WAVE_NUMBERS).map(number).collect();
-    let factor = |q: &f64| match path {
-        PathName::Repeat => raster.repeat_gain(alpha, *q),
-        _ => raster.growth(alpha, *q),
-    };
-    let z: Vec<_> = q.iter().map(factor).collect();
-    RasterGrowth {
-        factor: z.iter().map(|z| z.norm()).collect(),
-        phase: z.iter().map(|z| z.arg()).collect(),
-        q,
-    }
+    let (factor, phase) = q.iter().map(|q| z(*q)).unzip();
+    RasterGrowth { factor, phase, q }
 }

@@ -22,14 +22,18 @@ pub(super) fn surface(
         )
     };
     let (plan, _) = raster.scanned().map_err(damaged)?;
-    let (from, to) = (-plan.reach_across(), plan.length + plan.reach_across());
+    let (low, high) = plan.area.ends();
+    let (from, to) = (low - plan.reach_across(), high + plan.reach_across());
     let places = Places::over(arguments, vec![0.0], (from, to))?;
     let y = match (&arguments.y, places.y.is_empty()) {
         (Some(y), _) => y.clone(),
         (None, false) => places.y.clone(),
         (None, true) => {
-            let last = plan.track(plan.lines - 1).y;
-            if last > 0.0 { evenly(0.0, last, plan.lines) } else { vec![0.0] }
+            let y = (0..plan.lines()).map(|n| plan.track(n).y);
+            let (first, last) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            });
+            if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
         }
     };
     let scale = Scale::asked(arguments, &plan.law.model)?;

@@ -3,8 +3,8 @@
 use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
-    HeightMap, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument,
+    HeightMap, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
 };
 
 impl Product for RasterDocument {
@@ -77,6 +77,43 @@ impl Product for RasterBoundaryDocument {
         .row("crests to scan axis", format!("from {} °", ends(&self.crest_angle)))
         .remarks(&self.remarks)
         .next(again("-o pitch.csv --plot pitch.svg"))
+    }
+}
+
+impl Product for RasterCompareDocument {
+    fn told(&self) -> Told {
+        let Self { closed_work, grid_work, max_difference, speedup, lines, .. } = self;
+        let [closed, grid] = [closed_work.seconds, grid_work.seconds].map(|s| 1e3 * s);
+        let told = Told::new(format!(
+            "{} lines: largest difference {:.1e} in x0, {:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \
+             {speedup:.4} times as fast",
+            lines.len(),
+            max_difference.x0,
+            max_difference.u,
+        ));
+        told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+            .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
+            .row("closed equation", format!("{} steps, {closed:.2} ms", closed_work.steps))
+            .row("grid", format!("{} steps, {grid:.0} ms", grid_work.steps))
+            .row("speedup", format!("{speedup:.4}"))
+            .next(again("-o compare.json --plot compare.png"))
+    }
+}
+
+impl Product for RasterSweepDocument {
+    fn told(&self) -> Told {
+        let mut regimes: Vec<(String, usize)> = vec![];
+        for point in &self.points {
+            let name = point.regime.map_or("failed".into(), |regime| regime.to_string());
+            match regimes.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, many)) => *many += 1,
+                None => regimes.push((name, 1)),
+            }
+        }
+        let each: Vec<String> =
+            regimes.iter().map(|(name, many)| format!("{many} {name}")).collect();
+        let told = Told::new(format!("{} rasters: {}", self.points.len(), each.join(", ")));
+        told.next(again("-o map.json --plot map.svg"))
     }
 }
 

@@ -11,21 +11,21 @@ pub(super) fn lower_weights() -> [[f64; COEFFICIENTS]; HALF] {
     let chebyshev = chebyshev();
     std::array::from_fn(|cell| {
         // Weight `cell` is φ((cell − 7 − offset)/8).
-        let centre = (cell as f64 - 7.5) / HALF as f64;
-        economised(series(centre, -0.5 / HALF as f64), &chebyshev)
+        let center = (cell as f64 - 7.5) / HALF as f64;
+        economised(series(center, -0.5 / HALF as f64), &chebyshev)
     })
 }
 
-/// The power series in `s` of `φ(centre + step·s)`, by the recurrences of the square root and of
+/// The power series in `s` of `φ(center + step·s)`, by the recurrences of the square root and of
 /// the exponential. Unlike an interpolant of rounded samples, it has high coefficients as accurate
 /// as they are small, which the slopes need.
-fn series(centre: f64, step: f64) -> [f64; TERMS] {
+fn series(center: f64, step: f64) -> [f64; TERMS] {
     // r² = 1 − z², and then φ' = β r' φ.
-    let square = [1.0 - centre * centre, -2.0 * centre * step, -step * step];
+    let square = [1.0 - center * center, -2.0 * center * step, -step * step];
     let mut root = [0.0; TERMS];
     let mut phi = [0.0; TERMS];
     root[0] = square[0].sqrt();
-    phi[0] = Window::formula(centre);
+    phi[0] = Window::formula(center);
     for n in 1..TERMS {
         let cross: f64 = (1..n).map(|i| root[i] * root[n - i]).sum();
         root[n] = (square.get(n).unwrap_or(&0.0) - cross) / (2.0 * root[0]);

@@ -5,7 +5,7 @@ use crate::table::{Array, Column, Named, Tabular};
 use crate::{FORMAT_VERSION, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_raster::{Path, Scanned};
+use stickslip_raster::{Area, Path, Plan, Scanned};
 
 /// Surfaces read off a raster. Lengths in σ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -73,23 +73,40 @@ impl RasterDocument {
         Ok(HeightMap { x, y, u })
     }
 
-    /// u on every line, at even distances from 0 to X; around a line that was repeated, on lines beside it too.
+    /// u on every line, at even distances from the smallest x to the largest; on evenly spaced rows where lines are not,
+    /// and around a line that was repeated on lines beside it too.
     ///
     /// # Errors
     /// The document is damaged.
     pub fn height_map(&self) -> Result<HeightMap, Unusable> {
         let plan = self.parameters.plan()?;
         let width = 8.7 / plan.footprint.path().band();
-        let count = (POINTS * plan.length / width).ceil().clamp(2.0, MOST);
-        let x = (0..=count as usize).map(|i| plan.length * i as f64 / count).collect();
+        let (low, high) = plan.area.ends();
+        let count = (POINTS * (high - low) / width).ceil().clamp(2.0, MOST);
+        let x = (0..=count as usize).map(|i| low + (high - low) * i as f64 / count).collect();
         let y = if plan.path == Path::Repeat {
             let step = 0.5 * plan.reach_across() / ROWS_BESIDE as f64;
             (0..=2 * ROWS_BESIDE).map(|i| step * (i as f64 - ROWS_BESIDE as f64)).collect()
         } else {
-            (0..plan.lines).map(|n| plan.track(n).y).collect()
+            rows(&plan)
         };
         self.heights(x, y)
     }
+}
+
+/// The lines, or evenly spaced rows over them, no more of these than lines.
+fn rows(plan: &Plan) -> Vec<f64> {
+    let y: Vec<f64> = (0..plan.lines()).map(|n| plan.track(n).y).collect();
+    if matches!(plan.area, Area::Rectangle { .. }) || plan.area.pitch(plan.path).is_some() {
+        return y;
+    }
+    let least = |low: f64, y: &f64| low.min(*y);
+    let (low, high) =
+        (y.iter().fold(f64::INFINITY, least), y.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+    let count = y.len().clamp(3, MOST as usize);
+    // Lines that all lie at one y are looked at from both sides.
+    let (low, high) = if high > low { (low, high) } else { (low - 1.0, high + 1.0) };
+    (0..count).map(|i| low + (high - low) * i as f64 / (count - 1) as f64).collect()
 }
 
 impl Tabular for RasterSurfaceDocument {

@@ -93,11 +93,14 @@ pub struct KeptLine {
 }
 
 impl RasterLine {
-    /// Sampled at these times.
+    /// Sampled at those of these times at which it lasts.
     pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
+        let duration = line.trajectory().end();
+        let lasts = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12));
+        let times: Vec<f64> = lasts.copied().collect();
         let column = |value: &dyn Fn(f64) -> f64| times.iter().map(|t| value(*t)).collect();
         let samples = RasterSamples {
-            t: times.to_vec(),
+            t: times.clone(),
             x0: column(&|t| line.x0(t)),
             lag: column(&|t| line.lag(t)),
             velocity: column(&|t| line.velocity(t)),
@@ -131,8 +134,8 @@ impl LineHistory {
         let history = History { nodes, weights, t, extension, displacement, height };
         let found = history.under(*model.wider(), Support::Moving(model.r()));
         let found = found.map_err(|error| Unusable::new(format!("line {}: {error}", n + 1)))?;
-        let (start, end, duration) = (found.start(), found.end(), plan.duration());
-        if n >= plan.lines || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
+        let (start, end, duration) = (found.start(), found.end(), plan.duration(n));
+        if n >= plan.lines() || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
             return Err(Unusable::new(format!("line {} is none of this raster", n + 1)));
         }
         Ok(Line::new(plan.track(n), model, found.steps().to_vec(), work))
@@ -151,7 +154,7 @@ impl RasterHistory {
     /// # Errors
     /// There are not as many as planned, or one was damaged.
     pub(super) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
-        let (found, wanted) = (self.lines.len(), plan.lines);
+        let (found, wanted) = (self.lines.len(), plan.lines());
         if found != wanted {
             return Err(Unusable::new(format!("history: {found} lines, {wanted} are needed")));
         }

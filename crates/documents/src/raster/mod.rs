@@ -1,14 +1,21 @@
 //! `stickslip/raster`.
 
+mod compare;
 mod heights;
 mod lines;
 mod parameters;
 mod pattern;
+mod sweep;
 
+pub use compare::{
+    ComparedLine, RasterCompareDocument, RasterCompareParameters, RasterCompared,
+    RasterComparedWork,
+};
 pub use heights::{HeightMap, RasterSurfaceDocument};
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
-pub use parameters::{PathName, RasterParameters};
+pub use parameters::{AreaDocument, PathName, RasterParameters};
 pub use pattern::{PatternDocument, RasterRegimeName};
+pub use sweep::{RasterSweepDocument, RasterSweepParameters, RasterSweepPoint};
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{FORMAT_VERSION, Software, Unusable};
@@ -61,7 +68,7 @@ impl RasterDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/raster";
 
-    /// That of these lines of a plan, sampled at these times since the start of each line.
+    /// That of these lines of a plan, sampled at these times since the start of each line, as far as it lasts.
     #[must_use]
     pub fn new(parameters: RasterParameters, plan: &Plan, lines: &[Line], times: &[f64]) -> Self {
         let (regime, found) = pattern(plan, lines);
@@ -107,15 +114,17 @@ impl RasterDocument {
 impl Tabular for RasterDocument {
     /// A row for each sample, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
-        let each = self.lines.first().map_or(1, |line| line.samples.t.len()).max(1);
         let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
             self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
         };
-        let numbers: Vec<f64> = (1..=self.lines.len()).map(|n| n as f64).collect();
-        let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
+        // Lines of a shape have not all as many samples.
+        let repeated = |of: &dyn Fn(usize) -> f64| -> Column {
+            let rows = |(n, line): (usize, &RasterLine)| vec![of(n); line.samples.t.len()];
+            self.lines.iter().enumerate().flat_map(rows).collect::<Vec<_>>().into()
+        };
         vec![
-            ("line", Column::Repeated { values: numbers.into(), each }),
-            ("y", Column::Repeated { values: y.into(), each }),
+            ("line", repeated(&|n| n as f64 + 1.0)),
+            ("y", repeated(&|n| self.lines[n].y)),
             ("t", joined(|samples| &samples.t)),
             ("x0", joined(|samples| &samples.x0)),
             ("lag", joined(|samples| &samples.lag)),
@@ -123,16 +132,22 @@ impl Tabular for RasterDocument {
         ]
     }
 
-    /// `x0`, `lag` and `velocity` have a row for each line; `u` is the height map, a row for each of `u_y`, a column for
+    /// `x0`, `lag` and `velocity` have a row for each line, with NaN where one has ended; `u` is the height map, a row for each of `u_y`, a column for
     /// each of `u_x`; the history is that of all lines one after the other, `history_steps` of them for each.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let Some(longest) = self.lines.iter().max_by_key(|line| line.samples.t.len()) else {
+            return vec![];
+        };
         let rows = |of: fn(&RasterSamples) -> &Vec<f64>| {
-            let rows: Vec<Vec<f64>> =
-                self.lines.iter().map(|line| of(&line.samples).clone()).collect();
-            Array::matrix(&rows)
+            let row = |line: &RasterLine| {
+                let mut row = of(&line.samples).clone();
+                row.resize(longest.samples.t.len(), f64::NAN);
+                row
+            };
+            Array::matrix(&self.lines.iter().map(row).collect::<Vec<_>>())
         };
         let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
-        let t = self.lines.first().map(|line| line.samples.t.clone()).unwrap_or_default();
+        let t = longest.samples.t.clone();
         let mut arrays = vec![
             ("y", Array::vector(y)),
             ("t", Array::vector(t)),

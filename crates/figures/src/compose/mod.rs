@@ -9,6 +9,7 @@ mod drawn;
 mod labels;
 mod raster;
 mod raster_stability;
+mod raster_sweep;
 mod response;
 mod run;
 mod stability;
@@ -21,9 +22,9 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, RasterBoundaryDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Unusable, read_from, told,
+    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
+    RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -73,7 +74,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 14] = [
+pub const FORMATS: [&str; 16] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -81,9 +82,11 @@ pub const FORMATS: [&str; 14] = [
     CycleDocument::FORMAT,
     ContinueDocument::FORMAT,
     SweepDocument::FORMAT,
+    RasterSweepDocument::FORMAT,
     ResponseDocument::FORMAT,
     CompareDocument::FORMAT,
     RasterDocument::FORMAT,
+    RasterCompareDocument::FORMAT,
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
@@ -106,9 +109,11 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         CycleDocument::FORMAT => boxed::<CycleDocument>(source, &format),
         ContinueDocument::FORMAT => boxed::<ContinueDocument>(source, &format),
         SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
+        RasterSweepDocument::FORMAT => boxed::<RasterSweepDocument>(source, &format),
         ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
         CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
         RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),
+        RasterCompareDocument::FORMAT => boxed::<RasterCompareDocument>(source, &format),
         RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
         RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
         RasterBoundaryDocument::FORMAT => boxed::<RasterBoundaryDocument>(source, &format),

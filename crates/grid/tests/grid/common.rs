@@ -21,7 +21,7 @@ pub(crate) const CRITICAL_OMEGA: f64 = 0.942_779_021_257;
 pub(crate) const FINE: f64 = std::f64::consts::PI / 8.7;
 
 pub(crate) fn terms(terms: &[(f64, f64, f64)]) -> Vec<Gaussian> {
-    let gaussian = |&(amplitude, centre, width)| Gaussian { amplitude, centre, width };
+    let gaussian = |&(amplitude, center, width)| Gaussian { amplitude, center, width };
     terms.iter().map(gaussian).collect()
 }
 

@@ -2,13 +2,14 @@
 
 mod local;
 mod wave;
+mod window;
 
 use crate::line::Line;
-use crate::path::Path;
-use crate::plan::{Plan, WIDTHS};
+use crate::plan::Plan;
 use crate::surface::Scanned;
 use local::Local;
 use wave::{Sheet, Wave};
+use window::{ALONG, Window};
 
 /// A ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,16 +59,6 @@ pub enum LineRegime {
     StuckAtTheEdge,
 }
 
-/// The part of the length that is looked at: neither the pit at the beginning nor the end.
-const ALONG: (f64, f64) = (0.2, 0.85);
-/// Of the lines the last part, but no more than so many.
-const LAST: f64 = 0.5;
-const MOST_ROWS: usize = 256;
-/// The last lines have not yet been gone over by those that would follow within so many widths.
-const UNFINISHED: f64 = 3.5;
-/// Fewer rows, or a shorter stretch in wavelengths of the footprint, show no wave vector.
-const FEWEST_ROWS: usize = 8;
-const SHORTEST: f64 = 12.0;
 /// Points in a width of the footprint.
 const POINTS: f64 = 4.0;
 /// Ripples below this part of the depth are none.
@@ -85,7 +76,7 @@ const SAME_LAG: f64 = 0.02;
 /// What is to be seen after these lines, and the pattern if there is one.
 #[must_use]
 pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
-    let stuck = lines.iter().filter(|line| is_stuck(plan, line)).count();
+    let stuck = lines.iter().filter(|line| is_stuck(line)).count();
     if 2 * stuck > lines.len() {
         return (Regime::StuckAtTheEdge, None);
     }
@@ -120,10 +111,10 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
 /// What one line did.
 #[must_use]
 pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
-    if is_stuck(plan, line) {
+    if is_stuck(line) {
         return LineRegime::StuckAtTheEdge;
     }
-    let duration = plan.duration();
+    let duration = plan.duration_of(line.track().length);
     let at = |i: u32| {
         let part = ALONG.0 + (ALONG.1 - ALONG.0) * f64::from(i) / 400.0;
         line.lag(part * duration).abs()
@@ -135,9 +126,9 @@ pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
 }
 
 /// Whether the tip ended its line nearer to its beginning than to its end.
-fn is_stuck(plan: &Plan, line: &Line) -> bool {
+fn is_stuck(line: &Line) -> bool {
     let track = line.track();
-    track.along(line.x0(line.trajectory().end())) < 0.5 * plan.length
+    track.along(line.x0(line.trajectory().end())) < 0.5 * track.length
 }
 
 /// The part of lines and surface that is looked at.
@@ -151,27 +142,19 @@ struct Sheets {
 }
 
 fn sheets(plan: &Plan, lines: &[Line]) -> Option<Sheets> {
+    let Window { first, end, from, to, pitch } = Window::of(plan, lines.len())?;
     let width = 8.7 / plan.band();
-    let across = plan.reach_across() / WIDTHS;
-    let (from, to) = (ALONG.0 * plan.length, ALONG.1 * plan.length);
-    let unfinished = (UNFINISHED * across / plan.pitch).ceil();
-    let enough = plan.path != Path::Repeat && to - from > SHORTEST * width;
-    let last = lines.len().checked_sub(unfinished as usize).filter(|_| enough)?;
-    let rows = ((LAST * last as f64) as usize).min(MOST_ROWS);
-    if rows < FEWEST_ROWS || plan.pitch * (rows as f64) < SHORTEST * across {
-        return None;
-    }
     let points = (POINTS * (to - from) / width) as usize;
     let spacing = (to - from) / points as f64;
     let x: Vec<f64> = (0..points).map(|i| from + spacing * i as f64).collect();
-    let first = last - rows;
-    let y: Vec<f64> = lines[first..last].iter().map(|line| line.track().y).collect();
-    // Lines out of reach of these rows need not be read.
-    let within = (plan.reach_across() / plan.pitch).ceil() as usize;
-    let end = lines.len().min(last + within);
-    let heights = Scanned::new(plan, &lines[first.saturating_sub(within)..end]).heights(&x, &y);
-    let own = Scanned::new(plan, &lines[first..last]).own_grooves(&x);
+    let y: Vec<f64> = lines[first..end].iter().map(|line| line.track().y).collect();
+    // Lines out of reach of these rows need not be read; between them none may be left out, as surfaces heal.
+    let (low, high) = (y[0] - plan.reach_across(), y[y.len() - 1] + plan.reach_across());
+    let is_felt = |line: &Line| (low..=high).contains(&line.track().y);
+    let felt = (lines.iter().position(is_felt)?, lines.iter().rposition(is_felt)?);
+    let heights = Scanned::new(plan, &lines[felt.0..=felt.1]).heights(&x, &y);
+    let own = Scanned::new(plan, &lines[first..end]).own_grooves(&x);
     let depth = heights.mean()?;
-    let sheet = |u| Sheet::new(u, (from, spacing), plan.pitch, plan.band());
+    let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
     Some(Sheets { surface: sheet(heights), own: sheet(own), depth })
 }

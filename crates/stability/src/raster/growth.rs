@@ -26,23 +26,29 @@ impl Raster {
         let most = self.heights.iter().map(Vec::len).max().unwrap_or(0);
         let couplings: Vec<Complex64> =
             (0..most).map(|j| ratio * self.coupling(q, j) / d).collect();
-        let mut tracks = vec![Complex64::new(1.0, 0.0)];
-        let mut z = Complex64::new(0.0, 0.0);
-        for _ in 0..MOST_PASSES {
-            let earlier = tracks.iter().rev().zip(&couplings);
-            let next: Complex64 = earlier.map(|(a, c)| a * c).sum();
-            let before = z;
-            z = next / tracks.last().copied().unwrap_or(next);
-            tracks.push(next);
-            if tracks.len() > 2 * most {
-                tracks.drain(..tracks.len() - most.max(1));
-                let size = next.norm();
-                tracks.iter_mut().for_each(|a| *a /= size);
-            }
-            if (z - before).norm() < 1e-15 * z.norm() {
-                break;
-            }
-        }
-        z
+        settled(&couplings)
     }
+}
+
+/// The ratio of A_n to A_{n-1} that comes to be after many lines of A_n = Σ_j c_j A_{n-1-j}.
+pub(super) fn settled(couplings: &[Complex64]) -> Complex64 {
+    let most = couplings.len();
+    let mut tracks = vec![Complex64::new(1.0, 0.0)];
+    let mut z = Complex64::new(0.0, 0.0);
+    for _ in 0..MOST_PASSES {
+        let earlier = tracks.iter().rev().zip(couplings);
+        let next: Complex64 = earlier.map(|(a, c)| a * c).sum();
+        let before = z;
+        z = next / tracks.last().copied().unwrap_or(next);
+        tracks.push(next);
+        if tracks.len() > 2 * most {
+            tracks.drain(..tracks.len() - most.max(1));
+            let size = next.norm();
+            tracks.iter_mut().for_each(|a| *a /= size);
+        }
+        if (z - before).norm() < 1e-15 * z.norm() {
+            break;
+        }
+    }
+    z
 }

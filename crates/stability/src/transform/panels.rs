@@ -16,7 +16,7 @@ const BANDS_SERVED: f64 = 1.5;
 /// The quadrature covers so many widths of each Gaussian: exp(-13²/2) = 2e-37.
 const WIDTHS_INTEGRATED: f64 = 13.0;
 
-/// Terms by their centres, and the largest width.
+/// Terms by their centers, and the largest width.
 struct Sorted(Vec<Gaussian>, f64);
 
 impl Sorted {

@@ -44,6 +44,34 @@ pub(super) struct Footprint {
     curvature: CurvatureTransform,
 }
 
+/// φ, φ1 and G of one footprint as they are, at any p at which they are of ordinary size.
+#[derive(Debug, Clone)]
+pub(in super::super) struct PlainTransforms(Footprint);
+
+/// φ, φ1 and G.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct Values {
+    pub(in super::super) height: Complex64,
+    pub(in super::super) slope: Complex64,
+    pub(in super::super) curvature: Complex64,
+}
+
+impl PlainTransforms {
+    pub(in super::super) fn new(tip: &TipFunction) -> Self {
+        Self(Footprint::new(tip))
+    }
+
+    pub(in super::super) fn at(&self, p: Complex64) -> Values {
+        let at = self.0.at(p);
+        let unit = at.unit.0;
+        Values {
+            height: at.height.0 / unit,
+            slope: at.slope.0 / unit,
+            curvature: at.curvature.0 / unit,
+        }
+    }
+}
+
 impl Footprint {
     pub(super) fn new(tip: &TipFunction) -> Self {
         Self { tip: tip.clone(), apex: tip.value(0.0), curvature: CurvatureTransform::new(tip) }

@@ -19,6 +19,6 @@ mod report;
 
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use groove::{Groove, Memory, longest_look};
-pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed};
+pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed, displacement};
 pub use policy::Policy;
 pub use report::{MemoryReport, Sum};

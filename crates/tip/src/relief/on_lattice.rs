@@ -9,24 +9,26 @@ use stickslip_convolution::Field;
 #[derive(Debug, Clone)]
 pub(super) struct OnLattice {
     fields: Arc<[Field; 2]>,
-    /// What is read at x is what lies at `about` - x.
-    about: Option<f64>,
+    /// What is read at x is what lies at origin + sign x.
+    origin: f64,
+    sign: f64,
     low: f64,
     high: f64,
 }
 
 impl OnLattice {
-    /// Of a height that vanishes towards the ends of both fields.
-    pub(super) fn new(heights: Field, slopes: Field, about: Option<f64>) -> Self {
+    /// Of a height that vanishes towards the ends of both fields, along x from an origin on or, mirrored, back from it.
+    pub(super) fn new(heights: Field, slopes: Field, (origin, mirrored): (f64, bool)) -> Self {
         let (a, b) = (heights.range(), slopes.range());
         let (low, high) = (a.start().max(*b.start()), a.end().min(*b.end()));
-        Self { fields: Arc::new([heights, slopes]), about, low, high }
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        Self { fields: Arc::new([heights, slopes]), origin, sign, low, high }
     }
 
-    /// Where it is read, and the sign of its slope there; `None` beyond its ends.
-    fn place(&self, x: f64) -> Option<(f64, f64)> {
-        let (at, sign) = self.about.map_or((x, 1.0), |about| (about - x, -1.0));
-        (at > self.low && at < self.high).then_some((at, sign))
+    /// Where it is read; `None` beyond its ends.
+    fn place(&self, x: f64) -> Option<f64> {
+        let at = self.origin + self.sign * x;
+        (at > self.low && at < self.high).then_some(at)
     }
 
     pub(super) fn covers(&self, x: f64) -> bool {
@@ -34,13 +36,13 @@ impl OnLattice {
     }
 
     pub(super) fn height(&self, x: f64) -> f64 {
-        self.place(x).map_or(0.0, |(at, _)| self.fields[0].value(at))
+        self.place(x).map_or(0.0, |at| self.fields[0].value(at))
     }
 
     pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        let Some((at, sign)) = self.place(x) else { return (0.0, 0.0) };
+        let Some(at) = self.place(x) else { return (0.0, 0.0) };
         let (slope, curvature) = self.fields[1].value_and_derivative(at);
-        (sign * slope, curvature)
+        (self.sign * slope, curvature)
     }
 }
 
@@ -56,7 +58,7 @@ mod tests {
         (0..400).map(|i| (at(i), 0.1 + (0.37 * f64::from(i)).cos().powi(2))).collect()
     }
 
-    fn relief(tip: &TipFunction, about: Option<f64>) -> OnLattice {
+    fn relief(tip: &TipFunction, along: (f64, bool)) -> OnLattice {
         let mut spectra = Spectra::new(tip.band(), -20.0, 50.0);
         let mut density = Density::new(spectra.spacing());
         visits().iter().for_each(|(x, weight)| density.add(*x, *weight));
@@ -68,7 +70,7 @@ mod tests {
             .zip(&k)
             .map(|(height, k)| num_complex::Complex::new(0.0, *k) * height)
             .collect();
-        OnLattice::new(spectra.field(&heights), spectra.field(&slopes), about)
+        OnLattice::new(spectra.field(&heights), spectra.field(&slopes), along)
     }
 
     fn direct(tip: &TipFunction, x: f64) -> [f64; 3] {
@@ -91,7 +93,8 @@ mod tests {
             TipFunction::gaussian(0.4).unwrap(),
         ] {
             let steep = tip.band() / 8.7;
-            let (there, back) = (relief(&tip, None), relief(&tip, Some(31.0)));
+            let (there, back) = (relief(&tip, (0.0, false)), relief(&tip, (31.0, true)));
+            let further = relief(&tip, (4.0, false));
             let mut worst = [0.0_f64; 3];
             for i in 0..700 {
                 let x = -15.0 + 0.087 * f64::from(i);
@@ -104,6 +107,7 @@ mod tests {
                 let (mirrored, same) = back.slope_and_curvature(31.0 - x);
                 assert!((mirrored + slope).abs() < 1e-11 && (same - curvature).abs() < 1e-10);
                 assert!((back.height(31.0 - x) - found[0]).abs() < 1e-12);
+                assert!((further.height(x - 4.0) - found[0]).abs() < 1e-12);
             }
             let allowed = [1e-13, 5e-14 * steep, 1e-12 * steep * steep];
             assert!(worst.iter().zip(allowed).all(|(w, a)| *w < a), "{worst:?}, {allowed:?}");
@@ -114,7 +118,7 @@ mod tests {
     #[test]
     fn it_goes_on_to_where_nothing_is_left() {
         let tip = TipFunction::gaussian(1.0).unwrap();
-        let relief = relief(&tip, None);
+        let relief = relief(&tip, (0.0, false));
         assert!(relief.height(-1.0).abs() > 1e-2 && relief.height(33.0).abs() > 1e-2);
         let at_the_end = relief.low.next_up();
         assert!(relief.height(at_the_end).abs() < 1e-12);

@@ -27,15 +27,21 @@ const FINEST: f64 = 2.5e-14;
 /// In quarter decades, so that runs alike share a fit.
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
+    let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
+    let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
+    let of_slope = SHARE * tolerance / displacement(model, 1.0);
+    let largest = of_slope.min(FINEST.max(of_height * of_slope));
+    10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
+}
+
+/// How far an error ε of f' displaces the tip, in σ: see [`accuracy_needed`].
+#[must_use]
+pub fn displacement(model: &Model, slope_error: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
     let width = model.tip().widths(1.0);
     // Without a support its own force moves the tip.
     let speed = if model.wider().spring { model.r() } else { 1.0 };
     let moving = WIDTHS * width * model.alpha().abs() / speed;
     let stuck = if curvature > 0.0 { 1.0 / curvature } else { 0.0 };
-    let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
-    let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
-    let of_slope = SHARE * tolerance / moving.max(stuck);
-    let largest = of_slope.min(FINEST.max(of_height * of_slope));
-    10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
+    slope_error * moving.max(stuck)
 }

@@ -9,7 +9,7 @@ mod pencil;
 mod term;
 mod weights;
 
-pub use accuracy::accuracy_needed;
+pub use accuracy::{accuracy_needed, displacement};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub use term::Term;

@@ -1,0 +1,98 @@
+//! `stickslip stability --pitch` under the wider law.
+
+use super::growth_of;
+use crate::arguments::StabilityArguments;
+use crate::commands::footprint::footprint;
+use crate::commands::job::Job;
+use crate::commands::model::{tip, wide_model, wider as wider_law};
+use crate::failure::{Failure, Typed};
+use stickslip_documents::{
+    FORMAT_VERSION, ModelParameters, PathName, RasterStabilityDocument, RasterStabilityParameters,
+    Software,
+};
+use stickslip_stability::{RasterCritical, StabilityError, WiderRaster};
+use stickslip_tip::{Model, Wider};
+
+pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
+    let (law, tip) = (wider_law(&arguments.model.wider), tip(&arguments.model.tip)?);
+    let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
+    let path = arguments.path.unwrap_or(PathName::OneWay);
+    if path != PathName::OneWay {
+        return Err(Failure::input(
+            "--path",
+            "under the wider law linear theory knows one-way lines only: leave it out, or --depth-limit, \
+             --healing-time and --inertia",
+        ));
+    }
+    let missing = |option: &'static str, message| move || Failure::input(option, message);
+    let r = arguments.model.r.ok_or_else(missing("--r", "give the support velocity, --r R"))?;
+    let pitch = arguments
+        .pitch
+        .ok_or_else(missing("--pitch", "give the distance of the lines, --pitch D"))?;
+    let at = (r, pitch);
+    let left = left(arguments, &law, r)?;
+    let raster = WiderRaster::new(&footprint, law, at, left).map_err(|error| refused(error, at))?;
+    let job = Job::open::<RasterStabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let critical = raster.critical();
+    let given = &arguments.model;
+    let is_given = given.alpha.is_some() || given.alpha_above.is_some();
+    let model = match critical {
+        _ if is_given => wide_model(given)?,
+        Ok(RasterCritical { alpha, .. }) => Model::under(law, tip.clone(), alpha, r)
+            .map_err(|error| Failure::Run(error.to_string()))?,
+        Err(error) => return Err(refused(error, at)),
+    };
+    let alpha = model.alpha();
+    let growth = || growth_of(tip.band(), |q| raster.growth(alpha, q).to_polar());
+    let stable = critical.as_ref().map_or(true, |at| alpha < at.alpha);
+    let none = critical.as_ref().err().map(|error| format!("critical: {error}"));
+    job.finish(&RasterStabilityDocument {
+        format: RasterStabilityDocument::FORMAT.into(),
+        format_version: FORMAT_VERSION,
+        software: Software::this(),
+        parameters: RasterStabilityParameters {
+            model: ModelParameters::of(&model, given.alpha_above),
+            width_y,
+            path,
+            pitch: Some(pitch),
+            length: arguments.length,
+            at_critical_point: !is_given,
+        },
+        critical: critical.as_ref().ok().map(Into::into),
+        stable: is_given.then_some(stable),
+        growth: is_given.then(growth),
+        remarks: none.into_iter().collect(),
+    })
+}
+
+/// What is left of a groove after another line.
+fn left(arguments: &StabilityArguments, law: &Wider, r: f64) -> Result<f64, Failure> {
+    match (arguments.length, law.healing_time) {
+        (None, None) => Ok(1.0),
+        (Some(length), Some(_)) if length.is_finite() && length > 0.0 => {
+            Ok(law.left_after(length / r))
+        }
+        (Some(length), Some(_)) => Err(Failure::input(
+            format!("--length {}", Typed(length)),
+            "must be a finite number above 0",
+        )),
+        (None, Some(_)) => Err(Failure::input(
+            "--length",
+            "give the length of the lines, --length X: a surface heals while the support goes along them",
+        )),
+        (Some(_), None) => Err(Failure::input(
+            "--length",
+            "counts for nothing where the surface does not heal: leave it out, or give --healing-time T",
+        )),
+    }
+}
+
+fn refused(error: StabilityError, (r, pitch): (f64, f64)) -> Failure {
+    match error {
+        StabilityError::R(_) => Failure::input(format!("--r {}", Typed(r)), error),
+        StabilityError::NoSupport => Failure::input("--no-spring", error),
+        StabilityError::Corner => Failure::input("--depth-limit", error),
+        StabilityError::PapersLawOnly(_) => Failure::input("--tip", error),
+        error => Failure::input(format!("--pitch {}", Typed(pitch)), error),
+    }
+}

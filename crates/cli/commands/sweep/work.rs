@@ -1,0 +1,110 @@
+//! Points side by side on all cores, each kept as soon as it is there.
+
+use crate::commands::finished::{Finished, Part};
+use crate::commands::progress::Progress;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::message::remark;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use std::collections::HashSet;
+use std::io;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use stickslip_tip::stop;
+
+/// What the threads share.
+struct State<P> {
+    finished: Finished<P>,
+    progress: Progress,
+    /// Points in all.
+    count: usize,
+    /// Whether all could be written down.
+    kept: io::Result<()>,
+}
+
+impl<P: Part> State<P> {
+    /// `None` once a point could not be kept: the others need not be found.
+    fn keep(&mut self, point: P) -> Option<()> {
+        self.kept = self.finished.add(point);
+        let done = self.finished.parts().len();
+        self.progress.counted(done as f64, || format!("{done} of {} points", self.count));
+        self.kept.is_ok().then_some(())
+    }
+}
+
+/// All points that are not finished yet.
+///
+/// # Errors
+/// A signal came, or a point could not be kept.
+pub(super) fn compute<P: Part + Send>(
+    indices: &[usize],
+    finished: Finished<P>,
+    threads: usize,
+    interrupt: &Interrupt,
+    judged: impl Fn(usize) -> P + Sync,
+) -> Result<Finished<P>, Failure> {
+    let done: HashSet<usize> = finished.parts().iter().map(P::index).collect();
+    let missing: Vec<usize> =
+        indices.iter().copied().filter(|index| !done.contains(index)).collect();
+    let count = done.len() + missing.len();
+    if let (Some(path), false) = (finished.path(), done.is_empty()) {
+        remark(format_args!(
+            "stickslip: {} of {count} points are in {}",
+            done.len(),
+            path.display()
+        ));
+    }
+    let progress = Progress::new(done.len() as f64, count as f64).at_every_call();
+    let state = Mutex::new(State { finished, progress, count, kept: Ok(()) });
+    let finished_so_far = Arc::new(AtomicUsize::new(done.len()));
+    {
+        let done = Arc::clone(&finished_so_far);
+        let path = state
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .finished
+            .path()
+            .map(Path::to_owned);
+        interrupt.or_else(move |signal| {
+            unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
+        });
+    }
+    let work = |index: &usize| {
+        if interrupt.signal().is_some() {
+            return None;
+        }
+        let found = stop::where_asked_by(interrupt.flag(), || judged(*index));
+        // What a signal cut short is no point.
+        let point = Some(found).filter(|_| interrupt.signal().is_none())?;
+        finished_so_far.fetch_add(1, Ordering::Relaxed);
+        state.lock().unwrap_or_else(PoisonError::into_inner).keep(point)
+    };
+    // More than there are points have nothing to do but to look for it; 0 of them is one for each core.
+    let threads = threads.min(missing.len().max(1));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| Failure::Run(format!("cannot start threads: {error}")))?;
+    pool.install(|| missing.par_iter().with_max_len(1).try_for_each(work));
+    let State { finished, kept, .. } = state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    kept.map_err(|error: io::Error| {
+        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
+        Failure::Write { target, error }
+    })?;
+    match interrupt.signal() {
+        Some(signal) => Err(unfinished(finished.parts().len(), count, finished.path(), signal)),
+        None => Ok(finished),
+    }
+}
+
+fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
+    let message = match path {
+        Some(path) => format!(
+            "{done} of {count} points are in {}: the same command goes on from there",
+            path.display()
+        ),
+        None => format!(
+            "{done} of {count} points were done, none are kept: with -o FILE.json they would be"
+        ),
+    };
+    Failure::Unfinished { signal, message }
+}

@@ -1,0 +1,150 @@
+//! The leading Floquet multipliers where the past takes hundreds of exponentials: the period map is applied to a few
+//! deviations instead of all.
+//!
+//! A block Krylov space grows from what kicks at several times of a period have become at its end: deviations that a
+//! past of the tip leads to. The period map within it (Rayleigh, Ritz) has the leading multipliers long before the
+//! others; what two spaces agree on that follow each other is told.
+
+use super::embedding::{Embedding, Parameter};
+use super::linearisation::along;
+use super::orbit::Orbit;
+use super::past::Past;
+use super::sensitivity::Sensitivity;
+use super::solve::Closed;
+use super::step::LinearStep;
+use nalgebra::DMatrix;
+use num_complex::Complex;
+use std::sync::Arc;
+use stickslip_tip::eigenvalues;
+
+/// Kicks, and deviations that are carried through a period side by side.
+const BLOCK: usize = 8;
+/// Of the space; and by how much it grows between looks at it.
+const MOST_DIMENSIONS: usize = 320;
+const GROWTH: f64 = 1.2;
+/// Multipliers are told if the last two spaces looked at differ by no more in them, and by no more than this where they
+/// were to grow on.
+const AGREED: f64 = 1e-8;
+const NEARLY: f64 = 1e-4;
+/// Of a deviation that the space holds already, this much is round-off.
+const HELD: f64 = 1e-11;
+
+/// In the fine sum, by falling modulus, those above `least` and what else is had with them. `None` where the equations
+/// are singular, or nobody waits any more.
+pub(super) fn leading(closed: &Closed, least: f64) -> Option<Vec<Complex<f64>>> {
+    let Closed { equation, orbit, .. } = closed;
+    let map = PeriodMap::new(equation, orbit);
+    let past = map.past()?;
+    let mut space = DMatrix::zeros(map.len(), 0);
+    let mut images = space.clone();
+    let mut block = outside(&space, map.kicks(&past)?);
+    let (mut before, mut looked_at) = (vec![], 0.0);
+    loop {
+        let image = map.of(&past, &block)?;
+        (space, images) = (beside(&space, &block), beside(&images, &image));
+        block = outside(&space, image);
+        let (is_closed, is_full) = (block.ncols() == 0, space.ncols() + BLOCK > MOST_DIMENSIONS);
+        if !is_closed && !is_full && (space.ncols() as f64) < GROWTH * looked_at {
+            continue;
+        }
+        looked_at = space.ncols() as f64;
+        let mut found = sorted(space.tr_mul(&images))?;
+        let is_told = |m: &Complex<f64>, within: f64| {
+            before.iter().any(|other: &Complex<f64>| (m - other).norm() <= within)
+        };
+        // That of a shift in time is always among them.
+        let mut wanted = found.iter().take_while(|m| m.norm() > least).peekable();
+        let enough = wanted.peek().is_some() && wanted.all(|m| is_told(m, AGREED));
+        if is_closed {
+            return Some(found);
+        }
+        if enough || is_full {
+            let within = if enough { AGREED } else { NEARLY };
+            found.retain(|m| is_told(m, within));
+            return Some(found);
+        }
+        before = found;
+    }
+}
+
+/// The eigenvalues of a matrix, by falling modulus.
+pub(super) fn sorted(matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let mut found = eigenvalues(matrix)?;
+    // Both of a pair have the same modulus to the last bit, and stay in their order.
+    found.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+    Some(found)
+}
+
+/// From deviations of the state at the start of a period to those at its end.
+struct PeriodMap<'a> {
+    /// Linearised in the fine sum.
+    equation: Embedding,
+    orbit: &'a Orbit,
+}
+
+impl<'a> PeriodMap<'a> {
+    fn new(equation: &Embedding, orbit: &'a Orbit) -> Self {
+        Self {
+            equation: Embedding { short: Arc::clone(&equation.fine), ..equation.clone() },
+            orbit,
+        }
+    }
+
+    fn past(&self) -> Option<Past<'_>> {
+        let carved = self.orbit.carved(&self.equation.wider);
+        Past::of(&self.equation.short, self.orbit, &carved)
+    }
+
+    /// Length of the state.
+    fn len(&self) -> usize {
+        self.equation.state_len()
+    }
+
+    /// What becomes of deviations, one a column.
+    fn of(&self, past: &Past, block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let mut state = Sensitivity::of(block);
+        let carry = |_, step: &LinearStep, share: f64| {
+            step.carry(Parameter::Alpha, share, &mut state).map(drop)
+        };
+        along(&self.equation, self.orbit, (past, past), carry).ok()?;
+        Some(state.columns())
+    }
+
+    /// At the end of a period, of tips that were moved on by 1 at evenly spread steps of it.
+    fn kicks(&self, past: &Past) -> Option<DMatrix<f64>> {
+        let steps = self.orbit.stages.len();
+        let mut state = Sensitivity::of(&DMatrix::zeros(self.len(), BLOCK));
+        let carry = |n, step: &LinearStep, share: f64| {
+            for kick in (0..BLOCK).filter(|kick| kick * steps / BLOCK == n) {
+                state.set_column(kick, past.of_step(n).moved_on());
+            }
+            step.carry(Parameter::Alpha, share, &mut state).map(drop)
+        };
+        along(&self.equation, self.orbit, (past, past), carry).ok()?;
+        Some(state.columns())
+    }
+}
+
+/// Columns side by side.
+fn beside(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let columns: Vec<_> = left.column_iter().chain(right.column_iter()).collect();
+    if columns.is_empty() { left.clone() } else { DMatrix::from_columns(&columns) }
+}
+
+/// An orthonormal basis of what the space does not hold yet of these.
+fn outside(space: &DMatrix<f64>, columns: DMatrix<f64>) -> DMatrix<f64> {
+    let mut basis = space.clone();
+    for column in columns.column_iter() {
+        let size = column.norm();
+        let mut left = column.into_owned();
+        // Once more: the first time leaves round-off of what was large.
+        for _ in 0..2 {
+            left -= &basis * basis.tr_mul(&left);
+        }
+        let rest = left.norm();
+        if rest > HELD * size {
+            basis = beside(&basis, &DMatrix::from_columns(&[left / rest]));
+        }
+    }
+    basis.columns(space.ncols(), basis.ncols() - space.ncols()).into_owned()
+}

@@ -1,0 +1,129 @@
+//! Rasters over pitch and α: their regimes, or what is measured of their ripples.
+
+use super::drawn::{Drawn, View};
+use super::tip::tip_name;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    CellsDocument, ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument,
+    PathName, PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
+};
+
+/// In the legend, from calm to stuck.
+const REGIMES: [(RasterRegimeName, ColourName); 6] = [
+    (RasterRegimeName::Steady, ColourName::Silver),
+    (RasterRegimeName::Ripples, ColourName::Sky),
+    (RasterRegimeName::Pits, ColourName::Orange),
+    (RasterRegimeName::Disordered, ColourName::Purple),
+    (RasterRegimeName::StuckAtTheEdge, ColourName::Grey),
+    (RasterRegimeName::Unknown, ColourName::Black),
+];
+/// With more points than these there is no room for an angle in each.
+const MOST_ANGLES: usize = 150;
+
+impl Drawn for RasterSweepDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let mut figure = FigureDocument::new("raster-sweep", &title(self), vec![]);
+        let parameters = &self.parameters;
+        figure.panels = match (parameters.pitch.as_slice(), parameters.alpha.as_slice()) {
+            ([_], [_]) => {
+                let message = "a single point is no picture: give a range LO:HI:N".into();
+                return Err(FigureError::Nothing(message));
+            }
+            ([_], alpha) => row(self, "α", alpha),
+            (pitch, [_]) => row(self, "pitch (σ)", pitch),
+            _ => vec![map(self)],
+        };
+        Ok(figure)
+    }
+}
+
+fn title(document: &RasterSweepDocument) -> String {
+    let parameters = &document.parameters;
+    let path = match parameters.path {
+        PathName::Zigzag => "zigzag",
+        PathName::OneWay | PathName::Repeat => "one-way",
+    };
+    let limit = parameters.depth_limit.map_or(String::new(), |b| format!(", b = {}", short(b)));
+    let (tip, r, length) =
+        (tip_name(&parameters.tip), short(parameters.r), short(parameters.length));
+    format!("{tip}, r = {r}{limit}, {path}, {} lines of {length} σ", parameters.lines)
+}
+
+/// A cell for each point, with the crest angle of ripples and pits, and the threshold of linear theory.
+fn map(document: &RasterSweepDocument) -> PanelDocument {
+    let parameters = &document.parameters;
+    let mut panel = PanelDocument::new("angles: crests to scan axis", ("pitch (σ)", "α"));
+    let columns = parameters.alpha.len();
+    let kind = |point: &RasterSweepPoint| {
+        let regime = point.regime?;
+        REGIMES.iter().position(|(name, _)| *name == regime)
+    };
+    let mut kinds = vec![vec![None; parameters.pitch.len()]; columns];
+    for point in &document.points {
+        kinds[point.index % columns][point.index / columns] = kind(point);
+    }
+    panel.cells = Some(CellsDocument {
+        x: parameters.pitch.clone(),
+        y: parameters.alpha.clone(),
+        kinds,
+        names: REGIMES.iter().map(|(name, _)| name.to_string()).collect(),
+        colours: REGIMES.iter().map(|(_, colour)| *colour).collect(),
+    });
+    if document.points.len() <= MOST_ANGLES {
+        panel.notes = document.points.iter().filter_map(angle).collect();
+    }
+    panel.curves.extend(threshold(document));
+    panel
+}
+
+/// That of what is ordered.
+fn angle(point: &RasterSweepPoint) -> Option<NoteDocument> {
+    let is_ordered =
+        matches!(point.regime, Some(RasterRegimeName::Ripples | RasterRegimeName::Pits));
+    let found = point.pattern.as_ref().filter(|_| is_ordered)?;
+    let text = format!("{:.0}°", found.crest_angle);
+    Some(NoteDocument::new(&text, (point.pitch, point.alpha)))
+}
+
+/// αc from line to line over the pitch; none where it lies beyond the axes.
+fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
+    let alpha = &document.parameters.alpha;
+    let (low, high) = (*alpha.first()?, *alpha.last()?);
+    let first = document.points.iter().filter(|point| point.index % alpha.len() == 0);
+    let seen = |point: &RasterSweepPoint| {
+        let critical = point.critical_alpha.filter(|at| (low..=high).contains(at));
+        (point.pitch, critical.unwrap_or(f64::NAN))
+    };
+    let (x, y): (Vec<f64>, Vec<f64>) = first.map(seen).unzip();
+    let mut curve = CurveDocument::new(StyleName::Line, "α_c from line to line", &x, &y);
+    curve.colour = Some(ColourName::Black);
+    y.iter().any(|y| y.is_finite()).then_some(curve)
+}
+
+/// Wavelength, angle and coherence of ripples over what varies.
+fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<PanelDocument> {
+    type Measure = fn(&PatternDocument) -> f64;
+    let measures: [(&str, Measure); 3] = [
+        ("wavelength (σ)", |p| p.wavelength),
+        ("crests to scan axis (°)", |p| p.crest_angle),
+        ("coherence", |p| p.coherence),
+    ];
+    let curve = |measure: Measure, (regime, colour): (RasterRegimeName, ColourName)| {
+        let value = |point: &RasterSweepPoint| match &point.pattern {
+            Some(pattern) if point.regime == Some(regime) => measure(pattern),
+            _ => f64::NAN,
+        };
+        let y: Vec<f64> = document.points.iter().map(value).collect();
+        let name = regime.to_string();
+        let mut curve = CurveDocument::new(StyleName::Dots, &name, values, &y);
+        curve.colour = Some(colour);
+        y.iter().any(|y| y.is_finite()).then_some(curve)
+    };
+    let panel = |(y_label, measure): (&str, Measure)| {
+        let mut panel = PanelDocument::new("", (label, y_label));
+        panel.curves = REGIMES.into_iter().filter_map(|regime| curve(measure, regime)).collect();
+        panel
+    };
+    measures.into_iter().map(panel).collect()
+}

@@ -1,0 +1,301 @@
+//! An area scanned line by line, as the full PDE: heights on rows of cells, all rows within reach carved in every step.
+//!
+//! ```text
+//! x0' = -u_x(x0, Y, t) + R(t) - x0 + Fext(t),      u_t(x, y, t) = -α f(x - x0(t), y - Y)
+//! ```
+//!
+//! There is a row at the y of every line. Rows between them would be carved too but never be read: no motion depends on
+//! them. f(x,y) is a sum of products, so that a step makes one imprint for each and adds it to every row.
+
+use crate::cells::Cells;
+use crate::marcher::Marcher;
+use crate::patch::Patch;
+use crate::scheme::{Scheme, sample};
+use crate::sinc::Sinc;
+use crate::tableau::Tableau;
+use crate::{Footprint, GridError, Path, Problem, Request, Start, Stepping, Wider, Work};
+use std::ops::ControlFlow;
+
+/// g(x) h(y), one of the products that f(x,y) is the sum of.
+#[derive(Clone, Copy)]
+pub struct Layer<'a> {
+    /// g
+    pub along: &'a dyn Fn(f64) -> f64,
+    /// h
+    pub across: &'a dyn Fn(f64) -> f64,
+}
+
+/// The way of the support along one line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScanLine {
+    /// Where it lies.
+    pub y: f64,
+    /// Where the support starts, and where it ends.
+    pub from: f64,
+    /// End.
+    pub to: f64,
+}
+
+/// What is scanned, and by what law.
+pub struct Scan<'a> {
+    /// α and r.
+    pub model: (f64, f64),
+    /// b and T; M without a velocity at the start, which is that of the line before on a zigzag, and otherwise 0.
+    pub law: (Option<f64>, Option<f64>, Option<f64>),
+    /// f(x,y)
+    pub layers: &'a [Layer<'a>],
+    /// Beyond these distances in x and y it counts as 0.
+    pub reach: (f64, f64),
+    /// In the order of the scan.
+    pub lines: &'a [ScanLine],
+    /// Whether the tip starts a line where the one before has ended, or at its start.
+    pub zigzag: bool,
+    /// On the first line, by the time since its start.
+    pub force: &'a dyn Fn(f64) -> f64,
+}
+
+/// What became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scanned {
+    /// x0 on each line at the times asked for, since its start.
+    pub x0: Vec<Vec<f64>>,
+    /// Times since the start of each line and x0 at the ends of its own steps.
+    pub steps: Vec<Vec<(f64, f64)>>,
+    /// y of the rows, ascending.
+    pub y: Vec<f64>,
+    /// u after the last line at the points asked for, a row for each y.
+    pub u: Vec<Vec<f64>>,
+    /// What it took.
+    pub work: Work,
+}
+
+/// Cells on either side that the interpolation reaches over.
+const HALF_WIDTH: usize = 80;
+/// A tip so many reaches outside of where the support goes has left the grid.
+const OUTSIDE: f64 = 2.0;
+
+/// Told the number of lines that are done; may stop the scan there.
+pub type LineObserver<'a> = dyn FnMut(usize) -> ControlFlow<()> + 'a;
+
+/// Scans all lines on a flat surface; `spacing` is that of the cells, at most π over the largest wave number in f. Times
+/// are those of every line, ascending from its start, each hit by a step; those after its end count for nothing.
+///
+/// # Errors
+/// Unusable input; a tip that leaves the grid; a step lost in round-off; [`GridError::Stopped`].
+pub fn scan(
+    scan: &Scan,
+    spacing: f64,
+    stepping: &Stepping,
+    (times, points): (&[f64], &[f64]),
+    observe: &mut LineObserver,
+) -> Result<Scanned, GridError> {
+    stepping.check()?;
+    if !(spacing.is_finite() && spacing > 0.0) {
+        return Err(GridError::Spacing(spacing));
+    }
+    let mut plane = Plane::new(scan, spacing)?;
+    let (mut x0, mut steps, mut state, mut work) = (vec![], vec![], None, Work::default());
+    for (n, line) in scan.lines.iter().enumerate() {
+        let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
+        let mut own = vec![];
+        let (at, end, took) = plane.line(scan, n, start, stepping, times, &mut own)?;
+        x0.push(at);
+        steps.push(own);
+        state = Some(end);
+        work.steps += took.steps;
+        work.rejected += took.rejected;
+        work.right_hand_sides += took.right_hand_sides;
+        work.cells_updated += took.cells_updated;
+        if observe(n + 1).is_break() {
+            return Err(GridError::Stopped { time: elapsed(scan, n) });
+        }
+    }
+    let u = plane.rows.iter().map(|row| plane.read(row, points)).collect();
+    Ok(Scanned { x0, steps, y: plane.y, u, work })
+}
+
+/// Since the start of the first line, at the end of line n.
+fn elapsed(scan: &Scan, n: usize) -> f64 {
+    let length: f64 = scan.lines[..=n].iter().map(|line| (line.to - line.from).abs()).sum();
+    length / scan.model.1
+}
+
+/// Heights on all rows.
+struct Plane {
+    y: Vec<f64>,
+    /// Index of the first cell.
+    first: i64,
+    rows: Vec<Vec<f64>>,
+    spacing: f64,
+    /// Where a tip may be.
+    ends: (f64, f64),
+}
+
+/// x0 and x0' at the end of a line.
+type State = (f64, f64);
+
+impl Plane {
+    fn new(scan: &Scan, spacing: f64) -> Result<Self, GridError> {
+        let mut y: Vec<f64> = scan.lines.iter().map(|line| line.y).collect();
+        y.sort_by(f64::total_cmp);
+        y.dedup();
+        let both = || scan.lines.iter().flat_map(|line| [line.from, line.to]);
+        let (low, high) =
+            (both().fold(f64::INFINITY, f64::min), both().fold(f64::NEG_INFINITY, f64::max));
+        let outside = OUTSIDE * scan.reach.0;
+        let ends = (low - outside, high + outside);
+        let beyond = scan.reach.0 + HALF_WIDTH as f64 * spacing;
+        let (from, to) =
+            (((ends.0 - beyond) / spacing).floor(), ((ends.1 + beyond) / spacing).ceil());
+        let count = to - from + 1.0;
+        if y.iter().any(|y| !y.is_finite()) || !(4.0..=1e8).contains(&(count * y.len() as f64)) {
+            return Err(GridError::Domain { from: low, to: high });
+        }
+        let rows = vec![vec![0.0; count as usize]; y.len()];
+        Ok(Self { y, first: from as i64, rows, spacing, ends })
+    }
+
+    /// Scans one line from a state; x0 at the times as far as it lasts, and how it ends.
+    fn line(
+        &mut self,
+        scan: &Scan,
+        n: usize,
+        (start, velocity): State,
+        stepping: &Stepping,
+        times: &[f64],
+        steps: &mut Vec<(f64, f64)>,
+    ) -> Result<(Vec<f64>, State, Work), GridError> {
+        let (line, (alpha, r)) = (scan.lines[n], scan.model);
+        let duration = (line.to - line.from).abs() / r;
+        let position = |t: f64| line.from + (line.to - line.from).signum() * r * t;
+        let (depth_limit, healing_time, mass) = scan.law;
+        let inertia = mass.map(|mass| (mass, velocity));
+        let path = Some(Path { position: &position, knots: &[] });
+        let wider = Wider { depth_limit, healing_time, inertia, spring: true, path };
+        let left = move |time: f64| healing_time.map_or(1.0, |healing| (-time / healing).exp());
+        let section = |x: f64| scan.layers.iter().map(|l| (l.along)(x) * (l.across)(0.0)).sum();
+        let footprint = Footprint::new(&section, scan.reach.0)?;
+        let scheme = || Sinc::new(footprint, self.spacing, HALF_WIDTH);
+        let reader =
+            Reader { scheme: scheme(), first: self.first, cells: self.own_row(line.y).to_vec() };
+        let surface = Start::new(0.0, start, |x| reader.height(x), |x| reader.slope(x));
+        let problem = Problem::under(wider, scan.model, footprint, surface)?;
+        let problem = if n == 0 { problem.with_force(scan.force) } else { problem };
+        let nothing = |_: i64| 0.0;
+        let within: Vec<f64> = times.iter().copied().filter(|t| *t < duration).collect();
+        let asked = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12)).count();
+        let all: Vec<f64> = within.into_iter().chain([duration]).collect();
+        let request = Request { times: &all, points: &[] };
+        request.check(0.0)?;
+        let (scheme, ends) = (scheme(), self.ends);
+        self.rows.iter_mut().flatten().for_each(|u| *u *= left(duration));
+        let mut carver = Carver { plane: self, scan, line, imprint: Patch::default(), cells: 0 };
+        let mut outside = None;
+        let ran = {
+            let mut carve = |visits: &[(f64, f64, f64)]| {
+                carver.carve(visits, -alpha, &|t| left(duration - t));
+            };
+            let (cells, tableau) = (Cells::new(&nothing), Tableau::dop853());
+            Marcher::new(&problem, scheme, tableau, *stepping, cells, Some(&problem.start))
+                .telling(&mut carve)
+                .run_to_velocity(&request, &mut |time, x0| {
+                    steps.push((time, x0));
+                    if x0 > ends.0 && x0 < ends.1 {
+                        return ControlFlow::Continue(());
+                    }
+                    outside = Some(GridError::LeftGrid { time, x0 });
+                    ControlFlow::Break(())
+                })
+        };
+        let (run, velocity) = ran.map_err(|error| outside.unwrap_or(error))?;
+        let mut work = run.work;
+        work.cells_updated += carver.cells;
+        let mut x0 = run.x0;
+        let end = x0[x0.len() - 1];
+        x0.truncate(asked);
+        Ok((x0, (end, velocity), work))
+    }
+
+    fn own_row(&self, y: f64) -> &[f64] {
+        let own = self.y.partition_point(|other| *other < y);
+        &self.rows[own]
+    }
+
+    fn read(&self, row: &[f64], points: &[f64]) -> Vec<f64> {
+        let nothing = |_: f64| 0.0;
+        let Ok(footprint) = Footprint::new(&nothing, 1.0) else { return vec![] };
+        let scheme = Sinc::new(footprint, self.spacing, HALF_WIDTH);
+        let reader = Reader { scheme, first: self.first, cells: row.to_vec() };
+        points.iter().map(|x| reader.height(*x)).collect()
+    }
+}
+
+/// A row as it was before the line, read by a regularised sinc.
+struct Reader<'a> {
+    scheme: Sinc<'a>,
+    first: i64,
+    cells: Vec<f64>,
+}
+
+impl Reader<'_> {
+    fn height(&self, x: f64) -> f64 {
+        self.dot(|scheme, out| scheme.height_stencil(x, out))
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        self.dot(|scheme, out| scheme.slope_stencil(x, out))
+    }
+
+    fn dot(&self, stencil: impl Fn(&Sinc, &mut Patch)) -> f64 {
+        let mut patch = Patch::default();
+        stencil(&self.scheme, &mut patch);
+        let cell = |k: usize| {
+            let index = patch.first - self.first + k as i64;
+            usize::try_from(index).ok().and_then(|k| self.cells.get(k)).copied().unwrap_or(0.0)
+        };
+        patch.values.iter().enumerate().map(|(k, weight)| weight * cell(k)).sum()
+    }
+}
+
+/// Carves all rows within reach.
+struct Carver<'a> {
+    plane: &'a mut Plane,
+    scan: &'a Scan<'a>,
+    line: ScanLine,
+    imprint: Patch,
+    cells: u64,
+}
+
+impl Carver<'_> {
+    /// What one step adds, `left` of which remains at the end of the line.
+    fn carve(&mut self, visits: &[(f64, f64, f64)], factor: f64, left: &dyn Fn(f64) -> f64) {
+        let Self { plane, scan, line, imprint, cells } = self;
+        let reach = scan.reach.0;
+        let ends = |(low, high): (f64, f64), visit: &(f64, f64, f64)| {
+            (low.min(visit.1), high.max(visit.1))
+        };
+        let (low, high) = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let first = ((low - reach) / plane.spacing).floor() as i64;
+        let len = ((high + reach) / plane.spacing).ceil() as i64 - first + 1;
+        for layer in scan.layers {
+            let Ok(footprint) = Footprint::new(layer.along, reach) else { return };
+            let mut sum = Patch::default();
+            sum.reset(first, len as usize);
+            for (time, x, weight) in visits {
+                sample(&footprint, plane.spacing, *x, imprint);
+                sum.add(factor * weight * left(*time), imprint);
+            }
+            for (y, row) in plane.y.iter().zip(&mut plane.rows) {
+                if (y - line.y).abs() > scan.reach.1 {
+                    continue;
+                }
+                let height = (layer.across)(y - line.y);
+                let offset = usize::try_from(first - plane.first).unwrap_or(0);
+                for (u, g) in row[offset..].iter_mut().zip(&sum.values) {
+                    *u += height * g;
+                }
+                *cells += sum.values.len() as u64;
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The part of an area that is looked at: the largest rectangle of lines that lie evenly.
+
+use crate::area::pitch_of;
+use crate::path::AreaLine;
+use crate::plan::{Plan, WIDTHS};
+
+/// The part of the length that is looked at: neither the pit at the beginning nor the end.
+pub(super) const ALONG: (f64, f64) = (0.2, 0.85);
+/// Of the lines the last part, but no more than so many.
+const LAST: f64 = 0.5;
+const MOST_ROWS: usize = 256;
+/// Of a shape so many lines are tried.
+const MOST_TRIED: usize = 2048;
+/// The last lines have not yet been gone over by those that would follow within so many widths.
+const UNFINISHED: f64 = 3.5;
+/// Fewer rows, or a shorter stretch in wavelengths of the footprint, show no wave vector.
+const FEWEST_ROWS: usize = 8;
+const SHORTEST: f64 = 12.0;
+
+/// Lines first..end, from x to x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Window {
+    pub(super) first: usize,
+    pub(super) end: usize,
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) pitch: f64,
+}
+
+impl Window {
+    /// Of the first `scanned` lines of a plan; `None` if there is none in which a wave vector could be seen.
+    pub(super) fn of(plan: &Plan, scanned: usize) -> Option<Self> {
+        let width = 8.7 / plan.band();
+        let across = plan.reach_across() / WIDTHS;
+        let lines: Vec<AreaLine> = (0..scanned).map(|n| line(plan, n)).collect();
+        let gaps = lines.windows(2).map(|pair| pair[1].y - pair[0].y).filter(|gap| *gap > 0.0);
+        // One line over and over has none.
+        let closest = gaps.fold(f64::INFINITY, f64::min);
+        let unfinished = (UNFINISHED * across / closest).ceil() as usize;
+        let last = scanned.checked_sub(unfinished)?;
+        let begin = (last - (LAST * last as f64) as usize).max(last.saturating_sub(MOST_TRIED));
+        let window = largest(&lines[begin..last])?;
+        let window = Self { first: window.first + begin, end: window.end + begin, ..window };
+        let rows = window.end - window.first;
+        let is_enough = window.to - window.from > SHORTEST * width
+            && rows >= FEWEST_ROWS
+            && window.pitch * rows as f64 >= SHORTEST * across;
+        is_enough.then_some(window)
+    }
+}
+
+/// What is looked at of line n.
+fn line(plan: &Plan, n: usize) -> AreaLine {
+    let track = plan.track(n);
+    let ends = [ALONG.0, ALONG.1].map(|part| track.x(part * track.length));
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    AreaLine { y: track.y, start: low, length: high - low }
+}
+
+/// The largest of all within evenly spaced lines; of equal ones the last.
+fn largest(lines: &[AreaLine]) -> Option<Window> {
+    let mut best: Option<(f64, Window)> = None;
+    for end in 2..=lines.len() {
+        let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+        let gap = lines[end - 1].y - lines[end - 2].y;
+        for first in (end.saturating_sub(MOST_ROWS)..end).rev() {
+            let line = &lines[first];
+            (from, to) = (from.max(line.start), to.min(line.start + line.length));
+            let rows = end - first;
+            if to <= from
+                || (rows > 2
+                    && pitch_of(&lines[first..first + 2])
+                        .is_none_or(|p| (p - gap).abs() > 1e-6 * gap))
+            {
+                break;
+            }
+            let size = (to - from) * rows as f64;
+            if rows > 1 && best.is_none_or(|(most, _)| size >= most) {
+                best = Some((size, Window { first, end, from, to, pitch: gap }));
+            }
+        }
+    }
+    best.map(|(_, window)| window)
+        .filter(|window| pitch_of(&lines[window.first..window.end]).is_some())
+}

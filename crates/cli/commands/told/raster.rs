@@ -25,6 +25,10 @@ impl Product for RasterDocument {
             .maybe("wavelength", pattern.map(|p| of(p.wavelength, "σ")))
             .maybe("crests to scan axis", pattern.map(|p| of(p.crest_angle, "°")))
             .maybe("coherence", pattern.map(|p| digits(p.coherence, 4)))
+            .maybe(
+                "of lines that go the same way",
+                pattern.and_then(|p| p.coherence_same_way).map(|c| digits(c, 4)),
+            )
             .maybe("amplitude of u", pattern.map(|p| of(p.amplitude, "kσ²/a")))
             .maybe("defects", pattern.map(|p| p.defects.to_string()))
             .row("volume", format!("{} kσ⁴/a", digits(self.volume, 10)))

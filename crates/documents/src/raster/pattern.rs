@@ -10,11 +10,11 @@ use stickslip_raster::{Pattern, Regime};
 pub enum RasterRegimeName {
     /// No ripples.
     Steady,
-    /// Crests, the same from line to line.
+    /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
     Ripples,
     /// Crests broken into pits, lines still following each other.
     Pits,
-    /// Neither; zigzag lines of which every other one is shifted to and fro too.
+    /// Neither.
     Disordered,
     /// On most lines the tip did not come out of the pit at their beginning.
     StuckAtTheEdge,
@@ -36,6 +36,9 @@ pub struct PatternDocument {
     pub crest_angle: f64,
     /// How far each line is the one before, shifted: 1 where all shifts are the same.
     pub coherence: f64,
+    /// The same of lines that go the same way, on a zigzag.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coherence_same_way: Option<f64>,
     /// Half peak-to-peak of the surface, in kσ²/a.
     pub amplitude: f64,
     /// Places where a crest begins or ends.
@@ -44,8 +47,18 @@ pub struct PatternDocument {
 
 impl From<Pattern> for PatternDocument {
     fn from(found: Pattern) -> Self {
-        let Pattern { q, kappa, wavelength, crest_angle, coherence, amplitude, defects } = found;
-        Self { q, kappa, wavelength, crest_angle, coherence, amplitude, defects }
+        let Pattern { q, kappa, wavelength, crest_angle, .. } = found;
+        let Pattern { coherence, coherence_same_way, amplitude, defects, .. } = found;
+        Self {
+            q,
+            kappa,
+            wavelength,
+            crest_angle,
+            coherence,
+            coherence_same_way,
+            amplitude,
+            defects,
+        }
     }
 }
 

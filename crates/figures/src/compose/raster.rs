@@ -124,7 +124,9 @@ fn heading(document: &RasterDocument) -> String {
         Some(p) => {
             format!(
                 "{regime}: {:.2} σ at {:.1}°, coherence {:.3}",
-                p.wavelength, p.crest_angle, p.coherence
+                p.wavelength,
+                p.crest_angle,
+                p.coherence_same_way.unwrap_or(p.coherence)
             )
         }
     }

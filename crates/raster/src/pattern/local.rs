@@ -37,14 +37,14 @@ impl Local {
         }))
     }
 
-    /// |Σ ψ_n* ψ_{n+1}| / √(Σ|ψ_n|² Σ|ψ_{n+1}|²)
-    pub(super) fn coherence(&self) -> f64 {
+    /// |Σ ψ_n* ψ_{n+m}| / √(Σ|ψ_n|² Σ|ψ_{n+m}|²), of every line with that m after it.
+    pub(super) fn coherence(&self, after: usize) -> f64 {
         let (rows, columns) = self.0.dim();
         let mut product = Complex64::default();
         let mut squares = [0.0, 0.0];
-        for n in 1..rows {
+        for n in after..rows {
             for i in 0..columns {
-                let (before, after) = (self.0[(n - 1, i)], self.0[(n, i)]);
+                let (before, after) = (self.0[(n - after, i)], self.0[(n, i)]);
                 product += before.conj() * after;
                 squares[0] += before.norm_sqr();
                 squares[1] += after.norm_sqr();
@@ -92,7 +92,7 @@ mod tests {
         let wave = Wave::of_ripples(&sheet).unwrap();
         assert!((wave.q - q).abs() < 2e-4 && (wave.kappa - kappa).abs() < 4e-4, "{wave:?}");
         let local = Local::of(&sheet, &wave);
-        assert!(local.coherence() > 0.999, "{}", local.coherence());
+        assert!(local.coherence(1) > 0.999, "{}", local.coherence(1));
         assert_eq!(local.defects(), 0);
         assert!(sheet.straightness() > 0.99, "{}", sheet.straightness());
     }
@@ -104,7 +104,7 @@ mod tests {
         assert!(pits.straightness() < 0.3, "{}", pits.straightness());
         let chaos = sheet(|x, y| (0.9 * x + 40.0 * (7.3 * y).sin()).cos());
         let wave = Wave::of_ripples(&chaos).unwrap();
-        let coherence = Local::of(&chaos, &wave).coherence();
+        let coherence = Local::of(&chaos, &wave).coherence(1);
         assert!(coherence < 0.7, "{coherence}");
     }
 

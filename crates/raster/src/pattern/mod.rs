@@ -1,10 +1,13 @@
 //! What the lines have written: ripples and their wave vector, pits, or no order.
 
+#[cfg(test)]
+mod judged;
 mod local;
 mod wave;
 mod window;
 
 use crate::line::Line;
+use crate::path::Path;
 use crate::plan::Plan;
 use crate::surface::Scanned;
 use local::Local;
@@ -25,6 +28,8 @@ pub struct Pattern {
     /// How far each line is the one before, shifted: 1 where all shifts are the same. |Σ ψ_n* ψ_{n+1}| over
     /// √(Σ|ψ_n|² Σ|ψ_{n+1}|²), ψ the local complex amplitude of what each line alone has carved.
     pub coherence: f64,
+    /// The same of a line and the one two after it, on a zigzag: lines that go the same way.
+    pub coherence_same_way: Option<f64>,
     /// Half peak-to-peak.
     pub amplitude: f64,
     /// Places where a crest begins or ends: around them the phase of ψ turns once.
@@ -36,7 +41,7 @@ pub struct Pattern {
 pub enum Regime {
     /// No ripples: the surface is as deep everywhere.
     Steady,
-    /// Crests, the same from line to line.
+    /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
     Ripples,
     /// Crests broken into pits, lines still following each other.
     Pits,
@@ -88,11 +93,14 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
     }
     let Some(wave) = Wave::of_ripples(sheet) else { return (Regime::Unknown, None) };
     let local = Local::of(sheet, &wave);
-    let coherence = Local::of(&sheets.own, &wave).coherence();
+    let own = Local::of(&sheets.own, &wave);
+    let coherence = own.coherence(1);
+    let same_way = (plan.path == Path::Zigzag).then(|| own.coherence(2));
+    let followed = same_way.unwrap_or(coherence);
     let is_pitted = sheet.straightness() < STRAIGHT && amplitude > PITTED * sheets.depth.abs();
     let regime = match is_pitted {
-        true if coherence >= LATTICE => Regime::Pits,
-        false if coherence >= ORDERED => Regime::Ripples,
+        true if followed >= LATTICE => Regime::Pits,
+        false if followed >= ORDERED => Regime::Ripples,
         _ => Regime::Disordered,
     };
     let Wave { q, kappa, .. } = wave;
@@ -102,6 +110,7 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
         wavelength: std::f64::consts::TAU / q.hypot(kappa),
         crest_angle: q.atan2(kappa.abs()).to_degrees(),
         coherence,
+        coherence_same_way: same_way,
         amplitude,
         defects: local.defects(),
     };

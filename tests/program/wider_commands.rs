@@ -69,3 +69,111 @@ fn a_boundary_without_onset_is_said_and_not_drawn() {
     let raster = "boundary --depth-limit 5 --pitch-range 0.5:1:2 --r 1";
     folder.refuses(raster, &["--depth-limit", "boundary --pitch-range"]);
 }
+
+/// A reference of the law's prototypes: period 51.2220627(2).
+#[test]
+fn cycles_and_branches_of_a_wider_law_are_documents_that_their_readers_take() {
+    let folder = Folder::new("wider_cycles");
+    let cycle = schema(&folder, "cycle");
+    folder.prints("cycle --alpha 20 --r 1 --depth-limit 10 -o c.json --plot c.svg");
+    let document = folder.json("c.json");
+    validate(&cycle, &document);
+    assert!((document["period"].as_f64().unwrap() - 51.222_062_7).abs() < 2e-7);
+    assert!(document["floquet_error"].as_f64().unwrap() < 1e-8);
+    assert_eq!(document["parameters"]["depth_limit"], 10.0);
+    let heights = numbers(&document["profile"]["height"]);
+    assert!(heights.iter().any(|h| *h > 0.0) && heights.iter().any(|h| *h < 0.0));
+    folder.prints("plot c.json -o c.pdf");
+    for format in ["csv", "npz"] {
+        folder.prints(&format!("cycle --alpha 20 --r 1 --depth-limit 10 -o c.{format}"));
+    }
+    assert!(folder.read("c.csv").starts_with(b"t,l,velocity,height"));
+    // From a document: its law, but for what is given.
+    let again = folder.prints_json("cycle --from c.json --alpha 20.3");
+    assert_eq!(again["parameters"]["depth_limit"], 10.0);
+    let alone = folder.prints_json("cycle --alpha 20 --r 1 --depth-limit 10.2");
+    let other = folder.prints_json("cycle --from c.json --depth-limit 10.2");
+    let [alone, other] = [alone, other].map(|document| document["period"].as_f64().unwrap());
+    assert!((alone - other).abs() < 1e-8, "{alone} {other}");
+    // A run comes to it, and says so by it.
+    let run = folder.prints_json("run --alpha 20 --r 1 --depth-limit 10 --kick 0.1 --until 800");
+    assert_eq!(run["regime"], "stick-slip");
+    let oscillation = &run["oscillation"];
+    let number = |field: &str| oscillation[field].as_f64().unwrap();
+    let off = (number("period") - document["period"].as_f64().unwrap()).abs();
+    assert!(off <= number("period_error") && number("period_error") < 1e-7, "{oscillation}");
+    // A surface that heals, inertia, all together.
+    for (line, slips) in [
+        ("--alpha 1.5 --r 1 --healing-time 10", 1),
+        ("--alpha 1.2 --r 1 --inertia 0.3", 1),
+        ("--alpha 2 --r 1 --depth-limit 4 --healing-time 15 --inertia 0.3", 1),
+        ("--tip cosine --alpha 3 --r 1 --healing-time 3", 1),
+    ] {
+        let found = folder.prints_json(&format!("cycle {line} --plot c.svg"));
+        validate(&cycle, &found);
+        assert_eq!(found["slips"], slips, "{line}");
+        assert!(found["floquet_error"].as_f64().unwrap() < 1e-7, "{line}: {}", found["floquet"]);
+    }
+    let branch = schema(&folder, "continue");
+    let line =
+        "continue --over alpha --beta 0 --r 1 --depth-limit 20 --to 2.6 -o b.json --plot b.svg";
+    folder.prints(line);
+    let document = folder.json("b.json");
+    validate(&branch, &document);
+    assert_eq!(document["parameters"]["depth_limit"], 20.0);
+    assert_eq!(document["trapping"], Value::Null);
+    let hopf = document["special"][0]["alpha"].as_f64().unwrap();
+    assert!((hopf - 2.300_070).abs() < 1e-6, "{hopf}");
+    let from = "continue --over r --from c.json --to 1.1";
+    assert_eq!(folder.prints_json(from)["parameters"]["depth_limit"], 10.0);
+}
+
+#[test]
+fn a_sweep_of_a_wider_law_knows_no_trapping_where_nothing_is_held() {
+    let folder = Folder::new("wider_sweep");
+    let sweep = schema(&folder, "sweep");
+    let line = "sweep --beta 0 --r 1 --alpha 1:13:5 --depth-limit 5 -o map.json --plot map.svg";
+    folder.prints(line);
+    let document = folder.json("map.json");
+    validate(&sweep, &document);
+    assert_eq!(document["parameters"]["depth_limit"], 5.0);
+    let regimes: Vec<&Value> =
+        document["points"].as_array().unwrap().iter().map(|point| &point["regime"]).collect();
+    assert_eq!(regimes, ["steady", "steady", "stick-slip", "stick-slip", "stick-slip"]);
+    for point in document["points"].as_array().unwrap() {
+        assert!((point["critical_alpha"].as_f64().unwrap() - 5.197_881).abs() < 1e-6);
+        if point["regime"] == "stick-slip" {
+            let line = format!("cycle --beta 0 --r 1 --alpha {} --depth-limit 5", point["alpha"]);
+            let alone = folder.prints_json(&line)["period"].as_f64().unwrap();
+            assert!((point["period"].as_f64().unwrap() - alone).abs() < 1e-9);
+        }
+    }
+    // In parts, from the points above onset, and where there is none.
+    for part in ["1/2", "2/2"] {
+        let name = part.replace('/', "-");
+        folder.prints(&format!(
+            "sweep --r 1 --alpha-above 0.1:0.3:3 --healing-time 10 --inertia 0.2 --shard {part} -o part-{name}.json"
+        ));
+    }
+    folder.prints("sweep merge part-1-2.json part-2-2.json -o whole.json");
+    let whole = folder.json("whole.json");
+    let periods = whole["points"].as_array().unwrap().iter().map(|point| &point["period"]);
+    assert!(periods.clone().all(Value::is_number), "{:?}", periods.collect::<Vec<_>>());
+    let stable = folder.prints_json("sweep --beta 0 --r 1 --alpha 1:50:3 --depth-limit 1.5");
+    assert!(stable["points"].as_array().unwrap().iter().all(|point| point["regime"] == "steady"));
+    let above = folder.prints_json("sweep --beta 0 --r 1 --alpha-above 1 --depth-limit 1.5");
+    assert!(above["points"][0]["error"].as_str().unwrap().contains("stable for every alpha"));
+}
+
+#[test]
+fn commands_of_cycles_refuse_what_nothing_drags() {
+    let folder = Folder::new("wider_cycle_refusals");
+    folder.refuses("cycle --alpha -3 --no-spring", &["--no-spring", "nothing drags"]);
+    folder.refuses("sweep --alpha 1 --r 1 --no-spring", &["--no-spring", "nothing drags"]);
+    folder.refuses("continue --over alpha --r 1 --no-spring", &["--no-spring", "nothing drags"]);
+    folder.refuses("sweep --alpha 1 --r 1 --healing-time 0", &["--healing-time 0", "above 0"]);
+    folder.refuses("continue --over alpha --r 1 --inertia -1", &["--inertia -1", "above 0"]);
+    folder.refuses("cycle --alpha 1 --r 1 --tip cosine", &["--tip cosine", "--healing-time"]);
+    let over = "continue --over r --alpha 1 --depth-limit 5";
+    folder.refuses(over, &["--alpha 1", "paper's law"]);
+}

@@ -127,7 +127,6 @@ fn what_makes_no_sense_is_refused_by_name() {
     folder.refuses(late, &["--support-path late.csv", "0,0"]);
     folder.refuses("run --alpha 1 --r 1 --until 30 --tip cosine", &["--start steady", "flat"]);
     folder.refuses("run --alpha 1 --r 1 --until 30 --start-velocity 2", &["--start-velocity"]);
-    folder.refuses("cycle --alpha 1.2 --r 1 --depth-limit 5", &["--depth-limit", "cycle"]);
 }
 
 /// `stability` under the wider law: reference values found by two prototypes, a spectral PDE and direct

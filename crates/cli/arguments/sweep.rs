@@ -3,7 +3,7 @@
 use super::examples::examples;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
-use super::{OutletArguments, TipName};
+use super::{OutletArguments, TipName, WiderArguments};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -71,6 +71,9 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) alpha_above: Option<Range>,
 
+    #[command(flatten)]
+    pub(crate) wider: WiderArguments,
+
     /// Largest residual that the equation of motion (18) may have on a cycle, in units of kσ/Γ; from
     /// 1e-11 to 1e-4.
     #[arg(
@@ -131,7 +134,9 @@ const EXAMPLES: &str = "Examples:
     stickslip sweep --r 1 --alpha 1.07:2:100 -o amplitude.json --plot amplitude.svg
   A phase diagram, and where steady motion ends in it:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json --plot map.png
-  The same on four machines:
+  With a depth limit no tip is held for ever:
+    stickslip sweep --beta 0 --r 1 --alpha 2:12:51 --depth-limit 5 -o limited.json --plot limited.svg
+  A phase diagram on four machines:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 -o part-1.json
     stickslip sweep merge part-1.json part-2.json part-3.json part-4.json -o map.json";
 

@@ -136,21 +136,8 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
     let Disturbance { pulses, table, .. } = &asked.disturbance;
     let above = arguments.model.alpha_above;
-    let run = RunParameters::of(&asked.scenario, above, pulses, table.clone());
     CompareParameters {
-        model: run.model,
-        start: run.start,
-        start_position: run.start_position,
-        kick: run.kick,
-        support_path: run.support_path,
-        start_velocity: run.start_velocity,
-        noise: run.noise,
-        initial_surface: run.initial_surface,
-        pulses: run.pulses,
-        force: run.force,
-        until: asked.scenario.until,
-        tolerance: arguments.tolerance,
-        memory: arguments.memory,
+        run: RunParameters::of(&asked.scenario, above, pulses, table.clone()),
         grid: arguments.grid,
         spacing: asked.discretisation.spacing,
         grid_tolerance: asked.discretisation.tolerance(),

@@ -4,7 +4,7 @@ mod document;
 
 use super::cycle::start::{Start, explain};
 use super::job::{Job, judge_places};
-use super::model::tip;
+use super::model::{refuse_endless, refused_wider, tip, wider};
 use super::progress::Progress;
 use super::told::digits;
 use crate::arguments::ContinueArguments;
@@ -13,7 +13,7 @@ use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
 use stickslip_documents::{ContinueDocument, OverName};
-use stickslip_tip::{TipFunction, stop};
+use stickslip_tip::{TipFunction, Wider, stop};
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
 const MOST_BRANCHES: usize = 12;
@@ -49,6 +49,7 @@ enum Origin {
     Cycle(Start),
     /// Onset at this value of what does not vary.
     Onset {
+        law: Wider,
         tip: TipFunction,
         other: f64,
     },
@@ -72,7 +73,17 @@ impl Origin {
                 Failure::input("--alpha", "missing: give --alpha A, at which r is to vary")
             }
         };
-        Ok(Self::Onset { tip: tip(&asked.tip)?, other: other.ok_or(missing)? })
+        refuse_endless(&asked.tip, &asked.wider)?;
+        let (law, tip) = (wider(&asked.wider), tip(&asked.tip)?);
+        law.validate().map_err(|error| refused_wider(&error))?;
+        Ok(Self::Onset { law, tip, other: other.ok_or(missing)? })
+    }
+
+    fn wider(&self) -> &Wider {
+        match self {
+            Self::Cycle(start) => start.model().wider(),
+            Self::Onset { law, .. } => law,
+        }
     }
 
     fn tip(&self) -> &TipFunction {
@@ -137,7 +148,9 @@ fn branches(
     };
     let first = match origin {
         Origin::Cycle(start) => settings.from_cycle(&start.solve()?, &mut observe),
-        Origin::Onset { tip, other } => settings.from_onset(tip, *other, &mut observe),
+        Origin::Onset { law, tip, other } => {
+            settings.from_onset_under((law, tip), *other, &mut observe)
+        }
     };
     let first = first.map_err(|error| explain_onset(&error, arguments))?;
     let mut found = vec![Found { branch: first, from: None }];

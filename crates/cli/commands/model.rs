@@ -13,10 +13,9 @@ use stickslip_tip::{
 /// holds the groove.
 const MOST_DETAILS: f64 = 1e5;
 
-/// The model that the options ask for, where only the paper's law makes sense, or is known: others are refused by
-/// name.
-pub(crate) fn model(arguments: &ModelArguments, command: &str) -> Result<Model, Failure> {
-    only_papers(&arguments.tip, &arguments.wider, command)?;
+/// The model that the options ask for, of a tip that is dragged: with a spring, and a past that ends.
+pub(crate) fn dragged_model(arguments: &ModelArguments) -> Result<Model, Failure> {
+    refuse_endless(&arguments.tip, &arguments.wider)?;
     wide_model(arguments)
 }
 
@@ -38,9 +37,7 @@ pub(crate) fn only_papers(
         None => Ok(()),
         Some((option, _)) => Err(Failure::input(
             option,
-            format!(
-                "`{command}` knows the paper's law only: leave it out (`run`, `compare`, `stability`, `boundary` and `response` know the wider law)"
-            ),
+            format!("`{command}` knows the paper's law only: leave it out"),
         )),
     }
 }
@@ -85,26 +82,46 @@ pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
         ));
     }
     let r = if no_spring { 0.0 } else { r(arguments)? };
-    let alpha = alpha((arguments.alpha, arguments.alpha_above), (&wider, &tip), r)?;
+    model_under((wider, tip), r, (arguments.alpha, arguments.alpha_above))
+}
+
+/// The model under a law at this r, α given as such or as αc(r) + D.
+pub(crate) fn model_under(
+    (wider, tip): (Wider, TipFunction),
+    r: f64,
+    (given, above): (Option<f64>, Option<f64>),
+) -> Result<Model, Failure> {
+    if wider.is_papers() && tip != TipFunction::Cosine {
+        return model_of(tip, r, given, above);
+    }
+    let alpha = alpha((given, above), (&wider, &tip), r)?;
     let named = |option: &str, value: f64| format!("{option} {}", Typed(value));
     Model::under(wider, tip, alpha, r).map_err(|error| {
         let option = match error {
             ModelError::R(r) | ModelError::SupportWithoutSpring(r) => named("--r", r),
             ModelError::Alpha(alpha) => named("--alpha", alpha),
-            ModelError::Wider(WiderError::DepthLimit(b)) => named("--depth-limit", b),
-            ModelError::Wider(WiderError::HealingTime(time)) => named("--healing-time", time),
-            ModelError::Wider(WiderError::Inertia(mass)) => named("--inertia", mass),
+            ModelError::Wider(error) => return refused_wider(&error),
             ModelError::Cosine => "--tip cosine".into(),
         };
         Failure::input(option, error)
     })
 }
 
+/// A parameter of the wider law that is refused, by its option.
+pub(crate) fn refused_wider(error: &WiderError) -> Failure {
+    let (option, value) = match *error {
+        WiderError::DepthLimit(b) => ("--depth-limit", b),
+        WiderError::HealingTime(time) => ("--healing-time", time),
+        WiderError::Inertia(mass) => ("--inertia", mass),
+    };
+    Failure::input(format!("{option} {}", Typed(value)), error)
+}
+
 fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
     arguments.r.ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))
 }
 
-/// The model of this footprint at this r, α given as such or as αc(r) + D.
+/// The same under the paper's law.
 pub(crate) fn model_of(
     tip: TipFunction,
     r: f64,

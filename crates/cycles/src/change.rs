@@ -35,11 +35,13 @@ pub(super) struct Change {
     pub(super) period: f64,
     pub(super) parameter: f64,
     pub(super) stages: Vec<Stages>,
+    /// Of the heights under the tip, where there is a depth limit.
+    pub(super) heights: Vec<Stages>,
 }
 
 impl Change {
     pub(super) fn times(mut self, factor: f64) -> Self {
-        let stages = self.stages.iter_mut().flatten();
+        let stages = self.stages.iter_mut().chain(&mut self.heights).flatten();
         self.state.iter_mut().chain(stages).for_each(|c| *c *= factor);
         self.period *= factor;
         self.parameter *= factor;
@@ -50,5 +52,10 @@ impl Change {
     pub(super) fn size(&self) -> f64 {
         let stages = self.stages.iter().flatten();
         stages.chain(&self.state[..1]).fold(0.0, |m: f64, d| m.max(d.abs()))
+    }
+
+    /// Largest change of a height.
+    pub(super) fn of_heights(&self) -> f64 {
+        self.heights.iter().flatten().fold(0.0, |m: f64, change| m.max(change.abs()))
     }
 }

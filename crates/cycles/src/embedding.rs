@@ -3,13 +3,15 @@
 use super::{CycleError, lattice};
 use std::sync::Arc;
 use stickslip_tip::memory::{Fit, FitError, accuracy_needed};
-use stickslip_tip::{Model, TipFunction, tip_function};
+use stickslip_tip::step::Law;
+use stickslip_tip::{Model, TipFunction, Wider, tip_function};
 
 /// (18) with f'(ξ) = `Σ_j Re(w_j e^{s_j ξ})` on the side of the past.
 ///
 /// The state of the tip and its past is X = (e, Re ζ, Im ζ), e = rt - x0 the extension of the spring and
 /// `ζ_j = w_j ∫ e^{s_j (x0(t) - x0(t'))}dt'`: a vector of fixed length, and a cycle is a periodic solution of an
-/// equation for it.
+/// equation for it. With inertia its last component is the velocity; under a depth limit the height under the tip is no
+/// further component, but -α `Σ_j Re(ζ_j/s_j)`.
 ///
 /// Two sums stand for f': a `fine` one, in which the equations are solved, and a `short` one, in which they
 /// are linearised. Newton's method converges all the same, and costs a fifth.
@@ -18,6 +20,7 @@ pub(super) struct Embedding {
     pub(super) tip: TipFunction,
     pub(super) alpha: f64,
     pub(super) r: f64,
+    pub(super) wider: Wider,
     pub(super) fine: Arc<Fit>,
     pub(super) short: Arc<Fit>,
     /// Whether derivatives in the short sum are those of f.
@@ -53,9 +56,31 @@ impl Embedding {
     /// # Errors
     /// A footprint that never fades, or one too rough for this residual.
     pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, CycleError> {
+        Self::of_sums(model, allowed, false)
+    }
+
+    /// The same in sums that hold far behind the farthest point reached, of more terms.
+    ///
+    /// # Errors
+    /// These are such sums already, or there are none good enough.
+    pub(super) fn reaching_back(&self, allowed: f64) -> Result<Self, CycleError> {
+        let Self { alpha, r, .. } = *self;
+        let model = self.model().ok_or(CycleError::NotConverged { alpha, r })?;
+        let far = Self::of_sums(&model, allowed, true)?;
+        if far.retreat() > self.retreat() {
+            Ok(far)
+        } else {
+            Err(CycleError::NotConverged { alpha, r })
+        }
+    }
+
+    fn of_sums(model: &Model, allowed: f64, far: bool) -> Result<Self, CycleError> {
         let (tip, alpha, r) = (model.tip().clone(), model.alpha(), model.r());
         let sum = |accuracy: f64, most: usize| {
             let needed = accuracy_needed(model, accuracy);
+            if far {
+                return lattice::reaching_back(&tip, needed, most);
+            }
             match Fit::cached(&tip, needed) {
                 Err(FitError::NotMet { .. }) => lattice::fit(&tip, needed, most),
                 fit => fit,
@@ -78,7 +103,8 @@ impl Embedding {
             let seen = lattice::band(&tip, accuracy_needed(model, ACCURACY_OF_STEPS))?;
             nominal.min(WAVES_OF_ROUND_OFF * seen)
         };
-        Ok(Self { tip, alpha, r, fine, short, short_is_precise, band })
+        let wider = *model.wider();
+        Ok(Self { tip, alpha, r, wider, fine, short, short_is_precise, band })
     }
 
     /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.
@@ -107,6 +133,16 @@ impl Embedding {
 
     /// The model at the present parameters; `None` where one of them has left its range.
     pub(super) fn model(&self) -> Option<Model> {
-        Model::new(self.tip.clone(), self.alpha, self.r).ok()
+        Model::under(self.wider, self.tip.clone(), self.alpha, self.r).ok()
+    }
+
+    /// The force on the tip.
+    pub(super) fn law(&self) -> Law {
+        Law { alpha: self.alpha, r: self.r, spring: 1.0 }
+    }
+
+    /// Length of the state X.
+    pub(super) fn state_len(&self) -> usize {
+        1 + 2 * self.short.terms().len() + usize::from(self.wider.inertia.is_some())
     }
 }

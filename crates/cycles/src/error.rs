@@ -15,13 +15,15 @@ pub enum CycleError {
         min = super::TOLERANCES.0, max = super::TOLERANCES.1
     )]
     Tolerance(f64),
-    /// A law that cycles do not know yet.
+    /// Nothing drags the tip.
     #[error(
-        "cycles are those of the paper's law: without a depth limit, healing or inertia, and with a spring; a run finds one that attracts"
+        "cycles are those of a tip on a spring, behind a support: l repeats itself; without one there is none"
     )]
-    WiderLaw,
+    NoSpring,
     /// A footprint whose past is no state of few numbers.
-    #[error("cycles need a footprint that fades; this one does not (J0 falls like 1/√x)")]
+    #[error(
+        "cycles need a footprint that fades; this one does not (J0 falls like 1/√x, cos x not at all)"
+    )]
     NeverFades,
     /// A footprint with more detail than a sum of exponentials can follow.
     #[error(

@@ -40,7 +40,7 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
         if stop::is_asked() {
             return Err(FitError::Stopped);
         }
-        let fit = known(tip, aim, terms(tip, aim, most)?)?;
+        let fit = known(tip, aim, terms(tip, (aim, PERIOD), most)?)?;
         let is_best = best.as_ref().is_none_or(|best| error(&fit) < error(best));
         let met = error(&fit) <= MISSED * aim;
         if is_best {
@@ -52,6 +52,24 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
         aim *= LOOSER;
     }
     best.ok_or(FitError::Terms)
+}
+
+/// How far back a lattice is trusted, over the reach, and its period, which leaves the images of f' nothing there.
+const FAR: f64 = 0.25;
+const FAR_PERIOD: f64 = 2.4;
+
+/// A lattice that holds far behind the farthest point that the tip has been to.
+///
+/// # Errors
+/// A footprint that never fades.
+pub(super) fn reaching_back(
+    tip: &TipFunction,
+    wanted: f64,
+    most: usize,
+) -> Result<Arc<Fit>, FitError> {
+    let reach = tip.reach().ok_or(FitError::NeverFades)?;
+    let fit = Fit::from_terms_within(tip, terms(tip, (wanted, FAR_PERIOD), most)?, FAR * reach);
+    fit.map(Arc::new)
 }
 
 /// The sum of these terms, certified, or one made before.
@@ -78,11 +96,15 @@ fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, F
 }
 
 /// With as many waves as that takes, or the first `most`.
-fn terms(tip: &TipFunction, wanted: f64, most: usize) -> Result<Vec<Term>, FitError> {
+fn terms(
+    tip: &TipFunction,
+    (wanted, periods): (f64, f64),
+    most: usize,
+) -> Result<Vec<Term>, FitError> {
     let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
         return Err(FitError::NeverFades);
     };
-    let period = PERIOD * reach;
+    let period = periods * reach;
     let damping = -(SHARE * wanted).clamp(f64::EPSILON * f64::EPSILON, 0.1).ln() / period;
     let spacing = TAU / period;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -130,6 +152,6 @@ fn add(transform: &mut [Complex<f64>], g: &Gaussian, damping: f64, spacing: f64)
 
 /// The largest wave number that f' has waves of, to this accuracy.
 pub(super) fn band(tip: &TipFunction, wanted: f64) -> Result<f64, FitError> {
-    let waves = terms(tip, wanted, MOST_LOOKED_AT)?;
+    let waves = terms(tip, (wanted, PERIOD), MOST_LOOKED_AT)?;
     Ok(waves.iter().map(|term| term.exponent.im).fold(0.0, f64::max))
 }

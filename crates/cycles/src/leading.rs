@@ -91,12 +91,13 @@ impl<'a> PeriodMap<'a> {
     }
 
     fn past(&self) -> Option<Past<'_>> {
-        Past::of(&self.equation.short, self.orbit)
+        let carved = self.orbit.carved(&self.equation.wider);
+        Past::of(&self.equation.short, self.orbit, &carved)
     }
 
     /// Length of the state.
     fn len(&self) -> usize {
-        1 + 2 * self.equation.short.terms().len()
+        self.equation.state_len()
     }
 
     /// What becomes of deviations, one a column.

@@ -18,11 +18,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod asked;
+mod blocks;
+mod carrying;
+mod carved;
 mod change;
 mod continuation;
+mod corners;
+mod depth;
 mod embedding;
 mod ended;
 mod error;
+mod guessed;
 mod lattice;
 mod leading;
 mod linearisation;
@@ -36,6 +43,7 @@ mod search;
 mod sensitivity;
 mod solve;
 mod start;
+mod steady;
 mod step;
 
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
@@ -51,7 +59,7 @@ use ripple::Ripple;
 use solve::Closed;
 use stickslip_tip::memory::displacement;
 use stickslip_tip::motion::latest_extrema;
-use stickslip_tip::{Model, Trajectory};
+use stickslip_tip::{Model, Support, Trajectory};
 
 /// Residuals of (18) that can be asked for.
 pub const TOLERANCES: (f64, f64) = (1e-11, 1e-4);
@@ -69,6 +77,9 @@ const ERROR_OVER_RESIDUAL: f64 = 0.1;
 const COARSE: f64 = 1e-7;
 const ERROR_PER_GAP: f64 = 0.01;
 const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
+/// Under a depth limit heights err too, and by more than slopes: measured beside the non-smooth onset (β = 1, b = 5,
+/// α = 1.076) from 1e-4 to 1e-9, at most a third of this.
+const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
 
 /// A periodic solution of (18). Lengths in σ, times in Γ/k.
 #[derive(Clone)]
@@ -91,7 +102,8 @@ impl Cycle {
         let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
         let multipliers = multipliers(&closed);
         let multipliers = multipliers.ok_or(CycleError::Multipliers { alpha, r })?;
-        let motion = closed.orbit.trajectory(r);
+        let (law, support) = (closed.equation.wider, Support::Moving(r));
+        let motion = Trajectory::under(law, support, closed.orbit.steps(r));
         let extrema = latest_extrema(&motion);
         let lowest = extrema.iter().map(|e| e.l).fold(f64::INFINITY, f64::min);
         // The maximum at the seam was the highest of the guess; another may have overtaken it.
@@ -126,7 +138,7 @@ impl Cycle {
         0.5 * (self.extremes.1 - self.extremes.0)
     }
 
-    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a.
+    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a; 0 where it heals.
     #[must_use]
     pub fn amplitude_u(&self) -> f64 {
         self.ripple().amplitude()
@@ -209,7 +221,9 @@ impl Cycle {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);
         let over_residual = ERROR_OVER_RESIDUAL * (1.0 + self.residual() / COARSE).sqrt();
         let of_steps = self.residual() * (over_residual + ERROR_PER_GAP / gap);
-        let of_the_sum = ERROR_OVER_DISPLACEMENT * self.displacement() * (1.0 + 1.0 / gap);
+        let limited = self.model.wider().depth_limit.is_some();
+        let over = if limited { ERROR_OVER_DISPLACEMENT_LIMITED } else { ERROR_OVER_DISPLACEMENT };
+        let of_the_sum = over * self.displacement() * (1.0 + 1.0 / gap);
         of_steps + of_the_sum
     }
 
@@ -233,7 +247,7 @@ impl Cycle {
 
     /// In the unit of [`solve::MOST_WORK`].
     fn work(&self) -> f64 {
-        let state = 2.0 * self.closed.equation.short.terms().len() as f64 + 1.0;
+        let state = self.closed.equation.state_len() as f64;
         (self.iterations() * self.steps()) as f64 * state * state
     }
 

@@ -9,10 +9,11 @@ use super::embedding::{Embedding, Parameter};
 use super::orbit::Orbit;
 use super::past::Past;
 use super::sensitivity::Sensitivity;
-use super::step::LinearStep;
+use super::step::{LinearStep, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
-use stickslip_tip::collocation::STAGES;
+use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::memory::Fit;
+use stickslip_tip::step::velocity_at_end;
 use stickslip_tip::stop;
 
 /// An orbit's equations, linearised.
@@ -21,6 +22,7 @@ pub(super) struct Linearisation {
     gap: f64,
     end: Sensitivity,
     stages: Vec<Sensitivity>,
+    heights: Vec<Sensitivity>,
     phase: Phase,
     /// Of the groove, by step.
     pub(super) stiffness: Vec<f64>,
@@ -45,19 +47,23 @@ impl Linearisation {
         free: Parameter,
         solved: &Fit,
     ) -> Result<Self, Singular> {
-        let past = Past::of(&equation.short, orbit).ok_or(Singular)?;
-        let other = (solved != &*equation.short).then(|| Past::of(solved, orbit).ok_or(Singular));
+        let carved = orbit.carved(&equation.wider);
+        let past = Past::of(&equation.short, orbit, &carved).ok_or(Singular)?;
+        let other =
+            (solved != &*equation.short).then(|| Past::of(solved, orbit, &carved).ok_or(Singular));
         let other = other.transpose()?;
         let solved = other.as_ref().unwrap_or(&past);
-        let mut end = Sensitivity::identity(1 + 2 * equation.short.terms().len());
-        let (mut stages, mut stiffness) = (vec![], vec![]);
+        let mut end = Sensitivity::identity(equation.state_len());
+        let (mut stages, mut heights, mut stiffness) = (vec![], vec![], vec![]);
         let gap = along(equation, orbit, (&past, solved), |_, step, share| {
-            stages.push(step.carry(free, share, &mut end)?);
+            let (of_stages, of_heights) = step.carry(free, share, &mut end)?;
+            stages.push(of_stages);
+            heights.extend(of_heights);
             stiffness.push(step.stiffness());
             Some(())
         })?;
-        let phase = Phase::new(equation, orbit.extension, solved, free);
-        Ok(Self { gap, end, stages, phase, stiffness })
+        let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
+        Ok(Self { gap, end, stages, heights, phase, stiffness })
     }
 
     /// Length of the state X.
@@ -122,12 +128,16 @@ impl Linearisation {
     fn change(&self, found: &DVector<f64>, corrected: f64) -> Change {
         let n = self.len();
         let unknowns: Vec<f64> = found.iter().copied().chain([corrected]).collect();
-        let stages = self.stages.iter();
+        let changes = |of: &[Sensitivity]| -> Vec<Stages> {
+            let change = |s: &Sensitivity| std::array::from_fn(|i| s.change(i, &unknowns));
+            of.iter().map(change).collect()
+        };
         Change {
             state: unknowns[..n].to_vec(),
             period: unknowns[n],
             parameter: unknowns[n + 1],
-            stages: stages.map(|s| std::array::from_fn(|i| s.change(i, &unknowns))).collect(),
+            stages: changes(&self.stages),
+            heights: changes(&self.heights),
         }
     }
 }
@@ -140,32 +150,42 @@ pub(super) fn along(
     (past, solved): (&Past, &Past),
     mut each: impl FnMut(usize, &LinearStep, f64) -> Option<()>,
 ) -> Result<f64, Singular> {
-    let mut extension = orbit.extension;
+    let carved = orbit.carved(&equation.wider);
+    let (mut extension, mut velocity) = (orbit.extension, orbit.velocity());
     let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
     for (n, ((ends, h), d)) in steps.enumerate() {
         if stop::is_asked() {
             return Err(Singular);
         }
-        let slopes = (past.of_step(n), &solved.of_step(n).slope());
-        let step = LinearStep::new(equation, slopes, (extension, h, d));
+        let (carved, heights) = (&carved[n], orbit.heights.get(n));
+        let step = Solved { extension, velocity, h, d, heights, carved };
+        let step = LinearStep::new(equation, (past.of_step(n), solved.of_step(n)), step);
         each(n, &step, ends[1] - ends[0]).ok_or(Singular)?;
         extension += equation.r * h - d[STAGES - 1];
+        velocity = velocity_at_end(d, h);
     }
     Ok(extension - orbit.extension)
 }
 
 impl Phase {
-    /// l' = r - x0' = r - e - α Σ Re ζ at the start, which is to be a maximum of l.
-    fn new(equation: &Embedding, extension: f64, solved: &Past, free: Parameter) -> Self {
+    /// l' = r - x0' = r - e - α Σ Re ζ at the start, which is to be a maximum of l; with inertia x0' is part of X.
+    fn new(
+        equation: &Embedding,
+        (extension, velocity): (f64, f64),
+        solved: &Past,
+        free: Parameter,
+    ) -> Self {
         let groove: f64 = solved.of_step(0).zeta.iter().map(|z| z.re).sum();
         let modes = equation.short.terms().len();
-        let mut by_state = vec![0.0; 1 + 2 * modes];
+        let mut by_state = vec![0.0; equation.state_len()];
+        let by_r = f64::from(u8::from(free == Parameter::R));
+        if equation.wider.inertia.is_some() {
+            by_state[1 + 2 * modes] = -1.0;
+            return Self { value: equation.r - velocity, by_state, by_parameter: by_r };
+        }
         by_state[0] = -1.0;
         by_state[1..=modes].fill(-equation.alpha);
-        let by_parameter = match free {
-            Parameter::Alpha => -groove,
-            Parameter::R => 1.0,
-        };
+        let by_parameter = if free == Parameter::R { by_r } else { -groove };
         let value = equation.r - extension - equation.alpha * groove;
         Self { value, by_state, by_parameter }
     }

@@ -11,6 +11,16 @@ const AIM: f64 = 0.4;
 /// Neighbours are no more than so many times as dense.
 const GRADING: f64 = 2.0;
 const FEWEST: usize = 10;
+/// Steps on either side, one of which shows the residual where a motion rings.
+const AROUND: usize = 2;
+/// A step that is a smaller part of a neighbour is there for a corner of |h|: what it shows is round-off, and says nothing
+/// of the neighbour.
+const SLIVER: f64 = 0.02;
+/// Runs take up their stride again after a corner by steps that grow. Those whose residual is below this part of the
+/// largest, or round-off and below that part of what is allowed, are short for no reason of their own.
+const NEGLIGIBLE: f64 = 1e-6;
+const ROUND_OFF: f64 = 1e-12;
+const SMALL: f64 = 1e-3;
 pub(super) const MOST_STEPS: usize = 4000;
 /// A guess may have more, which its mesh does not keep.
 pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
@@ -22,26 +32,73 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
     let residual = |n: usize| {
+        if is_sliver(&h, n) {
+            return 0.0;
+        }
         let before = (n + steps - 1) % steps;
         let (d, d_before) = (&orbit.stages[n], &orbit.stages[before]);
         let defect = defect(d, h[n], velocity_at_end(d_before, h[before]));
-        let interpolation = interpolation_error(d, h[n], (d_before, h[before]));
+        // Polynomials do not continue beyond a corner of |h|, nor far beyond their own step.
+        let continues = orbit.side(n) * orbit.side(before) > 0.0 && !is_sliver(&h, before);
+        let interpolation =
+            if continues { interpolation_error(d, h[n], (d_before, h[before])) } else { 0.0 };
         defect.abs() + stiffness[n] * interpolation
     };
     (0..steps).map(residual).collect()
 }
 
-/// The mesh on which residuals would be evenly below the one allowed.
-pub(super) fn adapted(orbit: &Orbit, band: f64, residuals: &[f64], allowed: f64) -> Vec<f64> {
+fn is_sliver(lengths: &[f64], n: usize) -> bool {
+    let count = lengths.len();
+    let beside = lengths[(n + count - 1) % count].max(lengths[(n + 1) % count]);
+    lengths[n] < SLIVER * beside
+}
+
+/// What a mesh is to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Aim {
+    /// The largest residual, of which a mesh aims at a fraction.
+    pub(super) allowed: f64,
+    /// By this factor less than that, where meshes have not come near it.
+    pub(super) sharper: f64,
+    /// Whether no step may be longer than it was.
+    pub(super) only_finer: bool,
+    /// Whether the motion may ring: where its leading derivative passes through zero a step shows no residual, and the next
+    /// mesh has it elsewhere.
+    pub(super) may_ring: bool,
+}
+
+/// The mesh on which residuals would be evenly below the one allowed, with these corners among its points.
+pub(super) fn adapted(
+    orbit: &Orbit,
+    band: f64,
+    (residuals, aim): (&[f64], Aim),
+    corners: &[f64],
+) -> Vec<f64> {
     let longest = longest_displacement(band);
     let shares: Vec<f64> = orbit.mesh.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    let limited = !orbit.heights.is_empty();
+    let largest = residuals.iter().copied().fold(0.0, f64::max);
+    let negligible = (NEGLIGIBLE * largest).max(ROUND_OFF.min(SMALL * aim.allowed));
     let wanted = |n: usize| {
         let moved = orbit.stages[n].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-        let steps = (residuals[n] / (AIM * allowed)).powf(1.0 / ORDER).max(moved / longest);
+        let least = if aim.only_finer { 1.0 } else { 0.0 };
+        let of_residual = match residuals[n] {
+            small if limited && small < negligible => 0.0,
+            residual => residual / (AIM * aim.sharper * aim.allowed),
+        };
+        let steps = of_residual.powf(1.0 / ORDER).max(moved / longest).max(least);
         steps / shares[n]
     };
-    let density = graded((0..shares.len()).map(wanted).collect());
-    equidistributed(&orbit.mesh, &density)
+    let mut density: Vec<f64> = (0..shares.len()).map(wanted).collect();
+    let count = shares.len();
+    if aim.may_ring {
+        let least = |n: usize| {
+            let window = count - AROUND..=count + AROUND;
+            window.map(|k| density[(n + k) % count]).fold(0.0, f64::max)
+        };
+        density = (0..count).map(least).collect();
+    }
+    equidistributed(&orbit.mesh, &graded(density), corners)
 }
 
 /// Raises densities that fall too fast from one step to the next, around the period.
@@ -58,24 +115,35 @@ fn graded(mut density: Vec<f64>) -> Vec<f64> {
     density
 }
 
-/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh. They are no more
-/// than it takes to see that there are too many.
-pub(super) fn equidistributed(mesh: &[f64], density: &[f64]) -> Vec<f64> {
+/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh; of as much as
+/// there is between corners, each of which ends a step. They are no more than it takes to see that there are too many.
+pub(super) fn equidistributed(mesh: &[f64], density: &[f64], corners: &[f64]) -> Vec<f64> {
     let mut cumulated = vec![0.0];
     let mut total = 0.0;
     for (ends, density) in mesh.windows(2).zip(density) {
         total += density * (ends[1] - ends[0]);
         cumulated.push(total);
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let steps = (total.ceil() as usize).clamp(FEWEST, MOST_STEPS_OF_GUESS + 1);
-    let place = |i: usize| {
-        let wanted = total * i as f64 / steps as f64;
+    let place = |wanted: f64| {
         let after = cumulated.partition_point(|c| *c <= wanted).clamp(1, density.len());
         mesh[after - 1] + (wanted - cumulated[after - 1]) / density[after - 1]
     };
-    let inner = (1..steps).map(place);
-    [0.0].into_iter().chain(inner).chain([1.0]).collect()
+    let held = |at: &f64| {
+        let after = mesh.partition_point(|end| end <= at).clamp(1, density.len());
+        cumulated[after - 1] + (at - mesh[after - 1]) * density[after - 1]
+    };
+    let (mut ends, mut from) = (vec![0.0], 0.0);
+    let last = [(1.0, total)].into_iter();
+    for (end, to) in corners.iter().map(|corner| (*corner, held(corner))).chain(last) {
+        let fewest = FEWEST as f64 * (end - ends[ends.len() - 1]);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let steps = (to - from).ceil().max(fewest.ceil()).max(1.0) as usize;
+        let steps = steps.min(MOST_STEPS_OF_GUESS + 1);
+        ends.extend((1..steps).map(|i| place(from + (to - from) * i as f64 / steps as f64)));
+        ends.push(end);
+        from = to;
+    }
+    ends
 }
 
 #[cfg(test)]
@@ -84,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_mesh_ends_where_there_are_too_many_steps() {
-        let mesh = equidistributed(&[0.0, 0.5, 1.0], &[1e12, 1e300]);
+        let mesh = equidistributed(&[0.0, 0.5, 1.0], &[1e12, 1e300], &[]);
         assert_eq!(mesh.len(), MOST_STEPS_OF_GUESS + 2);
         assert!(mesh.windows(2).all(|ends| ends[0] <= ends[1]));
     }

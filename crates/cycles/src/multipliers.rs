@@ -9,8 +9,10 @@ use super::embedding::Embedding;
 use super::lattice;
 use super::leading::{leading, sorted};
 use super::solve::Closed;
+use nalgebra::DMatrix;
 use num_complex::Complex;
 use std::sync::Arc;
+use stickslip_tip::TipFunction;
 use stickslip_tip::memory::{Fit, accuracy_needed};
 
 /// What is left of an exponential after a period need not be told from multipliers if it is below this.
@@ -20,21 +22,26 @@ const LEADING: f64 = 1e-2;
 /// Displacement that the other sum may bring about, and its most waves.
 const ACCURACY_OF_ANOTHER: f64 = 1e-6;
 const MOST_WAVES_OF_ANOTHER: usize = 160;
+/// Fine sums of so many terms are dealt with as a whole.
+const MOST_TERMS: usize = 64;
 /// Multipliers in both sums differ by no more, absolutely and in parts of them.
 const SAME: (f64, f64) = (1e-4, 1e-2);
 
 /// By falling modulus, of a pair the one above the real axis first. `None` where there are none to be had.
 pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     let equation = &closed.equation;
+    let healed = equation.wider.left_after(closed.orbit.period);
     let distance = equation.r * closed.orbit.period;
     if !equation.short_is_precise {
-        let left = slowest_left(&equation.fine, distance);
+        let left = healed * slowest_left(&equation.fine, distance);
         let mut found = leading(closed, left.max(LEADING))?;
         found.retain(|m| m.norm() > left);
         return Some(found);
     }
-    let mut found = sorted(closed.monodromy())?;
-    if slowest_left(&equation.short, distance) < FADED {
+    let mut found = sorted(monodromy(closed)?)?;
+    let left = healed * slowest_left(&equation.short, distance);
+    // The sum that stands for cos x is cos x.
+    if left < FADED || equation.tip == TipFunction::Cosine {
         return Some(found);
     }
     let others = sorted(closed.monodromy_in(&another(equation)?)?)?;
@@ -44,6 +51,15 @@ pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     // What grows is of the motion, whatever told it.
     found.retain(|m| m.norm() >= 1.0 - SAME.1 || others.iter().any(|other| near(m, other)));
     Some(found)
+}
+
+/// In the short sum; under a depth limit in the fine one, as heights are forgotten more slowly than slopes.
+fn monodromy(closed: &Closed) -> Option<DMatrix<f64>> {
+    let Embedding { wider, fine, .. } = &closed.equation;
+    if wider.depth_limit.is_some() && fine.terms().len() <= MOST_TERMS {
+        return closed.monodromy_in(fine);
+    }
+    Some(closed.monodromy())
 }
 
 fn another(equation: &Embedding) -> Option<Arc<Fit>> {

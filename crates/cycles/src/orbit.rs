@@ -1,8 +1,10 @@
 //! One period of the tip's motion on a mesh.
 
+use super::carved::{Carved, Heights};
 use super::change::Change;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
-use stickslip_tip::{Step, Trajectory};
+use stickslip_tip::step::velocity_at_end;
+use stickslip_tip::{Step, Trajectory, Wider};
 
 /// A closed, or nearly closed, orbit: the unknowns of the collocation equations.
 #[derive(Debug, Clone)]
@@ -14,17 +16,36 @@ pub(super) struct Orbit {
     pub(super) extension: f64,
     /// Displacement of x0 in each step, at its nodes.
     pub(super) stages: Vec<Stages>,
+    /// Heights under the tip in each step, where there is a depth limit.
+    pub(super) heights: Vec<Heights>,
+}
+
+/// A motion as a function of time, from 0 to its period: l, and the height under the tip where it is known.
+pub(super) struct Profile<L, H> {
+    pub(super) l: L,
+    pub(super) height: H,
 }
 
 impl Orbit {
     /// Of the motion l(t) = rt - r - x0, t from 0 to the period.
-    pub(super) fn of_profile(r: f64, period: f64, mesh: Vec<f64>, l: impl Fn(f64) -> f64) -> Self {
+    pub(super) fn of_profile<L: Fn(f64) -> f64, H: Fn(f64) -> Option<f64>>(
+        r: f64,
+        period: f64,
+        mesh: Vec<f64>,
+        Profile { l, height }: Profile<L, H>,
+    ) -> Self {
         let stages = mesh.windows(2).map(|ends| {
             let (t, h) = (period * ends[0], period * (ends[1] - ends[0]));
             let before = l(t);
             RADAU.c.map(|c| r * h * c - (l(t + h * c) - before))
         });
-        Self { period, stages: stages.collect(), mesh, extension: l(0.0) + r }
+        let heights = mesh.windows(2).map_while(|ends| {
+            let (t, h) = (period * ends[0], period * (ends[1] - ends[0]));
+            height(t)?;
+            Some(Heights::new(RADAU.c.map(|c| height(t + h * c).unwrap_or_default())))
+        });
+        let heights = heights.collect();
+        Self { period, stages: stages.collect(), mesh, extension: l(0.0) + r, heights }
     }
 
     /// Durations of the steps.
@@ -32,23 +53,45 @@ impl Orbit {
         self.mesh.windows(2).map(|ends| self.period * (ends[1] - ends[0]))
     }
 
+    /// x0' where it ends, and begins again.
+    pub(super) fn velocity(&self) -> f64 {
+        let last = self.stages.last().zip(self.lengths().last());
+        last.map_or(0.0, |(d, h)| velocity_at_end(d, h))
+    }
+
+    /// What each step leaves.
+    pub(super) fn carved(&self, wider: &Wider) -> Vec<Carved> {
+        let steps = self.lengths().enumerate();
+        steps.map(|(n, h)| Carved::new(wider, h, self.heights.get(n))).collect()
+    }
+
     /// One period of the motion from t = 0.
     pub(super) fn trajectory(&self, r: f64) -> Trajectory {
+        Trajectory::new(r, self.steps(r))
+    }
+
+    /// Its steps.
+    pub(super) fn steps(&self, r: f64) -> Vec<Step> {
         let mut extension = self.extension;
-        let steps = self.mesh.iter().zip(self.lengths()).zip(&self.stages);
-        let step = steps.map(|((start, h), displacement)| {
+        let mut before = self.heights.last().map(|last| last.nodes[STAGES - 1]);
+        let steps = self.mesh.iter().zip(self.lengths()).zip(&self.stages).enumerate();
+        let step = steps.map(|(n, ((start, h), displacement))| {
             let t = self.period * start;
-            let step = Step { t, h, extension, displacement: *displacement, height: None };
+            let height = self.heights.get(n).zip(before);
+            let height = height.map(|(h, start)| stickslip_tip::Heights { start, nodes: h.nodes });
+            before = height.map(|height| height.nodes[STAGES - 1]);
+            let step = Step { t, h, extension, displacement: *displacement, height };
             extension = step.extension_at_end(r);
             step
         });
-        Trajectory::new(r, step.collect())
+        step.collect()
     }
 
     /// The same motion, to the accuracy of its polynomials, on another mesh.
     pub(super) fn on_mesh(&self, r: f64, mesh: Vec<f64>) -> Self {
         let motion = self.trajectory(r);
-        Self::of_profile(r, self.period, mesh, |t| motion.l(t))
+        let profile = Profile { l: |t| motion.l(t), height: |t| motion.height(t) };
+        Self::of_profile(r, self.period, mesh, profile)
     }
 
     /// Two periods as one.
@@ -60,6 +103,7 @@ impl Orbit {
             mesh: halves.chain(second).collect(),
             extension: self.extension,
             stages: [self.stages.as_slice(), &self.stages].concat(),
+            heights: [self.heights.as_slice(), &self.heights].concat(),
         }
     }
 
@@ -69,7 +113,11 @@ impl Orbit {
         let inner = self.mesh[1..].iter().map(|end| 2.0 * end);
         let inner = inner.filter(|end| *end < 1.0 - LEAST_SHARE);
         let mesh = [0.0].into_iter().chain(inner).chain([1.0]).collect();
-        Self::of_profile(r, period, mesh, |t| 0.5 * (motion.l(t) + motion.l(period + t)))
+        let profile = Profile {
+            l: |t| 0.5 * (motion.l(t) + motion.l(period + t)),
+            height: |t| Some(0.5 * (motion.height(t)? + motion.height(period + t)?)),
+        };
+        Self::of_profile(r, period, mesh, profile)
     }
 
     /// The largest difference between l and l half a period later.
@@ -96,9 +144,11 @@ impl Orbit {
     pub(super) fn move_by(&mut self, change: &Change, factor: f64) {
         self.extension += factor * change.state[0];
         self.period += factor * change.period;
-        for (stages, by) in self.stages.iter_mut().zip(&change.stages) {
-            stages.iter_mut().zip(by).for_each(|(d, by)| *d += factor * by);
-        }
+        let add = |(to, by): (&mut Stages, &Stages)| {
+            to.iter_mut().zip(by).for_each(|(d, by)| *d += factor * by);
+        };
+        self.stages.iter_mut().zip(&change.stages).for_each(add);
+        self.heights.iter_mut().map(|h| &mut h.nodes).zip(&change.heights).for_each(add);
     }
 }
 

@@ -1,8 +1,9 @@
 //! The past of a motion that has gone on for ever, as a sum of exponentials tells it.
 
+use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
-use stickslip_tip::collocation::{RADAU, STAGES, Stages};
+use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::memory::{Fit, Term};
 use stickslip_tip::stop;
 
@@ -13,6 +14,8 @@ pub(super) struct Past<'a> {
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `ζ_j` by step, the end of the last included, and term.
     zeta: Vec<Complex<f64>>,
+    /// What is left of it at the nodes of each step.
+    left: Vec<Stages>,
 }
 
 /// That of one step.
@@ -25,31 +28,37 @@ pub(super) struct PastOfStep<'a> {
     pub(super) zeta: &'a [Complex<f64>],
     /// ζ where it ends.
     pub(super) after: &'a [Complex<f64>],
+    /// What is left at the nodes of what there was where it starts.
+    left: &'a Stages,
 }
 
 impl<'a> Past<'a> {
-    /// `None` where nobody waits for it any more.
+    /// `None` where nobody waits for it any more. `carved` is what each step leaves.
     ///
-    /// Over a step ζ becomes `e^{s d_s} (ζ + w h Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
-    pub(super) fn of(fit: &'a Fit, orbit: &Orbit) -> Option<Self> {
+    /// Over a step ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
+    pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
         let terms = fit.terms();
         let (mut exponentials, mut spent) = (vec![], vec![]);
-        for (d, h) in orbit.stages.iter().zip(orbit.lengths()) {
+        for (d, carved) in orbit.stages.iter().zip(carved) {
             if stop::is_asked() {
                 return None;
             }
+            let stays = carved.weighted()[STAGES - 1];
             for term in terms {
                 let e = d.map(|d| (term.exponent * d).exp());
-                spent.push(term.weight * spent_in(&e) * h);
+                spent.push(term.weight * spent_in(&e, &stays) * carved.times);
                 exponentials.push(e);
             }
         }
-        let mut past = Self { terms, exponentials, zeta: vec![Complex::ZERO; terms.len()] };
+        let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
+        let mut past = Self { terms, exponentials, zeta: vec![Complex::ZERO; terms.len()], left };
         past.follow(&spent);
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
+        let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
         let added = &past.zeta[past.zeta.len() - terms.len()..];
-        let settled =
-            |(added, term): (&Complex<f64>, &Term)| added / (1.0 - (term.exponent * moved).exp());
+        let settled = |(added, term): (&Complex<f64>, &Term)| {
+            added / (1.0 - (term.exponent * moved).exp() * kept)
+        };
         past.zeta = added.iter().zip(terms).map(settled).collect();
         past.follow(&spent);
         Some(past)
@@ -58,7 +67,8 @@ impl<'a> Past<'a> {
     /// ζ at the ends of all steps, from what it is at the start.
     fn follow(&mut self, spent: &[Complex<f64>]) {
         for (n, (e, spent)) in self.exponentials.iter().zip(spent).enumerate() {
-            self.zeta.push(e[STAGES - 1] * (self.zeta[n] + spent));
+            let left = self.left[n / self.terms.len()][STAGES - 1];
+            self.zeta.push(e[STAGES - 1] * (self.zeta[n] * left + spent));
         }
     }
 
@@ -69,13 +79,14 @@ impl<'a> Past<'a> {
             exponentials: &self.exponentials[of(n)],
             zeta: &self.zeta[of(n)],
             after: &self.zeta[of(n + 1)],
+            left: &self.left[n],
         }
     }
 }
 
 /// `Σ_k b_k e^{-s d_k}`
-fn spent_in(e: &[Complex<f64>; STAGES]) -> Complex<f64> {
-    e.iter().zip(RADAU.b()).map(|(e, b)| e.inv() * *b).sum()
+fn spent_in(e: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
+    e.iter().zip(b).map(|(e, b)| e.inv() * *b).sum()
 }
 
 impl PastOfStep<'_> {
@@ -95,6 +106,11 @@ impl PastOfStep<'_> {
         self.sum(|value, term| (value * term.exponent).re)
     }
 
+    /// Its height: u is -α times that.
+    pub(super) fn height(&self) -> Stages {
+        self.sum(|value, term| (value / term.exponent).re)
+    }
+
     fn sum(&self, part: impl Fn(Complex<f64>, &Term) -> f64) -> Stages {
         let mut sums = [0.0; STAGES];
         for ((e, zeta), term) in self.exponentials.iter().zip(self.zeta).zip(self.terms) {
@@ -102,6 +118,6 @@ impl PastOfStep<'_> {
                 *sum += part(zeta * e, term);
             }
         }
-        sums
+        std::array::from_fn(|i| sums[i] * self.left[i])
     }
 }

@@ -21,9 +21,13 @@ pub(super) struct Ripple {
 const POINTS_PER_HARMONIC: usize = 8;
 
 impl Ripple {
-    /// Of one period of the motion.
+    /// Of one period of the motion, each visit with its weight w under a depth limit; nothing is left where the
+    /// surface heals.
     pub(super) fn new(tip: &TipFunction, alpha: f64, period: &Trajectory) -> Self {
-        let (positions, weights) = period.residence(period.end());
+        let (positions, mut weights) = period.residence(period.end());
+        if period.wider().healing_time.is_some() {
+            weights.fill(0.0);
+        }
         let wavelength = period.r() * (period.end() - period.start());
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let harmonics = (tip.band() * wavelength / TAU).ceil() as usize;

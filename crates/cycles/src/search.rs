@@ -1,11 +1,15 @@
 //! Cycles found from nothing, or from a motion near them.
 
+use super::asked::{dragged, embedding, judge};
 use super::embedding::Embedding;
-use super::orbit::Orbit;
+use super::orbit::{Orbit, Profile};
 use super::solve::{Condition, MOST_WORK, NotClosed, close};
 use super::start::{from_onset, from_runs, part, small_cycle_exists};
-use super::{Cycle, CycleError, Ended, TOLERANCES, Tried};
-use stickslip_stability::{Critical, StabilityError, critical, onset_at};
+use super::steady::SteadyMotion;
+use super::{Continuation, End};
+use super::{Cycle, CycleError, Ended, Tried};
+use std::ops::ControlFlow;
+use stickslip_stability::{Critical, StabilityError, onset_at};
 use stickslip_tip::{Model, Trajectory, stop};
 
 /// Halves of a cycle that differ by less, in σ, are the same.
@@ -27,14 +31,13 @@ pub enum Settled {
 /// # Errors
 /// A tolerance out of range, or a run that fails.
 pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
-    papers(model)?;
+    dragged(model)?;
     judge(tolerance)?;
-    let critical = match critical(model.tip(), model.r()) {
-        Ok(critical) if model.alpha() > critical.alpha => critical,
-        Ok(_) | Err(StabilityError::NoCrossing { .. }) => return Ok(Settled::Steady),
-        Err(error) => return Err(error.into()),
-    };
-    let Search { stable, ended, .. } = Search::above_onset(model, critical, tolerance)?;
+    let onset = SteadyMotion::of(model)?;
+    if onset.is_stable {
+        return Ok(Settled::Steady);
+    }
+    let Search { stable, ended, .. } = Search::above_onset(model, onset.critical, tolerance)?;
     Ok(match (stable, ended) {
         (Some(cycle), _) => Settled::Cycle(Box::new(cycle)),
         (None, Some(run)) => Settled::Run(Box::new(run)),
@@ -54,27 +57,38 @@ pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
 pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let equation = embedding(model, tolerance)?;
     let (alpha, r) = (model.alpha(), model.r());
-    let critical = critical(model.tip(), r)?;
-    if alpha > critical.alpha {
-        let found = Search::above_onset(model, critical, tolerance)?;
-        let Search { stable, unstable, ended, coarse } = found;
-        if let Some(found) = stable {
-            return Ok(found);
+    let SteadyMotion { critical, is_stable } = SteadyMotion::of(model)?;
+    let followed = || {
+        let critical = critical?;
+        if model.wider().is_papers() {
+            return followed_from_onset(&equation, model, critical, tolerance);
         }
-        let ended = ended.map(|run| run.ended());
-        let is_stuck = ended == Some(Ended::Stuck);
-        let followed = || followed_from_onset(&equation, model, critical, tolerance);
-        let followed = if is_stuck || coarse.is_some() { None } else { followed() };
-        let found = match (followed, unstable) {
-            (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
-            (_, other) => other,
-        };
-        let none = coarse.unwrap_or(CycleError::NoCycleReached { alpha, r, ended });
-        return unless_stopped(found)?.ok_or(none);
+        branch_from_onset(model, critical, tolerance)
+    };
+    if is_stable {
+        let critical = critical.ok_or(StabilityError::NoCrossing { r })?;
+        let none = CycleError::NoSmallCycle { alpha, r, critical: critical.alpha };
+        if !model.wider().is_papers() {
+            return unless_stopped(branch_from_onset(model, critical, tolerance))?.ok_or(none);
+        }
+        let Some(guess) = born(&equation, model, critical) else { return Err(none) };
+        let found = unless_stopped(solve(&equation, guess, tolerance))?;
+        return found.map_err(|error| error.told(tolerance, none));
     }
-    let none = CycleError::NoSmallCycle { alpha, r, critical: critical.alpha };
-    let Some(guess) = born(&equation, model, critical) else { return Err(none) };
-    unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, none))
+    let Search { stable, unstable, ended, coarse } =
+        Search::above_onset(model, critical, tolerance)?;
+    if let Some(found) = stable {
+        return Ok(found);
+    }
+    let ended = ended.map(|run| run.ended());
+    let is_stuck = ended == Some(Ended::Stuck);
+    let followed = if is_stuck || coarse.is_some() { None } else { followed() };
+    let found = match (followed, unstable) {
+        (Some(cycle), other) if cycle.is_stable() || other.is_none() => Some(cycle),
+        (_, other) => other,
+    };
+    let none = coarse.unwrap_or(CycleError::NoCycleReached { alpha, r, ended });
+    unless_stopped(found)?.ok_or(none)
 }
 
 /// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
@@ -87,7 +101,8 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     let (start, length) = (period.start(), period.end() - period.start());
     let ends = period.steps().iter().map(|step| (step.end() - start) / length);
     let mesh = [0.0].into_iter().chain(ends).collect();
-    let guess = Orbit::of_profile(equation.r, length, mesh, |t| period.l(start + t));
+    let profile = Profile { l: |t| period.l(start + t), height: |t| period.height(start + t) };
+    let guess = Orbit::of_profile(equation.r, length, mesh, profile);
     let (alpha, r) = (model.alpha(), model.r());
     let lost = CycleError::NotConverged { alpha, r };
     unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, lost))
@@ -118,29 +133,13 @@ pub fn cycle_within(
 /// A tolerance out of range, a footprint that never fades, or no critical point.
 pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, CycleError> {
     let equation = embedding(model, tolerance)?;
-    let guess = born(&equation, model, critical(model.tip(), model.r())?);
+    let guess = SteadyMotion::of(model)?.critical.and_then(|at| born(&equation, model, at));
     Ok(guess.and_then(|guess| solve(&equation, guess, tolerance).ok()))
 }
 
 /// What a search came to, if it came to its end.
 fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
     if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
-}
-
-/// Refuses the wider law.
-fn papers(model: &Model) -> Result<(), CycleError> {
-    if model.wider().is_papers() { Ok(()) } else { Err(CycleError::WiderLaw) }
-}
-
-pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
-    papers(model)?;
-    judge(tolerance)?;
-    Embedding::new(model, tolerance)
-}
-
-fn judge(tolerance: f64) -> Result<(), CycleError> {
-    let usable = (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance);
-    if usable { Ok(()) } else { Err(CycleError::Tolerance(tolerance)) }
 }
 
 /// Guesses that close, but not to the residual asked for.
@@ -157,7 +156,11 @@ struct Search {
 }
 
 impl Search {
-    fn above_onset(model: &Model, critical: Critical, tolerance: f64) -> Result<Self, CycleError> {
+    fn above_onset(
+        model: &Model,
+        critical: Option<Critical>,
+        tolerance: f64,
+    ) -> Result<Self, CycleError> {
         // Runs are made of tips that never fade, too.
         let equation = match embedding(model, tolerance) {
             Err(CycleError::NeverFades) => None,
@@ -182,10 +185,11 @@ impl Search {
             place.get_or_insert(cycle);
             is_stable
         };
-        let small = equation.as_ref().and_then(|e| born(e, model, critical));
+        let small = equation.as_ref().zip(critical).and_then(|(e, at)| born(e, model, at));
         if !small.is_some_and(&mut take) {
             let width = equation.as_ref().map_or(model.tip().widths(1.0), Embedding::width);
-            found.ended = from_runs(model, (width, critical.period), take)?;
+            let period = critical.map_or(0.0, |at| at.period);
+            found.ended = from_runs(model, (width, period), take)?;
         }
         unless_stopped(Self { coarse, ..found })
     }
@@ -229,8 +233,35 @@ fn followed_from_onset(
     Some(cycle)
 }
 
-/// A guess at the small cycle on this side of onset.
+/// Cycles of a branch that is followed to the α asked for.
+const MOST_ON_THE_WAY: usize = 300;
+
+/// The same under a wider law, where nothing says beforehand where the small cycle is: the branch from onset, if it
+/// leads to this α without having led away from it first.
+fn branch_from_onset(model: &Model, critical: Critical, tolerance: f64) -> Option<Cycle> {
+    let settings = Continuation {
+        to: model.alpha(),
+        tolerance,
+        most_points: MOST_ON_THE_WAY,
+        ..Continuation::default()
+    };
+    let ahead = model.alpha() - critical.alpha;
+    let mut work = 0.0;
+    let observe = |cycle: &Cycle| {
+        work += cycle.work();
+        let away = (cycle.model().alpha() - critical.alpha) * ahead < 0.0;
+        if away || work > MOST_WORK { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let law = (model.wider(), model.tip());
+    let branch = settings.from_onset_under(law, model.r(), observe).ok()?;
+    (branch.end == End::Reached).then_some(branch.last)
+}
+
+/// A guess at the small cycle on this side of onset, where its leading order is known.
 fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit> {
+    if !model.wider().is_papers() {
+        return None;
+    }
     let onset = onset_at(model.tip(), critical).ok()?;
     from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
 }
@@ -244,6 +275,14 @@ fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, No
     let r = equation.r;
     if closed.orbit.difference_of_halves(r) < REPEATS_WITHIN {
         return solve(equation, closed.orbit.halved(r), tolerance);
+    }
+    // A tip with inertia overshoots, and swings back after each slip.
+    if closed.orbit.retreat() > equation.retreat() && equation.wider.inertia.is_some() {
+        let far = equation.reaching_back(tolerance).map_err(|error| match error {
+            CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
+            _ => NotClosed::Lost,
+        })?;
+        return solve(&far, closed.orbit, tolerance);
     }
     // What swings by no more than its error is steady motion.
     let swings = |cycle: &Cycle| cycle.slips() > 0 && cycle.amplitude_x0() > cycle.error();

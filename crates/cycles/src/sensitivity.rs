@@ -64,6 +64,11 @@ impl Sensitivity {
         &mut self.entries[i * stride..][..columns]
     }
 
+    /// Row i no longer depends on anything.
+    pub(super) fn clear(&mut self, i: usize) {
+        self.row_mut(i).fill(0.0);
+    }
+
     /// The derivatives of row i with respect to the period and the free parameter, and its correction.
     pub(super) fn constants(&mut self, i: usize) -> &mut [f64] {
         let from = self.columns - CONSTANTS;

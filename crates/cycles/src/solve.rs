@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
+use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -47,6 +47,11 @@ pub(super) enum NotClosed {
 
 const MOST_ITERATIONS: usize = 15;
 const MOST_MESHES: usize = 8;
+/// And under a wider law: to follow the corners of |h|, and where inertia rings.
+const MOST_MESHES_OF_WIDER: usize = 20;
+/// From so many meshes on each aims at this part of the residual of the one before.
+const USUAL_MESHES: usize = 4;
+const SHARPER: f64 = 0.5;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
 /// Residuals within a step may exceed the estimate by as much.
@@ -63,6 +68,8 @@ const ROUND_OFF: f64 = 1e-6;
 /// than that fraction.
 const LONGEST_CORRECTION: f64 = 1.0;
 const LARGEST_CHANGE_OF_PERIOD: f64 = 0.2;
+/// And no height by more than this, over the depth limit: w depends on them as an exponential does.
+const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
 
 /// The cycle near a guess.
 pub(super) fn close(
@@ -74,10 +81,13 @@ pub(super) fn close(
     if orbit.stages.len() > MOST_STEPS_OF_GUESS {
         return Err(NotClosed::Lost);
     }
+    orbit.take_heights(&equation).ok_or(NotClosed::Lost)?;
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
-    let state = 2.0 * equation.short.terms().len() as f64 + 1.0;
-    for _ in 0..MOST_MESHES {
+    let state = equation.state_len() as f64;
+    let meshes = if equation.wider.is_papers() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
+    let mut short_of_it = 0;
+    for _ in 0..meshes {
         // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
         let first = if equation.short_is_precise { &short } else { &fine };
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
@@ -90,9 +100,16 @@ pub(super) fn close(
             }
             let residuals = residuals(&orbit, &linearisation.stiffness);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
-            reached = MARGIN / ESTIMATE_FALLS_SHORT * residual;
-            if residual > ESTIMATE_FALLS_SHORT * allowed {
-                let mesh = adapted(&orbit, equation.band, &residuals, allowed);
+            reached = residual;
+            let corners = orbit.corners(equation.r);
+            let met = orbit.meets(&corners, &equation, allowed);
+            if residual > ESTIMATE_FALLS_SHORT * allowed || !met {
+                let is_fine = residual <= ESTIMATE_FALLS_SHORT * allowed;
+                let moved = if is_fine { orbit.moved_to(&corners) } else { None };
+                short_of_it += usize::from(!is_fine);
+                let aim = Aim::of_round(short_of_it, allowed, equation.wider.inertia.is_some());
+                let mesh = moved
+                    .unwrap_or_else(|| adapted(&orbit, equation.band, (&residuals, aim), &corners));
                 if mesh.len() > MOST_STEPS {
                     return Err(NotClosed::Lost);
                 }
@@ -105,7 +122,20 @@ pub(super) fn close(
             }
         }
     }
-    Err(NotClosed::Coarse(reached))
+    // Corners that are not met are met on another cycle nearby.
+    let is_coarse = reached > ESTIMATE_FALLS_SHORT * allowed;
+    let reached = MARGIN / ESTIMATE_FALLS_SHORT * reached;
+    Err(if is_coarse { NotClosed::Coarse(reached) } else { NotClosed::Lost })
+}
+
+impl Aim {
+    /// Where inertia rings, a mesh that does not resolve it says too little of the one that would: after some that fell
+    /// short they only become finer.
+    fn of_round(round: usize, allowed: f64, has_inertia: bool) -> Self {
+        let late = if has_inertia { round.saturating_sub(USUAL_MESHES) } else { 0 };
+        let sharper = (0..late).fold(1.0, |sharper, _| SHARPER * sharper);
+        Self { allowed, sharper, only_finer: late > 0, may_ring: has_inertia }
+    }
 }
 
 /// Newton's method on one mesh.
@@ -126,7 +156,8 @@ impl Newton<'_> {
             let linearisation = linearisation.map_err(|_| NotClosed::Lost)?;
             let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed::Lost)?;
             self.apply(&change)?;
-            let size = change.size();
+            let limit = self.equation.wider.depth_limit.unwrap_or(1.0);
+            let size = change.size().max(change.of_heights() / limit.max(1.0));
             let settled = size > 0.5 * last && size < ROUND_OFF;
             if size <= enough || settled {
                 return Ok((linearisation, iteration));
@@ -138,7 +169,11 @@ impl Newton<'_> {
 
     fn apply(&mut self, change: &Change) -> Result<(), NotClosed> {
         let width = self.equation.width();
+        let limit = self.equation.wider.depth_limit.unwrap_or(f64::INFINITY);
+        let by_heights = LARGEST_CHANGE_OF_HEIGHTS * limit / change.of_heights();
         let factor = damping(change, self.orbit.period, width);
+        // Without heights that is no number.
+        let factor = if by_heights < factor { by_heights } else { factor };
         let free = self.condition.free;
         self.orbit.move_by(change, factor);
         self.equation.set(free, self.equation.parameter(free) + factor * change.parameter);

@@ -2,7 +2,7 @@
 
 use super::embedding::Embedding;
 use super::mesh::{MOST_STEPS, equidistributed};
-use super::orbit::{Orbit, even_mesh};
+use super::orbit::{Orbit, Profile, even_mesh};
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -36,7 +36,8 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
         return None;
     }
     let mesh = even_mesh(steps_of_mode(equation, period, amplitude)?);
-    Some(Orbit::of_profile(equation.r, period, mesh, mode(model.steady_l(), amplitude, period)))
+    let l = mode(model.steady_l(), amplitude, period);
+    Some(Orbit::of_profile(equation.r, period, mesh, Profile { l, height: |_| None }))
 }
 
 /// l(t) of the linear mode.
@@ -124,6 +125,18 @@ pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
         mesh.push(((step.end() - from) / period).min(1.0));
         density.push(period / step.h);
     }
-    let mesh = equidistributed(&mesh, &density);
-    Orbit::of_profile(trajectory.r(), period, mesh, |t| trajectory.l(from + t))
+    let profile = || Profile {
+        l: |t: f64| trajectory.l(from + t),
+        height: |t: f64| trajectory.height(from + t),
+    };
+    let r = trajectory.r();
+    let on = |corners: &[f64]| {
+        Orbit::of_profile(r, period, equidistributed(&mesh, &density, corners), profile())
+    };
+    let part = on(&[]);
+    // Steps of the run end at the corners of |h|: so must these.
+    match part.corners(r) {
+        corners if corners.is_empty() => part,
+        corners => on(&corners),
+    }
 }

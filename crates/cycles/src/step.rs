@@ -7,56 +7,100 @@
 //!     0   = d_i - h Σ_k a_ik v_k                           (stickslip_tip::step)
 //!     e'  = e + r h - d_s,        ζ_j' = e^{s_j d_s} (ζ_j + w_j h Σ_k b_k e^{-s_j d_k})
 //! ```
+//!
+//! A wider law weighs and fades visits ([`Carved`]), carries the force on by another matrix than hA ([`Carrying`]), or
+//! asks for the [heights](LinearHeights) under the tip.
 
+use super::blocks::{Square, Vector};
+use super::carrying::Carrying;
+use super::carved::{Carved, Heights};
+use super::depth::LinearHeights;
 use super::embedding::{Embedding, Parameter};
 use super::past::PastOfStep;
 use super::sensitivity::Sensitivity;
-use nalgebra::{SMatrix, SVector};
 use num_complex::Complex;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
-use stickslip_tip::step::{Law, OwnGroove, carving};
-
-type Square = SMatrix<f64, STAGES, STAGES>;
-type Vector = SVector<f64, STAGES>;
+use stickslip_tip::step::OwnGroove;
 
 /// A step linearised about its displacements.
 pub(super) struct LinearStep<'a> {
     equation: &'a Embedding,
     past: PastOfStep<'a>,
+    carved: &'a Carved,
     d: &'a Stages,
     h: f64,
+    /// The force: the velocity, without inertia.
     velocity: Vector,
-    /// ∂v/∂d
+    /// ∂v/∂d, the heights following.
     velocity_slope: Square,
     /// Slope of the groove over α, past and own: ∂v/∂α.
     groove: Vector,
-    /// `Σ_k a_ik f'(d_i - d_k)`
-    own: Vector,
+    /// Its derivative by h.
+    groove_rate: Vector,
+    carrying: Carrying,
+    heights: Option<LinearHeights>,
+}
+
+/// What is known of a step: its state at the start, its length, its solution.
+#[derive(Clone, Copy)]
+pub(super) struct Solved<'a> {
+    /// rt - x0 where it starts.
+    pub(super) extension: f64,
+    /// x0' there.
+    pub(super) velocity: f64,
+    pub(super) h: f64,
+    pub(super) d: &'a Stages,
+    pub(super) heights: Option<&'a Heights>,
+    pub(super) carved: &'a Carved,
 }
 
 impl<'a> LinearStep<'a> {
-    /// Of length h, from this extension; `past_slope` is that in which the equations are solved, `past` that
-    /// in which they are linearised.
+    /// `told` is the past in which the equations are solved, `past` that in which they are linearised.
     pub(super) fn new(
         equation: &'a Embedding,
-        (past, past_slope): (PastOfStep<'a>, &Stages),
-        (extension, h, d): (f64, f64, &'a Stages),
+        (past, told): (PastOfStep<'a>, PastOfStep<'_>),
+        step: Solved<'a>,
     ) -> Self {
-        let law = Law { alpha: equation.alpha, r: equation.r, spring: 1.0 };
+        let Solved { extension, h, d, carved, .. } = step;
+        let law = equation.law();
         let between = OwnGroove::new(&equation.tip, d);
-        // What is carved in a unit step: of one of length h it is h times as much.
+        let (weighted, past_slope) = (carved.weighted(), told.slope());
+        // What is carved in a unit step: of one of length h it is h times as much, unless it heals.
         let (mut own, mut own_slope) = ([0.0; STAGES], [[0.0; STAGES]; STAGES]);
-        between.add_slope(&carving(1.0), &mut own);
-        between.add_derivatives(&carving(1.0), &mut own_slope);
+        between.add_slope(&weighted, &mut own);
+        between.add_derivatives(&weighted, &mut own_slope);
         let (own, pull) = (Vector::from(own), law.pull(extension, h));
-        let groove = Vector::from(*past_slope) + own * h;
+        let mut rate = [0.0; STAGES];
+        between.add_slope(&carved.rate(), &mut rate);
+        for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading.iter().zip(&past_slope)) {
+            *rate += fading * slope;
+        }
+        let groove = Vector::from(past_slope) + own * carved.times;
         let velocity = Vector::from_fn(|i, _| law.velocity(pull[i], d[i], 0.0, groove[i]));
         let curvature = past.curvature();
-        let velocity_slope = Square::from_fn(|i, k| match own_slope[i][k] * h {
+        let mut velocity_slope = Square::from_fn(|i, k| match own_slope[i][k] * carved.times {
             own if i == k => law.velocity_slope(0.0, curvature[i] + own),
             own => law.alpha * own,
         });
-        Self { equation, past, d, h, velocity, velocity_slope, groove, own }
+        let heights = step.heights.and_then(|heights| {
+            LinearHeights::new(equation, told.height(), (&groove, &between), (d, heights, carved))
+        });
+        if let Some(heights) = &heights {
+            velocity_slope -= heights.stiffness();
+        }
+        Self {
+            equation,
+            past,
+            carved,
+            d,
+            h,
+            velocity,
+            velocity_slope,
+            groove,
+            groove_rate: Vector::from(rate),
+            carrying: Carrying::new(&equation.wider, h, step.velocity),
+            heights,
+        }
     }
 
     /// 1 + u_xx, the largest within the step.
@@ -65,83 +109,153 @@ impl<'a> LinearStep<'a> {
     }
 
     /// Carries the sensitivities of the state over the step, which is the fraction `share` of the period,
-    /// and returns those of its displacements. `None` if the stage equations are singular.
+    /// and returns those of its displacements and heights. `None` if the stage equations are singular.
     pub(super) fn carry(
         &self,
         free: Parameter,
         share: f64,
         state: &mut Sensitivity,
-    ) -> Option<Sensitivity> {
-        let a = Square::from_fn(|i, k| RADAU.a[i][k]);
-        let ha = a * self.h;
-        let inverse = (Square::identity() - ha * self.velocity_slope).try_inverse()?;
-        let gain = inverse * ha;
-        let advance = Vector::from_fn(|i, _| self.equation.r * RADAU.c[i]);
-        let by_length = self.own * self.equation.alpha + advance;
-        let by_parameter = match free {
-            Parameter::Alpha => self.groove,
-            Parameter::R => Vector::from(RADAU.c) * self.h,
-        };
-        let missed = ha * self.velocity - Vector::from(*self.d);
-        let constants = [
-            (inverse * (a * self.velocity) + gain * by_length) * share,
-            gain * by_parameter,
-            inverse * missed,
-        ];
-        let mut stages = state.contracted(&self.stages_by_state(&gain));
+    ) -> Option<(Sensitivity, Option<Sensitivity>)> {
+        let Carrying { by_force, .. } = &self.carrying;
+        let inverse = (Square::identity() - by_force * self.velocity_slope).try_inverse()?;
+        let gain = inverse * by_force;
+        let told = self.heights_by_state();
+        let mut stages = state.contracted(&self.stages_by_state(&told, &inverse, &gain));
+        let constants = self.constants(free, share, &inverse, &gain);
         for i in 0..STAGES {
             for (column, constant) in stages.constants(i).iter_mut().zip(&constants) {
                 *column += constant[i];
             }
         }
-        self.carry_state(free, share, &stages, state);
-        Some(stages)
+        let heights = self
+            .heights
+            .as_ref()
+            .map(|heights| heights.follow(&told, (free, share), state, &stages));
+        self.carry_state(free, share, (&stages, heights.as_ref()), state);
+        Some((stages, heights))
     }
 
-    /// ∂d/∂X = gain ∂v/∂X, by component of X.
-    fn stages_by_state(&self, gain: &Square) -> Vec<Stages> {
+    /// Changes of the displacements with the period, with the free parameter, and to solve the equations.
+    fn constants(
+        &self,
+        free: Parameter,
+        share: f64,
+        inverse: &Square,
+        gain: &Square,
+    ) -> [Vector; 3] {
+        let Carrying { by_force, by_force_rate, glide, glide_rate, .. } = &self.carrying;
+        let advance = Vector::from_fn(|i, _| self.equation.r * RADAU.c[i]);
+        let mut by_length = self.groove_rate * self.equation.alpha + advance;
+        let mut by_parameter = match free {
+            Parameter::Alpha => self.groove,
+            Parameter::R => Vector::from(RADAU.c) * self.h,
+        };
+        let mut missed = by_force * self.velocity - Vector::from(*self.d);
+        let mut lengthened = by_force_rate * self.velocity;
+        if let (Some(glide), Some(rate)) = (glide, glide_rate) {
+            missed += glide;
+            lengthened += rate;
+        }
+        if let Some(heights) = &self.heights {
+            by_length += heights.force_by_length();
+            missed -= by_force * heights.force_missed();
+            if free == Parameter::Alpha {
+                by_parameter += heights.force_by_alpha();
+            }
+        }
+        [(inverse * lengthened + gain * by_length) * share, gain * by_parameter, inverse * missed]
+    }
+
+    /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is that of the heights.
+    fn stages_by_state(&self, told: &[Vector], inverse: &Square, gain: &Square) -> Vec<Stages> {
         let alpha = self.equation.alpha;
-        let by = |part: &dyn Fn(usize) -> f64| Stages::from(gain * Vector::from_fn(|i, _| part(i)));
+        let left = &self.carved.left;
+        let by = |part: &dyn Fn(usize) -> f64| Vector::from_fn(|i, _| part(i));
         let exponentials = self.past.exponentials;
-        let re = exponentials.iter().map(|e| by(&|i| alpha * e[i].re));
-        let im = exponentials.iter().map(|e| by(&|i| -alpha * e[i].im));
-        [by(&|_| 1.0)].into_iter().chain(re).chain(im).collect()
+        let re = exponentials.iter().map(|e| by(&|i| alpha * e[i].re * left[i]));
+        let im = exponentials.iter().map(|e| by(&|i| -alpha * e[i].im * left[i]));
+        let mut forces: Vec<Vector> = [by(&|_| 1.0)].into_iter().chain(re).chain(im).collect();
+        if let Some(heights) = &self.heights {
+            forces.iter_mut().zip(told).for_each(|(force, told)| *force += heights.force(told));
+        }
+        let glide = self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide));
+        forces.into_iter().map(|force| Stages::from(gain * force)).chain(glide).collect()
     }
 
-    /// δX' from δX and δd.
+    /// ∂g/∂X of the heights -α g, by component of X; nothing without a depth limit.
+    fn heights_by_state(&self) -> Vec<Vector> {
+        if self.heights.is_none() {
+            return vec![];
+        }
+        let left = &self.carved.left;
+        let told = self.past.exponentials.iter().zip(self.past.terms);
+        let told = told.map(|(e, term)| e.map(|e| e / term.exponent));
+        let told: Vec<[Complex<f64>; STAGES]> = told.collect();
+        let re = told.iter().map(|e| Vector::from_fn(|i, _| e[i].re * left[i]));
+        let im = told.iter().map(|e| Vector::from_fn(|i, _| -e[i].im * left[i]));
+        let inertia = self.equation.wider.inertia.map(|_| Vector::zeros());
+        [Vector::zeros()].into_iter().chain(re).chain(im).chain(inertia).collect()
+    }
+
+    /// δX' from δX, δd and the changes of the heights.
     fn carry_state(
         &self,
         free: Parameter,
         share: f64,
-        stages: &Sensitivity,
+        (stages, heights): (&Sensitivity, Option<&Sensitivity>),
         state: &mut Sensitivity,
     ) {
         let modes = self.past.terms.len();
-        let mut by_stages = vec![[0.0; STAGES]; 1 + 2 * modes];
+        let rows = self.equation.state_len();
+        let mut by_stages = vec![[0.0; STAGES]; rows];
+        let mut by_heights = vec![[0.0; STAGES]; if heights.is_some() { rows } else { 0 }];
         by_stages[0][STAGES - 1] = -1.0;
         state.constants(0)[0] += self.equation.r * share;
         if free == Parameter::R {
             state.constants(0)[1] += self.h;
         }
+        let [stays, rate, by_height] =
+            [self.carved.weighted(), self.carved.rate(), self.carved.by_height()]
+                .map(|b| b[STAGES - 1]);
+        let (left, fading) = (self.carved.left[STAGES - 1], self.carved.fading[STAGES - 1]);
         for (j, term) in self.past.terms.iter().enumerate() {
             let e = &self.past.exponentials[j];
             let (re, im) = (1 + j, 1 + modes + j);
-            state.multiply_pair(re, im, e[STAGES - 1]);
+            state.multiply_pair(re, im, e[STAGES - 1] * left);
             let weight = term.weight * e[STAGES - 1];
-            let spent: [Complex<f64>; STAGES] =
-                std::array::from_fn(|k| weight * e[k].inv() * RADAU.b()[k]);
+            let visit = e.map(|e| weight * e.inv());
+            let spent =
+                |b: &Stages| -> [Complex<f64>; STAGES] { std::array::from_fn(|k| visit[k] * b[k]) };
+            let stays = spent(&stays);
             for k in 0..STAGES {
-                let mut change = -term.exponent * spent[k] * self.h;
+                let mut change = -term.exponent * stays[k] * self.carved.times;
                 if k == STAGES - 1 {
                     change += term.exponent * self.past.after[j];
                 }
                 (by_stages[re][k], by_stages[im][k]) = (change.re, change.im);
             }
-            let spent: Complex<f64> = spent.iter().sum();
-            state.constants(re)[0] += spent.re * share;
-            state.constants(im)[0] += spent.im * share;
+            if heights.is_some() {
+                for (k, change) in spent(&by_height).into_iter().enumerate() {
+                    (by_heights[re][k], by_heights[im][k]) = (change.re, change.im);
+                }
+            }
+            let spent: Complex<f64> = spent(&rate).iter().sum();
+            let faded = e[STAGES - 1] * self.past.zeta[j] * (left * fading);
+            state.constants(re)[0] += (spent.re + faded.re) * share;
+            state.constants(im)[0] += (spent.im + faded.im) * share;
+        }
+        if self.equation.wider.inertia.is_some() {
+            // The velocity at the end is the slope of the polynomial there, whatever it was before.
+            let slope = &RADAU.derivative[STAGES - 1];
+            by_stages[rows - 1] = slope.map(|w| w / self.h);
+            let velocity: f64 = slope.iter().zip(self.d).map(|(w, d)| w * d).sum::<f64>() / self.h;
+            state.clear(rows - 1);
+            state.constants(rows - 1)[0] -= velocity / self.h * share;
         }
         state.add_expanded(&by_stages, stages);
+        if let Some(heights) = heights {
+            state.add_expanded(&by_heights, heights);
+        }
     }
 }
 
@@ -150,7 +264,7 @@ mod tests {
     use super::super::past::Past;
     use super::*;
     use stickslip_tip::memory::{Groove, Memory, Policy};
-    use stickslip_tip::step::Equations;
+    use stickslip_tip::step::{Equations, Law};
     use stickslip_tip::{Model, TipFunction};
 
     /// The integrator's equations, with the past from its memory, on the steps of a cycle: what memory and
@@ -162,7 +276,8 @@ mod tests {
         let found = crate::cycle(&model, 1e-9).unwrap();
         let (equation, orbit) = (&found.closed.equation, &found.closed.orbit);
         let law = Law::of(&model);
-        let past = Past::of(&equation.fine, orbit).unwrap();
+        let carved = orbit.carved(&equation.wider);
+        let past = Past::of(&equation.fine, orbit, &carved).unwrap();
         let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
         let steps = || orbit.lengths().zip(&orbit.stages);
         for _ in 0..8 {
@@ -172,7 +287,9 @@ mod tests {
         let zero = [0.0; STAGES];
         for (n, (h, d)) in steps().enumerate() {
             let slope = past.of_step(n).slope();
-            let step = LinearStep::new(equation, (past.of_step(n), &slope), (extension, h, d));
+            let (velocity, carved) = (0.0, &carved[n]);
+            let solved = Solved { extension, velocity, h, d, heights: None, carved };
+            let step = LinearStep::new(equation, (past.of_step(n), past.of_step(n)), solved);
             let (mut told, mut curvature) = (zero, zero);
             memory.groove(d, &mut Groove::new(&mut told, &mut curvature));
             let near = |a: f64, b: f64, allowed: f64, what: &str| {

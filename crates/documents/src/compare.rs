@@ -1,10 +1,7 @@
 //! `stickslip/compare`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{
-    ForceTable, MemoryName, ModelParameters, NoiseParameters, Profile, PulseParameters, Software,
-    StartName, SupportPathParameters,
-};
+use crate::{RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -43,35 +40,9 @@ impl CompareDocument {
 /// What was asked for.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct CompareParameters {
-    /// Footprint, α and r.
+    /// The run of the closed equation; the grid is given the same.
     #[serde(flatten)]
-    pub model: ModelParameters,
-    /// Initial state.
-    pub start: StartName,
-    /// X: position of the tip at the start, in σ.
-    pub start_position: f64,
-    /// D: the tip starts at X - D, in σ.
-    pub kick: f64,
-    /// Motion of the support, where it has one of its own.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub support_path: Option<SupportPathParameters>,
-    /// Velocity of the tip at the start, in kσ/Γ, where it was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub start_velocity: Option<f64>,
-    /// Noise added to the initial surface.
-    pub noise: Option<NoiseParameters>,
-    /// Profile added to the initial surface.
-    pub initial_surface: Option<Profile>,
-    /// Gaussian pulses of external force.
-    pub pulses: Vec<PulseParameters>,
-    /// Tabulated external force.
-    pub force: Option<ForceTable>,
-    /// Time at which the closed equation ends, in Γ/k.
-    pub until: f64,
-    /// Error asked of the closed equation, in σ.
-    pub tolerance: f64,
-    /// Memory asked for.
-    pub memory: MemoryName,
+    pub run: RunParameters,
     /// Discretisation.
     pub grid: GridName,
     /// Δx, in σ.

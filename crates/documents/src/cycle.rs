@@ -39,7 +39,7 @@ pub struct CycleDocument {
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; 0 where it heals.
     pub amplitude_u: f64,
     /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]
@@ -122,6 +122,9 @@ pub struct CycleProfile {
     pub l: Vec<f64>,
     /// x0', in kσ/Γ.
     pub velocity: Vec<f64>,
+    /// The height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<f64>>,
 }
 
 impl CycleProfile {
@@ -139,6 +142,7 @@ impl CycleProfile {
         Self {
             l: t.iter().map(|t| motion.l(*t)).collect(),
             velocity: t.iter().map(|t| motion.velocity(*t)).collect(),
+            height: t.iter().map(|t| motion.height(*t)).collect(),
             t,
         }
     }
@@ -159,7 +163,10 @@ pub struct CycleWork {
 impl Tabular for CycleDocument {
     /// The profile.
     fn columns(&self) -> Vec<Named<'_>> {
-        let CycleProfile { t, l, velocity } = &self.profile;
-        vec![("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))]
+        let CycleProfile { t, l, velocity, height } = &self.profile;
+        let height = height.iter().map(|height| ("height", Column::of(height)));
+        let columns =
+            [("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))];
+        columns.into_iter().chain(height).collect()
     }
 }

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
 use stickslip_outcome::{Motion, Outcome};
+use stickslip_tip::Wider;
 
 /// What the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +55,15 @@ pub struct SweepParameters {
     pub tolerance: f64,
     /// Part of the points that is here, all without.
     pub shard: Option<ShardDocument>,
+    /// b of (61), in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T, in Γ/k, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k, where the tip has inertia.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
 }
 
 /// Part `index` of `of`: the points whose index is `index` - 1 modulo `of`.
@@ -136,6 +146,13 @@ pub struct SweepPoint {
 }
 
 impl SweepParameters {
+    /// What a wider law adds.
+    #[must_use]
+    pub fn wider(&self) -> Wider {
+        let Self { depth_limit, healing_time, inertia, .. } = *self;
+        Wider { depth_limit, healing_time, inertia, spring: true }
+    }
+
     /// The part that is here, be it the whole.
     pub fn part(&self) -> ShardDocument {
         self.shard.unwrap_or(ShardDocument { index: 1, of: 1 })

@@ -2,14 +2,15 @@
 
 use super::{Asked, OPTION};
 use crate::arguments::Interval;
+use crate::commands::model::refused_wider;
 use crate::commands::progress::Progress;
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use std::f64::consts::TAU;
 use stickslip_documents::{BoundaryDocument, FORMAT_VERSION, LimitColumns, OnsetColumns, Software};
 use stickslip_stability::{
     OnsetKind, StabilityError, WiderCritical, critical_under, least_depth_limit, memory_length,
 };
-use stickslip_tip::{TipFunction, Wider, WiderError};
+use stickslip_tip::{TipFunction, Wider};
 
 /// αc of each r, and what leaves nothing unstable. That nothing is unstable at all is an answer too.
 pub(super) fn document(
@@ -26,7 +27,7 @@ pub(super) fn document(
             Err(error @ (StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. })) => {
                 left_out.push(error);
             }
-            Err(StabilityError::Wider(error)) => return Err(refused(&error)),
+            Err(StabilityError::Wider(error)) => return Err(refused_wider(&error)),
             Err(error) => return Err(typed.refused(OPTION, error)),
         }
         least.push(least_depth_limit(law, tip, *r).ok());
@@ -71,13 +72,4 @@ fn remarks(along: &[WiderCritical], left_out: &[StabilityError]) -> Vec<String> 
         );
     }
     said
-}
-
-fn refused(error: &WiderError) -> Failure {
-    let (option, value) = match *error {
-        WiderError::DepthLimit(b) => ("--depth-limit", b),
-        WiderError::HealingTime(time) => ("--healing-time", time),
-        WiderError::Inertia(mass) => ("--inertia", mass),
-    };
-    Failure::input(format!("{option} {}", Typed(value)), error)
 }

@@ -7,6 +7,7 @@ use stickslip_documents::{
     Software, SpecialDocument, TipDocument,
 };
 use stickslip_stability::trapping_alpha;
+use stickslip_tip::Wider;
 
 pub(super) fn of(
     arguments: &ContinueArguments,
@@ -27,19 +28,22 @@ pub(super) fn of(
         f.branch.special.iter().map(move |special| SpecialDocument::of(i, special))
     });
     let from = |f: &Found| f.from.map(|(branch, place)| offsets[branch] + place);
-    // In steady creep α/r is what counts.
-    let ratio = trapping_alpha(origin.tip(), 1.0).ok();
+    let Wider { depth_limit, healing_time, inertia, .. } = *origin.wider();
+    // In steady creep α/r is what counts; under a depth limit, or where the surface heals, no tip is held for ever.
+    let is_held = depth_limit.or(healing_time).is_none();
+    let ratio = trapping_alpha(origin.tip(), 1.0).ok().filter(|_| is_held);
+    let papers = ModelParameters::papers(
+        TipDocument::from(origin.tip()),
+        first.alpha,
+        arguments.start.model.alpha_above,
+        first.r,
+    );
     ContinueDocument {
         format: ContinueDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
         parameters: ContinueParameters {
-            model: ModelParameters::papers(
-                TipDocument::from(origin.tip()),
-                first.alpha,
-                arguments.start.model.alpha_above,
-                first.r,
-            ),
+            model: ModelParameters { depth_limit, healing_time, inertia, ..papers },
             over: arguments.over,
             to: arguments.to,
             switch: arguments.switch,

@@ -1,13 +1,12 @@
 //! The cycle that `cycle` is about and `continue` begins with.
 
 use crate::arguments::{CycleStart, ModelArguments};
-use crate::commands::model::only_papers;
-use crate::commands::model::{model, tip};
+use crate::commands::model::{dragged_model, model_under, refuse_endless, tip};
 use crate::failure::{Failure, Typed};
 use crate::files::input::read_document;
 use stickslip_cycles::{Cycle, CycleError, TOLERANCES, cycle, cycle_near};
 use stickslip_documents::{CycleDocument, Unusable};
-use stickslip_tip::{Model, Trajectory};
+use stickslip_tip::{Model, Support, Trajectory, Wider};
 
 /// Parameters, and the motion to start from if there is one.
 pub(crate) struct Start {
@@ -22,14 +21,15 @@ impl Start {
     pub(crate) fn asked(arguments: &CycleStart) -> Result<Self, Failure> {
         let tolerance = Self::judge_tolerance(arguments)?;
         let Some(path) = &arguments.from else {
-            return Ok(Self { model: model(&arguments.model, "cycle")?, period: None, tolerance });
+            return Ok(Self { model: dragged_model(&arguments.model)?, period: None, tolerance });
         };
         let document: CycleDocument = read_document("--from", path, CycleDocument::FORMAT)?;
         let refused =
             |message: String| Failure::input(format!("--from {}", path.display()), message);
         let unusable = |error: Unusable| refused(error.to_string());
         let before = document.parameters.model.model().map_err(unusable)?;
-        let period = document.history.trajectory(before.r()).map_err(unusable)?;
+        let period = document.history.under(*before.wider(), Support::Moving(before.r()));
+        let period = period.map_err(unusable)?;
         if period.start().abs() > 0.0 {
             return Err(refused("history: a cycle starts at t = 0".into()));
         }
@@ -64,8 +64,8 @@ impl Start {
 
 /// A model with what was given in place of its own.
 fn changed(before: &Model, arguments: &ModelArguments) -> Result<Model, Failure> {
-    only_papers(&arguments.tip, &arguments.wider, "cycle")?;
-    let ModelArguments { tip: asked, r, alpha, alpha_above, .. } = arguments;
+    refuse_endless(&arguments.tip, &arguments.wider)?;
+    let ModelArguments { tip: asked, r, alpha, alpha_above, wider } = arguments;
     let given = asked.tip.is_some()
         || asked.beta.is_some()
         || asked.width.is_some()
@@ -79,7 +79,13 @@ fn changed(before: &Model, arguments: &ModelArguments) -> Result<Model, Failure>
     }
     let (r, alpha) = (r.unwrap_or(before.r()), *alpha);
     let alpha = if alpha.is_none() && alpha_above.is_none() { Some(before.alpha()) } else { alpha };
-    crate::commands::model::model_of(before.tip().clone(), r, alpha, *alpha_above)
+    let law = Wider {
+        depth_limit: wider.depth_limit.or(before.wider().depth_limit),
+        healing_time: wider.healing_time.or(before.wider().healing_time),
+        inertia: wider.inertia.or(before.wider().inertia),
+        spring: true,
+    };
+    model_under((law, before.tip().clone()), r, (alpha, *alpha_above))
 }
 
 /// What cannot be had at these parameters is no fault of the input, unless it is never there.

@@ -1,11 +1,11 @@
 //! The points of a sweep: footprints times r times α, the last varying fastest.
 
-use crate::arguments::{Range, SweepArguments, TipArguments};
-use crate::commands::model::tip;
+use crate::arguments::{Range, SweepArguments, TipArguments, WiderArguments};
+use crate::commands::model::{refuse_endless, refused_wider, tip, wider};
 use crate::failure::{Failure, Typed};
 use stickslip_cycles::TOLERANCES;
 use stickslip_documents::{ShardDocument, SweepParameters};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// More than a cluster does in a year; their document would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;
@@ -25,6 +25,7 @@ pub(super) struct Place<'a> {
     pub(super) beta: Option<f64>,
     pub(super) r: f64,
     pub(super) alpha: Alpha,
+    pub(super) wider: Wider,
 }
 
 /// α, or αc(r) + D.
@@ -63,6 +64,9 @@ impl Grid {
             let (least, most) = TOLERANCES;
             return Err(Failure::input(option, format!("{least:e} to {most:e} will do")));
         }
+        refuse_endless(&tip_arguments(arguments, None), &arguments.wider)?;
+        let WiderArguments { depth_limit, healing_time, inertia, .. } = arguments.wider;
+        wider(&arguments.wider).validate().map_err(|error| refused_wider(&error))?;
         let beta = arguments.beta.map(Range::values);
         let tips = tips(arguments, beta.as_deref())?;
         let grid = Self {
@@ -74,6 +78,9 @@ impl Grid {
                 alpha_above: above.map(Range::values),
                 tolerance: arguments.tolerance,
                 shard: arguments.shard.map(|s| ShardDocument { index: s.index, of: s.of }),
+                depth_limit,
+                healing_time,
+                inertia,
             },
             tips,
         };
@@ -98,6 +105,7 @@ impl Grid {
             beta: beta.as_ref().map(|beta| beta[which]),
             r: r[at],
             alpha: given.or(above).unwrap_or(Alpha::Given(0.0)),
+            wider: self.parameters.wider(),
         }
     }
 }
@@ -122,12 +130,14 @@ fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
 }
 
 fn tips(arguments: &SweepArguments, beta: Option<&[f64]>) -> Result<Vec<TipFunction>, Failure> {
-    let one = |beta: Option<f64>| {
-        let (name, width) = (arguments.tip, arguments.width);
-        tip(&TipArguments { tip: name, beta, width, tip_file: arguments.tip_file.clone() })
-    };
+    let one = |beta: Option<f64>| tip(&tip_arguments(arguments, beta));
     match beta {
         None => Ok(vec![one(None)?]),
         Some(values) => values.iter().map(|beta| one(Some(*beta))).collect(),
     }
+}
+
+fn tip_arguments(arguments: &SweepArguments, beta: Option<f64>) -> TipArguments {
+    let SweepArguments { tip, width, tip_file, .. } = arguments;
+    TipArguments { tip: *tip, beta, width: *width, tip_file: tip_file.clone() }
 }

@@ -3,11 +3,15 @@
 use super::grid::{Alpha, Place};
 use stickslip_documents::SweepPoint;
 use stickslip_outcome::motion;
-use stickslip_stability::critical;
-use stickslip_tip::Model;
+use stickslip_stability::{critical, critical_under};
+use stickslip_tip::{Model, TipFunction};
 
 pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
-    let critical = critical(place.tip, place.r);
+    let critical = if place.wider.is_papers() && *place.tip != TipFunction::Cosine {
+        critical(place.tip, place.r)
+    } else {
+        critical_under(&place.wider, place.tip, place.r).map(|found| found.critical)
+    };
     let alpha = match (place.alpha, &critical) {
         (Alpha::Given(alpha), _) => Some(alpha),
         (Alpha::Above(above), Ok(critical)) => Some(critical.alpha + above),
@@ -20,7 +24,8 @@ pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
     let Some(alpha) = alpha else {
         return SweepPoint { error: critical.err().map(|error| error.to_string()), ..point };
     };
-    let model = Model::new(place.tip.clone(), alpha, place.r).map_err(|error| error.to_string());
+    let model = Model::under(place.wider, place.tip.clone(), alpha, place.r);
+    let model = model.map_err(|error| error.to_string());
     match model.and_then(|model| motion(&model, tolerance).map_err(|error| error.to_string())) {
         Ok(motion) => point.settled(motion),
         Err(error) => SweepPoint { error: Some(error), ..point },

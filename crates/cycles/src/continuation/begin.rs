@@ -2,14 +2,14 @@
 
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
+use crate::asked::embedding;
 use crate::change::Direction;
-use crate::orbit::{Orbit, even_mesh};
-use crate::search::embedding;
+use crate::orbit::{Orbit, Profile, even_mesh};
 use crate::solve::{Closed, Condition, close};
 use crate::start::{mode, steps_of_mode};
 use crate::{Cycle, CycleError, Parameter};
-use stickslip_stability::{critical, critical_r};
-use stickslip_tip::{Model, TipFunction};
+use stickslip_stability::{StabilityError, critical, critical_r, critical_under};
+use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Amplitude of the first cycle, in widths.
 const FIRST_AMPLITUDE: f64 = 0.02;
@@ -17,17 +17,19 @@ const FIRST_AMPLITUDE: f64 = 0.02;
 /// The Hopf point at the value of the other parameter, and the first cycle of its branch.
 pub(super) fn at_onset(
     settings: &Continuation,
-    tip: &TipFunction,
+    (wider, tip): (&Wider, &TipFunction),
     other: f64,
 ) -> Result<(Special, Place), CycleError> {
     let born = match settings.over {
-        Parameter::Alpha => critical(tip, other)?,
-        Parameter::R => critical_r(tip, other)?,
+        Parameter::Alpha if wider.is_papers() => critical(tip, other)?,
+        Parameter::R if wider.is_papers() => critical_r(tip, other)?,
+        Parameter::Alpha => critical_under(wider, tip, other)?.critical,
+        Parameter::R => Err(StabilityError::PapersLawOnly("the r at which a given α is critical"))?,
     };
     let (alpha, r) = (born.alpha, born.r);
     let hopf = Special { kind: SpecialKind::Hopf, alpha, r, period: born.period, cycle: None };
     let lost = CycleError::NotConverged { alpha, r };
-    let model = Model::new(tip.clone(), alpha, r).map_err(|_| lost.clone())?;
+    let model = Model::under(*wider, tip.clone(), alpha, r).map_err(|_| lost.clone())?;
     let closed = small(settings, &model, born.period, tip.widths(FIRST_AMPLITUDE))?;
     let place = Place::new(closed, settings.over, &Direction::L).ok_or(lost)?;
     Ok((hopf, place))
@@ -45,7 +47,7 @@ pub(super) fn small(
     let lost = CycleError::NotConverged { alpha, r };
     let mesh = even_mesh(steps_of_mode(&equation, period, amplitude).ok_or(lost.clone())?);
     let l = mode(model.steady_l(), amplitude, period);
-    let guess = Orbit::of_profile(model.r(), period, mesh, l);
+    let guess = Orbit::of_profile(model.r(), period, mesh, Profile { l, height: |_| None });
     let condition = Condition { free: settings.over, fixed: Direction::L };
     close(equation, guess, condition, settings.tolerance)
         .map_err(|error| error.told(settings.tolerance, lost))

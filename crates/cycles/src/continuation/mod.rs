@@ -19,7 +19,7 @@ use locate::Located;
 use num_complex::Complex;
 use place::Place;
 use std::ops::ControlFlow;
-use stickslip_tip::{TipFunction, stop};
+use stickslip_tip::{TipFunction, Wider, stop};
 
 /// How far, and how finely, a branch is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +125,20 @@ impl Continuation {
         other: f64,
         observe: impl FnMut(&Cycle) -> ControlFlow<()>,
     ) -> Result<Branch, CycleError> {
-        let (hopf, place) = begin::at_onset(self, tip, other)?;
+        self.from_onset_under((&Wider::default(), tip), other, observe)
+    }
+
+    /// The same under a wider law, in α.
+    ///
+    /// # Errors
+    /// As [`from_onset`](Self::from_onset).
+    pub fn from_onset_under(
+        &self,
+        law: (&Wider, &TipFunction),
+        other: f64,
+        observe: impl FnMut(&Cycle) -> ControlFlow<()>,
+    ) -> Result<Branch, CycleError> {
+        let (hopf, place) = begin::at_onset(self, law, other)?;
         self.follow(place, vec![hopf], observe)
     }
 

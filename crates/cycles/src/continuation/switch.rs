@@ -48,7 +48,9 @@ fn alternating(linearisation: &Linearisation) -> Option<Change> {
         vector = factorised.solve(&vector)?.normalize();
     }
     let mut change = linearisation.carried(vector.as_slice());
-    let opposite: Vec<_> = change.stages.iter().map(|d| d.map(|d| -d)).collect();
-    change.stages.extend(opposite);
+    for part in [&mut change.stages, &mut change.heights] {
+        let opposite: Vec<_> = part.iter().map(|d| d.map(|d| -d)).collect();
+        part.extend(opposite);
+    }
     Some(change)
 }

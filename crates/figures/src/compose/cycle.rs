@@ -9,7 +9,7 @@ use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use stickslip_documents::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName};
 use stickslip_surface::Surface;
-use stickslip_tip::{InitialSurface, Model, Step, Trajectory};
+use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory};
 
 /// Of the ripple.
 const WAVELENGTHS: f64 = 3.0;
@@ -25,7 +25,7 @@ impl Drawn for CycleDocument {
         let title = format!("{name}: {stable} cycle, T = {}", seven_digits(self.period));
         let mut figure = FigureDocument::new("cycle", &title, vec![self.parameters.model.clone()]);
         let (r, steady) = (model.r(), model.steady_l());
-        let motion = self.history.trajectory(r)?;
+        let motion = self.history.under(*model.wider(), Support::Moving(r))?;
         let part = Part::of(&motion, view.x_range);
         let l = part.line("l(t)", &|step, t| step.l(r, t));
         let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
@@ -46,6 +46,9 @@ fn ripple(
     motion: &Trajectory,
 ) -> Result<Option<PanelDocument>, FigureError> {
     let (wavelength, period) = (cycle.wavelength, motion.end() - motion.start());
+    if model.wider().healing_time.is_some() {
+        return Ok(None);
+    }
     // From out of reach before to out of reach behind; a motion leaves the mean by less than its amplitude.
     let reach = model.tip().reach().unwrap_or(0.0) + 2.0 * cycle.amplitude_x0;
     let before = (reach / wavelength).ceil() + 1.0;
@@ -57,7 +60,8 @@ fn ripple(
         let shift = period * i as f64;
         motion.steps().iter().map(move |step| Step { t: step.t + shift, ..*step })
     });
-    let long = Trajectory::new(model.r(), steps.collect());
+    let support = Support::Moving(model.r());
+    let long = Trajectory::under(*model.wider(), support, steps.collect());
     let from = motion.x0(motion.start()) + before * wavelength;
     let at = |i: usize| WAVELENGTHS * wavelength * i as f64 / POINTS as f64;
     let x: Vec<f64> = (0..=POINTS).map(at).collect();

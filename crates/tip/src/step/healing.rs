@@ -15,6 +15,16 @@ pub fn healing(h: f64, time: f64) -> Matrix {
     columns(|k| factors.solve(&std::array::from_fn(|i| h * RADAU.a[i][k])))
 }
 
+/// Its derivative by the length of the step: with N = (1 + hA/T)⁻¹, NAN.
+#[must_use]
+pub fn healing_rate(h: f64, time: f64) -> Matrix {
+    let share = h / time;
+    let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
+    let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
+    // A and N are functions of each other, and so NAN = NNA.
+    columns(|k| factors.solve(&factors.solve(&std::array::from_fn(|i| RADAU.a[i][k]))))
+}
+
 /// 1 + a matrix.
 pub(super) fn plus_one(mut matrix: Matrix) -> Matrix {
     for (i, row) in matrix.iter_mut().enumerate() {
@@ -43,6 +53,22 @@ mod tests {
                 let (t, s) = (h * c, 1.0 / time);
                 let exact = (s * t.cos() + t.sin() - s * (-s * t).exp()) / (1.0 + s * s);
                 assert!((y - exact).abs() < 1e-7 * h.powi(7) * 128.0 + 1e-16, "{h} {time} {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_rate_is_the_derivative_by_the_length() {
+        for (h, time) in [(0.5, 0.7), (0.1, 30.0), (1e-3, 1e9), (2.0, 0.01)] {
+            let (by, rate) = (1e-4 * h, healing_rate(h, time));
+            let at = |n: f64| healing(n.mul_add(by, h), time);
+            let (near, far) = ([at(1.0), at(-1.0)], [at(2.0), at(-2.0)]);
+            for i in 0..STAGES {
+                for k in 0..STAGES {
+                    let near = 8.0 * (near[0][i][k] - near[1][i][k]);
+                    let difference = (near - (far[0][i][k] - far[1][i][k])) / (12.0 * by);
+                    assert!((rate[i][k] - difference).abs() < 1e-10, "{h} {time} {i} {k}");
+                }
             }
         }
     }

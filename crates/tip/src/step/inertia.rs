@@ -36,8 +36,15 @@ impl Inertia {
         std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
     }
 
+    /// d of a tip that no force acts on.
+    #[must_use]
+    pub fn glide(&self) -> &Stages {
+        &self.glide
+    }
+
     /// ∂d by the force.
-    pub(super) fn carried(&self) -> &Matrix {
+    #[must_use]
+    pub fn carried(&self) -> &Matrix {
         &self.carried
     }
 }

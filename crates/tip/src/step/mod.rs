@@ -24,7 +24,7 @@ mod own;
 
 pub use depth::{Depth, Known, LimitedFactors, Missed};
 pub use estimate::{defect, interpolation_error, longest_displacement, velocity_at_end};
-pub use healing::healing;
+pub use healing::{healing, healing_rate};
 pub use inertia::Inertia;
 pub use law::{Equations, Law};
 pub(crate) use linear_system::Factors;

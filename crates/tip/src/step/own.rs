@@ -73,7 +73,8 @@ impl OwnGroove {
     }
 
     /// `f'(d_i - d_k)`
-    pub(super) fn slopes(&self) -> Matrix {
+    #[must_use]
+    pub fn slopes(&self) -> Matrix {
         let mut slopes = [[0.0; STAGES]; STAGES];
         for (slope, (i, k)) in self.slope[..IDLE].iter().zip(PAIRS) {
             (slopes[i][k], slopes[k][i]) = (*slope, -slope);
@@ -133,7 +134,8 @@ impl OwnHeight {
     }
 
     /// `f(d_i - d_k)`
-    pub(super) fn values(&self) -> Matrix {
+    #[must_use]
+    pub fn values(&self) -> Matrix {
         let mut values = [[self.apex; STAGES]; STAGES];
         for (value, (i, k)) in self.value[..IDLE].iter().zip(PAIRS) {
             (values[i][k], values[k][i]) = (*value, *value);
@@ -142,7 +144,7 @@ impl OwnHeight {
     }
 
     /// Adds `Σ_k b_ik f(d_i - d_k)`.
-    pub(super) fn add(&self, b: &Matrix, height: &mut Stages) {
+    pub fn add(&self, b: &Matrix, height: &mut Stages) {
         for (height, (b, values)) in height.iter_mut().zip(b.iter().zip(self.values())) {
             *height += b.iter().zip(values).map(|(b, value)| b * value).sum::<f64>();
         }

@@ -149,13 +149,25 @@ impl Fit {
     /// A footprint that never fades, no terms, or terms that do not fade.
     pub fn from_terms(tip: &TipFunction, terms: Vec<Term>) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
+        Self::from_terms_within(tip, terms, retreat(tip, reach))
+    }
+
+    /// The same, certified for a retreat of this length.
+    ///
+    /// # Errors
+    /// As [`from_terms`](Self::from_terms).
+    pub fn from_terms_within(
+        tip: &TipFunction,
+        terms: Vec<Term>,
+        retreat: f64,
+    ) -> Result<Self, FitError> {
+        let reach = tip.reach().ok_or(FitError::NeverFades)?;
         let fades = |term: &Term| {
             term.exponent.re < 0.0 && term.exponent.is_finite() && term.weight.is_finite()
         };
         if terms.is_empty() || !terms.iter().all(fades) {
             return Err(FitError::Terms);
         }
-        let retreat = retreat(tip, reach);
         let certificate = certify(tip, reach, retreat, &terms);
         if stop::is_asked() {
             return Err(FitError::Stopped);

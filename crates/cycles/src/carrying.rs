@@ -1,0 +1,43 @@
+//! From the force at the stages of a step to the displacements.
+
+use super::blocks::{Square, Vector};
+use stickslip_tip::Wider;
+use stickslip_tip::collocation::{RADAU, STAGES};
+use stickslip_tip::step::{Inertia, healing_rate};
+
+/// d = `by_force` times the force, hA without inertia, + `glide`; with their derivatives by the length of the step.
+pub(super) struct Carrying {
+    pub(super) by_force: Square,
+    pub(super) by_force_rate: Square,
+    /// With inertia: how far the tip would go by itself.
+    pub(super) glide: Option<Vector>,
+    pub(super) glide_rate: Option<Vector>,
+    /// How far at the velocity 1.
+    pub(super) by_velocity: Option<Vector>,
+}
+
+impl Carrying {
+    /// Of a step of length h that begins with this velocity.
+    pub(super) fn new(wider: &Wider, h: f64, velocity: f64) -> Self {
+        let a = Square::from_fn(|i, k| RADAU.a[i][k]);
+        let Some(mass) = wider.inertia else {
+            let none = (None, None, None);
+            let (glide, glide_rate, by_velocity) = none;
+            return Self { by_force: a * h, by_force_rate: a, glide, glide_rate, by_velocity };
+        };
+        // A force carries by hA - H, a velocity by H = (1 + hA/M)⁻¹hA: what would fade within M.
+        let unit = Inertia::new(mass, h, 1.0);
+        let carried = unit.carried();
+        let rate = healing_rate(h, mass);
+        let rate = Square::from_fn(|i, k| rate[i][k]);
+        let glide = Vector::from(*unit.glide());
+        let glide_rate = rate * Vector::from([1.0; STAGES]);
+        Self {
+            by_force: Square::from_fn(|i, k| carried[i][k]),
+            by_force_rate: a - rate,
+            glide: Some(glide * velocity),
+            glide_rate: Some(glide_rate * velocity),
+            by_velocity: Some(glide),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! What a step leaves of its visits, and what is left meanwhile of what was there.
+//!
+//! Visit k of a step of length h counts at its stage i as `b_ik w_k`: b = hA, or where the surface heals
+//! b = (1 + hA/T)⁻¹hA; `w_k` = e^{-|η_k|/b} under a depth limit. What was there when the step began is left to
+//! e^{-c_i h/T}.
+
+use stickslip_tip::Wider;
+use stickslip_tip::collocation::{RADAU, STAGES, Stages};
+use stickslip_tip::step::{Depth, Matrix, carving, healing, healing_rate};
+
+/// Heights under the tip at the nodes of a step, and its side of the corner of |h|: 1 above 0, -1 below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Heights {
+    pub(super) nodes: Stages,
+    pub(super) side: f64,
+}
+
+/// Of one step.
+#[derive(Debug, Clone)]
+pub(super) struct Carved {
+    /// `b_ik` over `times`.
+    bare: Matrix,
+    /// h, or 1 where the surface heals.
+    pub(super) times: f64,
+    /// ∂`b_ik`/∂h
+    bare_rate: Matrix,
+    /// What is left at the nodes.
+    pub(super) left: Stages,
+    /// Its derivative by h, over itself.
+    pub(super) fading: Stages,
+    /// w
+    weights: Stages,
+    /// ∂w/∂η
+    by_height: Stages,
+}
+
+impl Carved {
+    /// By a step of length h.
+    pub(super) fn new(wider: &Wider, h: f64, heights: Option<&Heights>) -> Self {
+        let unit = carving(1.0);
+        let (bare, times, bare_rate) = match wider.healing_time {
+            None => (unit, h, unit),
+            Some(time) => (healing(h, time), 1.0, healing_rate(h, time)),
+        };
+        let rate = wider.healing_time.map_or(0.0, f64::recip);
+        let depth = wider.depth_limit.zip(heights);
+        let weigh = |(limit, heights): (f64, &Heights)| {
+            let weights = Depth { limit, side: heights.side }.weights(&heights.nodes);
+            (weights, weights.map(|w| -heights.side * w / limit))
+        };
+        let (weights, by_height) = depth.map_or(([1.0; STAGES], [0.0; STAGES]), weigh);
+        Self {
+            bare,
+            times,
+            bare_rate,
+            left: RADAU.c.map(|c| wider.left_after(h * c)),
+            fading: RADAU.c.map(|c| 0.0 - rate * c),
+            weights,
+            by_height,
+        }
+    }
+
+    /// `b_ik w_k` over [`times`](Self::times).
+    pub(super) fn weighted(&self) -> Matrix {
+        by_columns(&self.bare, &self.weights)
+    }
+
+    /// ∂`b_ik w_k`/∂h
+    pub(super) fn rate(&self) -> Matrix {
+        by_columns(&self.bare_rate, &self.weights)
+    }
+
+    /// ∂`b_ik w_k`/∂`η_k`
+    pub(super) fn by_height(&self) -> Matrix {
+        by_columns(&self.bare, &self.by_height).map(|row| row.map(|b| b * self.times))
+    }
+}
+
+/// Each column times a factor.
+fn by_columns(matrix: &Matrix, factors: &Stages) -> Matrix {
+    matrix.map(|row| std::array::from_fn(|k| row[k] * factors[k]))
+}

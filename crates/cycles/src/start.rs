@@ -125,7 +125,8 @@ pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
         mesh.push(((step.end() - from) / period).min(1.0));
         density.push(period / step.h);
     }
-    let density = graded(density);
+    // Steps by series come in groups of one length; those about a corner of |h| are short for good.
+    let density = if trajectory.wider().depth_limit.is_some() { density } else { graded(density) };
     let profile = || Profile {
         l: |t: f64| trajectory.l(from + t),
         height: |t: f64| trajectory.height(from + t),

@@ -14,6 +14,8 @@ pub struct Derivatives {
     pub farthest: f64,
     /// How far behind its farthest point it may retreat.
     pub retreat: f64,
+    /// Room for those who tell.
+    pub(super) room: Vec<f64>,
 }
 
 /// The past of a tip that moved steadily for ever, until it was somewhere.
@@ -33,6 +35,7 @@ impl Derivatives {
     /// Nothing known yet.
     #[must_use]
     pub fn nothing() -> Self {
-        Self { of_tip: [0.0; ROOM], past: [0.0; ROOM], farthest: f64::NEG_INFINITY, retreat: 0.0 }
+        let (of_tip, past, farthest) = ([0.0; ROOM], [0.0; ROOM], f64::NEG_INFINITY);
+        Self { of_tip, past, farthest, retreat: 0.0, room: vec![] }
     }
 }

@@ -11,6 +11,7 @@
 //! side by side.
 
 use crate::memory::ROOM;
+use multiversion::multiversion;
 
 /// The highest order.
 pub(super) const MOST_ORDER: usize = 28;
@@ -84,6 +85,11 @@ impl Chain {
 
     /// The series, from what [`start`](Self::start) was filled with and from the force.
     pub(super) fn run(&mut self, acting: &Acting) {
+        run(self, acting);
+    }
+
+    #[inline(always)]
+    fn coefficients(&mut self, acting: &Acting) {
         let order = self.order;
         // Of R - x0.
         let mut extension = acting.extension;
@@ -109,6 +115,7 @@ impl Chain {
     }
 
     /// Row k + 1: of so many `g_n` as the order needs.
+    #[inline(always)]
     fn next_row(&mut self, k: usize, next: f64, healing: f64) {
         let needed = self.order - 1 - k;
         match needed.div_ceil(LANES) {
@@ -122,17 +129,17 @@ impl Chain {
         }
     }
 
-    /// `Σ_i v_i g_{n+1, k-i}`, every other product of a sum of its own: in this order on every machine.
-    #[inline]
+    /// `Σ_i v_i g_{n+1, k-i}`, of few lanes every other product in a sum of its own: in this order on every machine.
+    #[inline(always)]
     fn products<const GROUPS: usize>(&mut self, k: usize, next: f64, healing: f64) {
         let (rows, velocity) = (&self.rows[..=k], &self.velocity[..=k]);
         let mut sums = [[[0.0; LANES]; GROUPS]; 2];
         let mut pairs = rows.chunks_exact(2);
         let mut factors = velocity.rchunks_exact(2);
         for (rows, factors) in pairs.by_ref().zip(factors.by_ref()) {
-            for ((sum, row), factor) in sums.iter_mut().zip(rows).zip(factors.iter().rev()) {
-                add::<GROUPS>(sum, row, *factor);
-            }
+            // Few sums would wait for each other; many fill the registers.
+            add::<GROUPS>(&mut sums[0], &rows[0], factors[1]);
+            add::<GROUPS>(&mut sums[usize::from(GROUPS <= 2)], &rows[1], factors[0]);
         }
         if let (Some(row), Some(factor)) = (pairs.remainder().first(), factors.remainder().first())
         {
@@ -150,6 +157,13 @@ impl Chain {
             *new = next * ((even + odd) - healing * old);
         }
     }
+}
+
+/// Compiled for wider vectors too, the ones in use chosen when the program runs: no products are fused with sums, and
+/// each lane is a sum of its own, so that the bits are the same.
+#[multiversion(targets("x86_64+avx2"))]
+fn run(chain: &mut Chain, acting: &Acting) {
+    chain.coefficients(acting);
 }
 
 /// Adds a row, from its second entry on, times a factor.

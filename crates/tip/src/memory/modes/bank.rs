@@ -1,17 +1,18 @@
 //! The state of the sum: one complex number per term, `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'`.
 
+mod powers;
 mod saved;
 
 use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
 use super::term::Term;
-use crate::collocation::{STAGES, Stages};
-use num_complex::Complex;
+use powers::Powers;
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Bank {
     groups: Vec<Group>,
+    powers: Vec<Powers>,
     /// `lengths[k]` is the distance up to which degree k + `LOWEST_DEGREE` expands every term.
     lengths: Vec<f64>,
 }
@@ -43,17 +44,20 @@ impl Bank {
                 state: ([0.0; LANES], [0.0; LANES]),
             }
         };
-        let groups = terms.chunks(LANES).map(group).collect();
-        Self { groups, lengths: expansion_lengths(terms, fit.wanted()) }
+        let groups: Vec<Group> = terms.chunks(LANES).map(group).collect();
+        let powers = groups.iter().map(|group| powers::powers(group.exponent)).collect();
+        Self { groups, powers, lengths: expansion_lengths(terms, fit.wanted()) }
     }
 
-    /// z of each term; where the last group is not full, some more that are 0.
-    pub(super) fn all_states(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
-        let lanes = |group: &Group| {
+    /// z of each term times a factor, real and imaginary parts in turn; where the last group is not full, some more that
+    /// are 0.
+    pub(super) fn all_states(&self, factor: f64, states: &mut Vec<f64>) {
+        for group in &self.groups {
             let (re, im) = group.state;
-            std::array::from_fn::<_, LANES, _>(|i| Complex::new(re[i], im[i]))
-        };
-        self.groups.iter().flat_map(lanes)
+            for i in 0..LANES {
+                states.extend([factor * re[i], factor * im[i]]);
+            }
+        }
     }
 
     /// Nothing remembered any more.
@@ -95,24 +99,7 @@ impl Bank {
             position.iter().zip(weight).for_each(|(p, w)| self.add(p - moved, *w));
             return;
         };
-        let mut moments = [0.0; HIGHEST_DEGREE + 1];
-        let ((positions, position), (weights, weight)) = (position.as_chunks(), weight.as_chunks());
-        for (position, weight) in positions.iter().zip(weights) {
-            add_moments(position, weight, half, &mut moments[..=degree]);
-        }
-        if !position.is_empty() {
-            let (mut last, mut spent) = ([half; STAGES], [0.0; STAGES]);
-            last[..position.len()].copy_from_slice(position);
-            spent[..weight.len()].copy_from_slice(weight);
-            add_moments(&last, &spent, half, &mut moments[..=degree]);
-        }
-        for group in &mut self.groups {
-            let new = polynomial(&moments[..=degree], group.exponent);
-            let e = exp(group.exponent, half);
-            // e² z + e new
-            let z = product(e, group.state);
-            group.state = product(e, sum(z, new));
-        }
+        powers::carry(&mut self.groups, &self.powers, (position, weight), half, degree);
     }
 
     /// Moves the tip: `z_j ← e^{s_j Δ} z_j`.
@@ -189,17 +176,6 @@ impl Bank {
     }
 }
 
-/// Adds `Σ_k weight_k offset_k^m / m!` with the offsets half - position.
-fn add_moments(position: &Stages, weight: &Stages, half: f64, moments: &mut [f64]) {
-    let offset = position.map(|p| half - p);
-    let mut powers = *weight;
-    for (m, moment) in moments.iter_mut().enumerate() {
-        *moment += powers.iter().sum::<f64>();
-        let next = 1.0 / (m + 1) as f64;
-        powers.iter_mut().zip(&offset).for_each(|(p, u)| *p *= u * next);
-    }
-}
-
 /// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the accuracy of
 /// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
 fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
@@ -228,17 +204,7 @@ fn exp((re, im): (Lane, Lane), x: f64) -> (Lane, Lane) {
     e
 }
 
-/// `Σ_m c_m s^m`
-fn polynomial(c: &[f64], s: (Lane, Lane)) -> (Lane, Lane) {
-    let mut value = ([0.0; LANES], [0.0; LANES]);
-    for c in c.iter().rev() {
-        value = product(value, s);
-        value.0.iter_mut().for_each(|v| *v += c);
-    }
-    value
-}
-
-#[inline]
+#[inline(always)]
 fn product(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
     let mut c = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
@@ -259,7 +225,7 @@ fn quotient(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
     c
 }
 
-#[inline]
+#[inline(always)]
 fn sum(a: (Lane, Lane), b: (Lane, Lane)) -> (Lane, Lane) {
     let mut c = a;
     for i in 0..LANES {

@@ -143,14 +143,19 @@ impl Modes {
         told: &mut Derivatives,
     ) {
         (told.farthest, told.retreat) = (self.farthest, self.fit.retreat());
-        let states = self.bank.all_states().map(|z| left * z);
-        let Some(past) = steady else { return self.powers.derivatives(states, count, told) };
-        let steady = self.fit.terms().iter().map(|term| {
-            let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
-            -past.weight / fading * (term.exponent * past.distance).exp()
-        });
-        let both = states.zip(steady).map(|(z, steady)| z + steady);
-        self.powers.derivatives(both, count, told);
+        let mut room = std::mem::take(&mut told.room);
+        room.clear();
+        self.bank.all_states(left, &mut room);
+        if let Some(past) = steady {
+            for (z, term) in room.chunks_exact_mut(2).zip(self.fit.terms()) {
+                let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
+                let steady = -past.weight / fading * (term.exponent * past.distance).exp();
+                z[0] += steady.re;
+                z[1] += steady.im;
+            }
+        }
+        self.powers.derivatives(&room, count, told);
+        told.room = room;
     }
 
     pub(super) fn save(&self, state: &mut State) {

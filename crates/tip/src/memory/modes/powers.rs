@@ -5,7 +5,7 @@
 
 use super::term::Term;
 use crate::memory::derivatives::{Derivatives, ROOM};
-use num_complex::Complex;
+use multiversion::multiversion;
 
 /// Lanes that are summed side by side.
 const LANES: usize = 4;
@@ -37,36 +37,37 @@ impl Powers {
         Self { rows, of_tip }
     }
 
-    /// The first `count` derivatives, and as many more as fill the lanes.
-    pub(super) fn derivatives(
-        &self,
-        states: impl Iterator<Item = Complex<f64>>,
-        count: usize,
-        told: &mut Derivatives,
-    ) {
-        let states = states.flat_map(|z| [z.re, z.im]);
+    /// The first `count` derivatives, and as many more as fill the lanes, of these states: real and imaginary parts in
+    /// turn.
+    pub(super) fn derivatives(&self, states: &[f64], count: usize, told: &mut Derivatives) {
         told.of_tip = self.of_tip;
-        match count.div_ceil(LANES) {
-            0..=3 => self.sums::<3>(states, &mut told.past),
-            4 => self.sums::<4>(states, &mut told.past),
-            5 => self.sums::<5>(states, &mut told.past),
-            6 => self.sums::<6>(states, &mut told.past),
-            7 => self.sums::<7>(states, &mut told.past),
-            _ => self.sums::<8>(states, &mut told.past),
-        }
+        sums(&self.rows, states, count, &mut told.past);
     }
+}
 
-    /// Row times state, in the order of the terms: the same bits on every machine.
-    #[inline]
-    fn sums<const GROUPS: usize>(&self, states: impl Iterator<Item = f64>, past: &mut Row) {
-        let mut sums = [[0.0; LANES]; GROUPS];
-        for (row, state) in self.rows.iter().zip(states) {
-            for (sum, row) in sums.iter_mut().zip(row.as_chunks::<LANES>().0) {
-                for (sum, power) in sum.iter_mut().zip(row) {
-                    *sum += power * state;
-                }
+/// Compiled for wider vectors too: each lane is a sum of its own.
+#[multiversion(targets("x86_64+avx2"))]
+fn sums(rows: &[Row], states: &[f64], count: usize, past: &mut Row) {
+    match count.div_ceil(LANES) {
+        0..=3 => groups::<3>(rows, states, past),
+        4 => groups::<4>(rows, states, past),
+        5 => groups::<5>(rows, states, past),
+        6 => groups::<6>(rows, states, past),
+        7 => groups::<7>(rows, states, past),
+        _ => groups::<8>(rows, states, past),
+    }
+}
+
+/// Row times state, in the order of the terms: the same bits on every machine.
+#[inline(always)]
+fn groups<const GROUPS: usize>(rows: &[Row], states: &[f64], past: &mut Row) {
+    let mut sums = [[0.0; LANES]; GROUPS];
+    for (row, state) in rows.iter().zip(states) {
+        for (sum, row) in sums.iter_mut().zip(row.as_chunks::<LANES>().0) {
+            for (sum, power) in sum.iter_mut().zip(row) {
+                *sum += power * state;
             }
         }
-        past[..LANES * GROUPS].copy_from_slice(sums.as_flattened());
     }
+    past[..LANES * GROUPS].copy_from_slice(sums.as_flattened());
 }

@@ -9,8 +9,9 @@ pub(super) type Bin = [f64; MOMENTS];
 
 /// Bins kept: what is farther behind is forgotten.
 pub(super) const MOST_BINS: usize = 1 << 12;
-/// The origin moves by so many bins.
-const BINS_PER_ORIGIN: i64 = 64;
+/// The origin moves by so many bins: rarely, as all nodes move with it, and not so far that their positions lose more than
+/// some 3e-14.
+const BINS_PER_ORIGIN: i64 = 512;
 
 /// Moments of what was visited, bin by bin.
 #[derive(Debug, Clone)]

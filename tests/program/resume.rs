@@ -121,7 +121,7 @@ fn what_a_run_keeps_does_not_grow() {
         let mut steps: u32 = 0;
         while running.step().unwrap().is_some() {
             steps += 1;
-            if steps.is_multiple_of(1000) || steps < 100 {
+            if steps.is_multiple_of(100) || steps < 100 {
                 let largest = if running.t() < 6000.0 { &mut early } else { &mut late };
                 *largest = running.save().words().len().max(*largest);
             }
@@ -153,8 +153,9 @@ fn a_state_that_is_not_the_same_is_noticed() {
                 Err(other) => panic!("{other}"),
             }
         };
-        // t, extension and velocity.
-        assert!((0..3).all(|i| noticed(&i)), "{memory:?}");
+        // t and extension; and velocity, which steps by series work out anew.
+        let carried = if running.work().series > 0 { 2 } else { 3 };
+        assert!((0..carried).all(|i| noticed(&i)), "{memory:?}");
         let seen = (0..words.len().min(400)).filter(noticed).count();
         println!("{memory:?}: {seen} of {} words matter", words.len().min(400));
         assert!(seen > 60);

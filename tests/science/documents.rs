@@ -60,6 +60,8 @@ fn a_run_comes_back_from_its_document() {
             steps: done.work.steps,
             rejected: done.work.rejected,
             newton_iterations: done.work.newton_iterations,
+            series: done.work.series,
+            switches: done.work.switches,
             seconds: 0.0,
         },
     };

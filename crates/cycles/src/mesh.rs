@@ -25,15 +25,15 @@ pub(super) const MOST_STEPS: usize = 4000;
 /// A guess may have more, which its mesh does not keep.
 pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
-/// Largest residual of (18) within each step, estimated from where its polynomial begins: there the true
-/// velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
+/// Largest residual of (18) within each step, estimated from where its polynomial begins, and that of the next: there
+/// the true velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
 /// interpolation errs by `stiffness` times that in the force.
 pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
-    let residual = |n: usize| {
+    let signs = |n: usize| {
         if is_sliver(&h, n) {
-            return 0.0;
+            return (0.0, 0.0);
         }
         let before = (n + steps - 1) % steps;
         let (d, d_before) = (&orbit.stages[n], &orbit.stages[before]);
@@ -42,7 +42,21 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
         let continues = orbit.side(n) * orbit.side(before) > 0.0 && !is_sliver(&h, before);
         let interpolation =
             if continues { interpolation_error(d, h[n], (d_before, h[before])) } else { 0.0 };
-        defect.abs() + stiffness[n] * interpolation
+        (defect.abs(), interpolation)
+    };
+    let signs: Vec<(f64, f64)> = (0..steps).map(signs).collect();
+    let residual = |n: usize| {
+        let (mut defect, mut interpolation) = signs[n];
+        let next = (n + 1) % steps;
+        let mut stiff = stiffness[n];
+        if !is_sliver(&h, n) && !is_sliver(&h, next) && orbit.side(n) * orbit.side(next) > 0.0 {
+            // What both are made of, a derivative, may grow within the step: its end is the next one's beginning.
+            let ratio = h[n] / h[next];
+            defect = defect.max(signs[next].0 * ratio.powf(ORDER));
+            interpolation = interpolation.max(signs[next].1 * ratio.powf(ORDER + 1.0));
+            stiff = stiff.max(stiffness[next]);
+        }
+        defect + stiff * interpolation
     };
     (0..steps).map(residual).collect()
 }
@@ -102,7 +116,7 @@ pub(super) fn adapted(
 }
 
 /// Raises densities that fall too fast from one step to the next, around the period.
-fn graded(mut density: Vec<f64>) -> Vec<f64> {
+pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     let n = density.len();
     for i in 0..2 * n {
         let (here, next) = (density[i % n], (i + 1) % n);

@@ -1,7 +1,7 @@
 //! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
 
 use super::embedding::Embedding;
-use super::mesh::{MOST_STEPS, equidistributed};
+use super::mesh::{MOST_STEPS, equidistributed, graded};
 use super::orbit::{Orbit, Profile, even_mesh};
 use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
@@ -125,6 +125,8 @@ pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
         mesh.push(((step.end() - from) / period).min(1.0));
         density.push(period / step.h);
     }
+    // Steps by series come in groups of one length; those about a corner of |h| are short for good.
+    let density = if trajectory.wider().depth_limit.is_some() { density } else { graded(density) };
     let profile = || Profile {
         l: |t: f64| trajectory.l(from + t),
         height: |t: f64| trajectory.height(from + t),

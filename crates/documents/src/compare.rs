@@ -93,6 +93,12 @@ pub struct ClosedWork {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
+    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    #[serde(default)]
+    pub series: u64,
+    /// How often collocation took over from series.
+    #[serde(default)]
+    pub switches: u64,
     /// Shortest time of several repetitions, in seconds.
     pub seconds: f64,
 }

@@ -58,6 +58,12 @@ pub struct WorkDocument {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
+    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    #[serde(default)]
+    pub series: u64,
+    /// How often collocation took over from series.
+    #[serde(default)]
+    pub switches: u64,
     /// Time of the integration alone, in seconds: the one field that differs from run to run.
     pub seconds: f64,
 }

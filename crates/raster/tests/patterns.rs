@@ -44,6 +44,9 @@ fn what_is_no_ripple_is_called_otherwise() {
     let (regime, found, lines) = written(0.2, Path::OneWay, 0.5);
     assert_eq!((regime, found), (Regime::Steady, None));
     assert!(lines.iter().all(|line| *line == LineRegime::Steady));
+    // What the beginning of each line leaves, the same on all, fades along them.
+    let (regime, found, _) = written(1.2, Path::OneWay, 2.0);
+    assert_eq!((regime, found), (Regime::Steady, None));
     let (regime, found, _) = written(0.58, Path::OneWay, 0.5);
     assert_eq!(regime, Regime::Pits, "{found:?}");
     let (regime, found, lines) = written(0.9, Path::OneWay, 0.5);

@@ -117,6 +117,13 @@ impl Collocation {
         (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
     }
 
+    /// The largest error of interpolation on a step of length h, of a function with this divided difference of order
+    /// s + 1.
+    pub fn interpolation_bound(&self, difference: f64, h: f64) -> f64 {
+        let h2 = h * h;
+        self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
+    }
+
     /// Its derivative at τ.
     pub fn slope(&self, values: &Stages, tau: f64) -> f64 {
         self.between(&apply(&self.derivative, values), tau)

@@ -54,6 +54,26 @@ const WIDTHS_OF_PULSE: f64 = 10.0;
 /// Steps within a pulse are at most this many of its widths long, so that none is jumped over.
 const WIDTHS_PER_STEP: f64 = 1.5;
 
+impl Pulse {
+    /// Whether it is felt just after t.
+    fn acts_after(&self, t: f64) -> bool {
+        let half = WIDTHS_OF_PULSE * self.width;
+        self.time - half <= t && t < self.time + half
+    }
+
+    /// Adds its coefficients: `W² F' = -(t - T) F`.
+    fn add_series(&self, t: f64, coefficients: &mut [f64]) {
+        let z = (t - self.time) / self.width;
+        let (mut before, mut here) = (0.0, self.amplitude * libm::exp(-0.5 * z * z));
+        let slowness = 1.0 / (self.width * self.width);
+        for (k, coefficient) in coefficients.iter_mut().enumerate() {
+            *coefficient += here;
+            let next = -slowness * ((t - self.time) * here + before) / (k + 1) as f64;
+            (before, here) = (here, next);
+        }
+    }
+}
+
 impl Force {
     /// A sum of Gaussian pulses and, if given, the cubic spline through a table (t, force), 0 outside.
     ///
@@ -98,6 +118,22 @@ impl Force {
         pulses.sum::<f64>()
             + table.map_or(0.0, |s| s.value(t))
             + self.function.as_ref().map_or(0.0, |f| f(t))
+    }
+
+    /// Coefficients of powers of the time from t on, up to the next break; false if they are not known, of a
+    /// function of time.
+    pub(crate) fn series(&self, t: f64, coefficients: &mut [f64]) -> bool {
+        coefficients.fill(0.0);
+        for pulse in self.pulses.iter().filter(|pulse| pulse.acts_after(t)) {
+            pulse.add_series(t, coefficients);
+        }
+        if let Some(table) = self.table.as_ref().filter(|s| s.first() <= t && t < s.last()) {
+            let piece = table.piece_of(t);
+            let (value, slope, curvature) = table.jet_on(piece, t);
+            let jet = [value, slope, 0.5 * curvature, table.third_on(piece) / 6.0];
+            coefficients.iter_mut().zip(jet).for_each(|(c, term)| *c += term);
+        }
+        self.function.is_none()
     }
 
     /// The time from which on it is nothing; none for a function of time, of which that is not known.

@@ -102,6 +102,19 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
+    /// u0', u0'' and u0''' on the stretch, of all but the steady past; `None` where they are not all.
+    pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64) -> Option<[f64; 3]> {
+        let mut sum = [0.0; 3];
+        if stretch.flat {
+            return Some(sum);
+        }
+        for (relief, piece) in self.reliefs.iter().zip(&stretch.pieces) {
+            let jet = relief.jet_on(*piece, x)?;
+            sum.iter_mut().zip(jet).for_each(|(sum, term)| *sum += term);
+        }
+        Some(sum)
+    }
+
     /// u0 likewise.
     pub(crate) fn height_on(&self, stretch: &Stretch, x: f64) -> f64 {
         let told = self.reliefs.iter().zip(&stretch.pieces);

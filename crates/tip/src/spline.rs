@@ -53,6 +53,12 @@ impl CubicSpline {
         (value, slope, a * m0 + b * m1)
     }
 
+    /// The third derivative on a piece.
+    pub(crate) fn third_on(&self, piece: usize) -> f64 {
+        let (low, high) = self.ends_of(piece);
+        (self.m[piece + 1] - self.m[piece]) / (high - low)
+    }
+
     /// The piece between knots that x lies in, the nearest one outside.
     pub(crate) fn piece_of(&self, x: f64) -> usize {
         self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1) - 1

@@ -105,6 +105,8 @@ impl Closed {
                 steps: run.work.steps,
                 rejected: run.work.rejected,
                 newton_iterations: run.work.newton_iterations,
+                series: run.work.series,
+                switches: run.work.switches,
                 seconds: *seconds,
             },
         })

@@ -35,6 +35,8 @@ pub(super) fn end(
             steps: work.steps,
             rejected: work.rejected,
             newton_iterations: work.newton_iterations,
+            series: work.series,
+            switches: work.switches,
             seconds: *seconds,
         },
     })

@@ -90,6 +90,9 @@ pub struct KeptLine {
     pub heights: Option<Vec<Vec<f64>>>,
     /// Accepted steps, rejected ones, and Newton iterations.
     pub work: [u64; 3],
+    /// Taylor series, and how often collocation took over from them.
+    #[serde(default)]
+    pub series: [u64; 2],
 }
 
 impl RasterLine {
@@ -191,7 +194,7 @@ impl KeptLine {
     /// Line `index`, counted from 0.
     #[must_use]
     pub fn of(index: usize, line: &Line) -> Self {
-        let Work { steps: done, rejected, newton_iterations } = line.work();
+        let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
         let steps = line.trajectory().steps();
         let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
         Self {
@@ -199,6 +202,7 @@ impl KeptLine {
             steps: steps.iter().map(numbers).collect(),
             heights: steps.iter().map(heights).collect(),
             work: [done, rejected, newton_iterations],
+            series: [series, switches],
         }
     }
 
@@ -211,7 +215,8 @@ impl KeptLine {
             Unusable::new(format!("line {} has no steps, or no heights of them", self.index + 1))
         })?;
         let [done, rejected, newton_iterations] = self.work;
-        let work = Work { steps: done, rejected, newton_iterations };
+        let [series, switches] = self.series;
+        let work = Work { steps: done, rejected, newton_iterations, series, switches };
         let (nodes, weights) = nodes_and_weights();
         let line = Line::new(plan.track(self.index), &plan.law.model, steps, work);
         LineHistory::of(line.trajectory()).line((&nodes, &weights), plan, self.index, work)?;

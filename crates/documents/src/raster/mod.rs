@@ -62,6 +62,12 @@ pub struct RasterWork {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
+    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    #[serde(default)]
+    pub series: u64,
+    /// How often collocation took over from series.
+    #[serde(default)]
+    pub switches: u64,
 }
 
 impl RasterDocument {
@@ -96,6 +102,8 @@ impl RasterDocument {
                 steps: total(|line| line.work().steps),
                 rejected: total(|line| line.work().rejected),
                 newton_iterations: total(|line| line.work().newton_iterations),
+                series: total(|line| line.work().series),
+                switches: total(|line| line.work().switches),
             },
         }
     }

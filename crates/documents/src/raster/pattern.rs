@@ -8,7 +8,7 @@ use stickslip_raster::{Pattern, Regime};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RasterRegimeName {
-    /// No ripples.
+    /// No ripples, but for what fades from the edge at which lines begin.
     Steady,
     /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
     Ripples,

@@ -39,7 +39,7 @@ pub struct Pattern {
 /// The kinds of surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
-    /// No ripples: the surface is as deep everywhere.
+    /// No ripples: the surface is as deep everywhere, but for what fades from the edge at which lines begin.
     Steady,
     /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
     Ripples,
@@ -68,6 +68,8 @@ pub enum LineRegime {
 const POINTS: f64 = 4.0;
 /// Ripples below this part of the depth are none.
 const FLAT: f64 = 0.01;
+/// Columns of which less than this is left along the lines fade.
+const FADED: f64 = 0.5;
 /// Coherence of ripples, and of a lattice of pits.
 const ORDERED: f64 = 0.95;
 const LATTICE: f64 = 0.4;
@@ -93,6 +95,10 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
     }
     let Some(wave) = Wave::of_ripples(sheet) else { return (Regime::Unknown, None) };
     let local = Local::of(sheet, &wave);
+    // What begins at the edge from which all lines start, and fades from there, is its mark and no ripple.
+    if wave.is_upright(sheet) && sheet.kept_along() < FADED {
+        return (Regime::Steady, None);
+    }
     let own = Local::of(&sheets.own, &wave);
     let coherence = own.coherence(1);
     let same_way = (plan.path == Path::Zigzag).then(|| own.coherence(2));

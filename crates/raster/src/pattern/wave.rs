@@ -60,6 +60,19 @@ impl Sheet {
         0.5 * (high - low)
     }
 
+    /// What is left in the last third of the lines of what is in the first, root mean square, line means and slopes taken out.
+    pub(super) fn kept_along(&self) -> f64 {
+        let third = self.u.ncols() / 3;
+        let part = |from: usize| -> f64 {
+            let rows = self.u.rows().into_iter();
+            let part: Vec<f64> =
+                rows.flat_map(|row| row.to_vec()[from..from + third].to_vec()).collect();
+            let mean = part.iter().sum::<f64>() / part.len() as f64;
+            part.iter().map(|u| (u - mean).powi(2)).sum::<f64>().sqrt()
+        };
+        part(self.u.ncols() - third) / part(0)
+    }
+
     /// How far slopes all point one way, whichever: 1 where u is made of straight crests, 0 where it is the same in all
     /// directions. (λ1 - λ2)/(λ1 + λ2) of the mean of ∇u ∇uᵀ.
     pub(super) fn straightness(&self) -> f64 {
@@ -112,6 +125,11 @@ impl Sheet {
 }
 
 impl Wave {
+    /// Whether all lines do alike.
+    pub(super) fn is_upright(&self, sheet: &Sheet) -> bool {
+        self.kappa.abs() <= ALIKE * sheet.resolution().1
+    }
+
     /// The wave vector of the ripples: that of the oblique ones, unless what all lines do alike is far stronger; and of
     /// those that are as strong the longest, the others being it and what it is modulated by.
     pub(super) fn of_ripples(sheet: &Sheet) -> Option<Self> {

@@ -47,6 +47,11 @@ impl Control {
         self.fixed
     }
 
+    /// Steps of about this length have been made otherwise.
+    pub(super) fn resume(&mut self, h: f64) {
+        (self.next, self.just_rejected, self.last) = (h, false, None);
+    }
+
     pub(super) fn tolerance(&self) -> f64 {
         self.tolerance
     }

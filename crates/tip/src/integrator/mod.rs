@@ -8,10 +8,12 @@ mod ahead;
 mod control;
 mod corner;
 mod error;
+mod landing;
 mod saved;
 mod stage_equations;
+mod taylor;
 
-use crate::collocation::{RADAU, STAGES, Stages};
+use crate::collocation::{RADAU, Stages};
 use crate::history::{Heights, Step};
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
@@ -23,6 +25,7 @@ use control::Control;
 use corner::Corner;
 pub use error::IntegrationError;
 use stage_equations::{Begin, Solution, StageEquations};
+use taylor::Taylor;
 
 /// What the integrator did, in counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -33,6 +36,10 @@ pub struct Work {
     pub rejected: u64,
     /// Newton iterations, each of them one look at the groove in all stages.
     pub newton_iterations: u64,
+    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    pub series: u64,
+    /// How often collocation took over from series.
+    pub switches: u64,
 }
 
 /// The state of a tip under way, and all that acts on it.
@@ -58,15 +65,13 @@ pub struct Integrator<'a, M> {
     stretch: Stretch,
     /// Of |h|, where there is a depth limit.
     corner: Option<Corner>,
+    taylor: Taylor,
     last: Option<Step>,
     work: Work,
 }
 
 /// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
 const ENOUGH: f64 = 0.01;
-
-/// By which a step may be longer to end where it is to.
-const MOST_ROUNDINGS: usize = 64;
 
 impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
@@ -86,6 +91,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             model,
             apex: Apex::new(model.tip(), (ENOUGH * control.target()).max(f64::EPSILON)),
             corner: None,
+            taylor: Taylor::new(model, control.target()),
             surface,
             force,
             support,
@@ -164,34 +170,14 @@ impl<'a, M: Memory> Integrator<'a, M> {
     /// # Errors
     /// The tolerance cannot be met.
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
+        if let Some(step) = self.step_by_series(until) {
+            return Ok(step);
+        }
         self.enter_stretch();
-        let limit = self.length_limit();
-        let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));
-        let end = breaks.min(until);
+        let (limit, end) = (self.length_limit(), self.next_end(until));
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
-            // The difference of two representable times: t loses nothing as it grows.
-            h = (self.t + h) - self.t;
-            let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
-            let least = roundings(self.t);
-            // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
-            // make up for a rounding short.
-            let rounding = least.max(roundings(end));
-            let is_short = |h: f64| self.t + h < end && end - (self.t + h) <= rounding;
-            for _ in 0..MOST_ROUNDINGS {
-                if !is_short(h) {
-                    break;
-                }
-                h = h.next_up();
-            }
-            // Far from t = 0 the difference is exact, and the roundings of h are too small to be counted through.
-            if is_short(h) {
-                h = end - self.t;
-            }
-            if h <= least {
-                let tolerance = self.control.tolerance();
-                return Err(IntegrationError::StepTooSmall { t: self.t, h, tolerance });
-            }
+            h = self.landing(h, end).ok_or(self.too_small(h))?;
             match self.attempt(h) {
                 Ok(step) => return Ok(step),
                 Err(Retry::Shorter(shorter)) => {
@@ -206,6 +192,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
                 }
             }
         }
+    }
+
+    fn too_small(&self, h: f64) -> IntegrationError {
+        IntegrationError::StepTooSmall { t: self.t, h, tolerance: self.control.tolerance() }
     }
 
     /// The stretch of u0 ahead, and the velocity with which the tip enters it.
@@ -241,7 +231,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
         if moved > most && !self.control.is_fixed() {
             return Err(Retry::Shorter(h * (0.8 * most / moved).max(0.1)));
         }
-        if let Some(tau) = self.leaves(&displacement) {
+        let at = |tau: f64| RADAU.value(&displacement, tau);
+        if let Some(tau) = self.leaves(&RADAU.c, &displacement, at) {
             return Err(Retry::ToKnot(tau * h));
         }
         let heights = self.heights(&solution);
@@ -268,15 +259,14 @@ impl<'a, M: Memory> Integrator<'a, M> {
         }
     }
 
-    /// The fraction of the step at which the tip leaves the stretch, if it does.
-    fn leaves(&self, displacement: &Stages) -> Option<f64> {
+    /// When the tip leaves the stretch, if it does: a polynomial, of which values at nodes are known.
+    fn leaves(&self, nodes: &[f64], displacement: &[f64], at: impl Fn(f64) -> f64) -> Option<f64> {
         let stretch = &self.stretch;
         let (x, slack) = (self.position(), stretch.slack);
         // A tip that already stands beyond an end, within the slack, has its end where it stands.
         let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
         let outside = |d: f64| d < low - slack || d > high + slack;
-        let at = |tau: f64| RADAU.value(displacement, tau);
-        let after = (0..STAGES).find(|&i| outside(displacement[i]))?;
+        let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
         // Nearer than where the tip is found outside, farther than where it starts: the sign changes
         // between the two, whatever the nodes between them do.
         let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
@@ -286,7 +276,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             (false, _, false) => -0.5 * slack,
         };
         let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
-        Some(zero_between(beyond, 0.0, RADAU.c[after]))
+        Some(zero_between(beyond, 0.0, nodes[after]))
     }
 
     /// Defect, and error as an interpolant, against the step before.
@@ -313,6 +303,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self.limits_from_before = (self.relief_slope(), self.force.value(self.t.next_down()));
         self.last = Some(step);
         self.work.steps += 1;
+        self.taylor.made(h * (1.0 + self.curvature));
         step
     }
 

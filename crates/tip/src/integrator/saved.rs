@@ -13,9 +13,12 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         }
         state.steps(self.last.iter());
         self.corner.iter().for_each(|corner| corner.save(state));
-        let Work { steps, rejected, newton_iterations } = self.work;
-        [steps, rejected, newton_iterations].into_iter().for_each(|count| state.count(count));
+        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
+        [steps, rejected, newton_iterations, series, switches]
+            .into_iter()
+            .for_each(|count| state.count(count));
         self.control.save(state);
+        self.taylor.save(state);
         self.memory.save(state);
     }
 
@@ -34,8 +37,11 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
             steps: state.count()?,
             rejected: state.count()?,
             newton_iterations: state.count()?,
+            series: state.count()?,
+            switches: state.count()?,
         };
         self.control.restore(state)?;
+        self.taylor.restore(state, (self.t, self.extension))?;
         self.memory.restore(state)
     }
 }

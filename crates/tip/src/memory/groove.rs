@@ -1,5 +1,6 @@
 //! What a memory does: it remembers visits, lets them fade, and tells the groove.
 
+use super::derivatives::{Derivatives, SteadyPast};
 use crate::TipFunction;
 
 /// Memory of the tip's past. Positions are displacements from where the tip stands now.
@@ -13,6 +14,12 @@ pub trait Memory {
 
     /// Tells the groove at the points x = tip + `at`, each at most [`longest_look`] from the tip.
     fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>);
+
+    /// Tells `count` derivatives of the groove at the tip, with those of a steady past before it began; false if
+    /// it knows no series that holds wherever the next step may lead.
+    fn derivatives(&self, _: Option<&SteadyPast>, _count: usize, _: &mut Derivatives) -> bool {
+        false
+    }
 }
 
 /// What a memory tells: integrals over the remembered past, one number for each point asked about.

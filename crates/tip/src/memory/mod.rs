@@ -9,6 +9,7 @@
 //! [`Policy`] decides between them, and holds the one record of the past that each of them is made from.
 
 mod choice;
+mod derivatives;
 mod direct;
 mod fft;
 mod groove;
@@ -18,6 +19,7 @@ mod record;
 mod report;
 
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
+pub use derivatives::{Derivatives, ROOM, SteadyPast};
 pub use groove::{Groove, Memory, longest_look};
 pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed, displacement};
 pub use policy::Policy;

@@ -4,6 +4,7 @@ mod fading;
 mod saved;
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
+use super::derivatives::{Derivatives, SteadyPast};
 use super::direct;
 use super::fft::{Fft, Lattice};
 use super::groove::{Groove, Memory, range};
@@ -223,6 +224,17 @@ impl Memory for Policy {
         if let Some(left) = self.fading.left() {
             groove.scale(left);
         }
+    }
+
+    fn derivatives(
+        &self,
+        steady: Option<&SteadyPast>,
+        count: usize,
+        told: &mut Derivatives,
+    ) -> bool {
+        let Now::Modes(modes, Retreats { fft: None, .. }) = &self.now else { return false };
+        modes.derivatives(steady, self.fading.left().unwrap_or(1.0), count, told);
+        true
     }
 }
 

@@ -6,6 +6,7 @@ use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
 use super::term::Term;
 use crate::collocation::{STAGES, Stages};
+use num_complex::Complex;
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.
 #[derive(Debug, Clone)]
@@ -44,6 +45,15 @@ impl Bank {
         };
         let groups = terms.chunks(LANES).map(group).collect();
         Self { groups, lengths: expansion_lengths(terms, fit.wanted()) }
+    }
+
+    /// z of each term; where the last group is not full, some more that are 0.
+    pub(super) fn all_states(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
+        let lanes = |group: &Group| {
+            let (re, im) = group.state;
+            std::array::from_fn::<_, LANES, _>(|i| Complex::new(re[i], im[i]))
+        };
+        self.groups.iter().flat_map(lanes)
     }
 
     /// Nothing remembered any more.

@@ -6,6 +6,7 @@ mod certificate;
 mod fit;
 mod local;
 mod pencil;
+mod powers;
 mod term;
 mod weights;
 
@@ -14,10 +15,13 @@ pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub use term::Term;
 
+use super::derivatives::{Derivatives, SteadyPast};
 use super::groove::{Groove, range};
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
+use num_complex::Complex;
+use powers::Powers;
 use std::sync::Arc;
 
 /// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, the groove at `at` from the tip is
@@ -29,6 +33,7 @@ use std::sync::Arc;
 pub(super) struct Modes {
     fit: Arc<Fit>,
     bank: Bank,
+    powers: Powers,
     groove: LocalGroove,
     /// The farthest-forward position, as a displacement from the tip.
     farthest: f64,
@@ -43,8 +48,9 @@ const SHARE_OF_RETREAT: f64 = 0.5;
 impl Modes {
     /// Nothing remembered yet.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
-        let bank = Bank::new(&fit);
-        Self { bank, groove: LocalGroove::nowhere(), farthest: f64::NEG_INFINITY, fit }
+        let (bank, powers) = (Bank::new(&fit), Powers::new(fit.terms()));
+        let groove = LocalGroove::nowhere();
+        Self { bank, powers, groove, farthest: f64::NEG_INFINITY, fit }
     }
 
     pub(super) fn fit(&self) -> &Fit {
@@ -126,6 +132,25 @@ impl Modes {
                 *height = self.bank.height(*at);
             }
         }
+    }
+
+    /// As [`Memory::derivatives`](super::groove::Memory::derivatives), with `left` of what the state says.
+    pub(super) fn derivatives(
+        &self,
+        steady: Option<&SteadyPast>,
+        left: f64,
+        count: usize,
+        told: &mut Derivatives,
+    ) {
+        (told.farthest, told.retreat) = (self.farthest, self.fit.retreat());
+        let states = self.bank.all_states().map(|z| left * z);
+        let Some(past) = steady else { return self.powers.derivatives(states, count, told) };
+        let steady = self.fit.terms().iter().map(|term| {
+            let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
+            -past.weight / fading * (term.exponent * past.distance).exp()
+        });
+        let both = states.zip(steady).map(|(z, steady)| z + steady);
+        self.powers.derivatives(both, count, told);
     }
 
     pub(super) fn save(&self, state: &mut State) {

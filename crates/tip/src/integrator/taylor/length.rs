@@ -1,0 +1,95 @@
+//! How high an order is, how long a step: from the tolerance, and from the last coefficients.
+//!
+//! A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods,
+//! Experimental Mathematics 14 (2005) 99: with coefficients that fall as ρ^{-k} a step of the length
+//! `ρ ε^{1/p}` errs by ε, whatever ρ is; the order is that of the least work per time.
+
+use super::chain::MOST_ORDER;
+
+/// The order for an error ε of a step.
+pub(super) fn order(error: f64) -> usize {
+    let digits = -libm::log(error);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let order = (ORDER_PER_DIGIT * digits).round().max(0.0) as usize;
+    order.clamp(LEAST_ORDER, MOST_ORDER)
+}
+
+const ORDER_PER_DIGIT: f64 = 0.85;
+const LEAST_ORDER: usize = 10;
+
+/// So many of the last coefficients are looked at: of an even function every other one vanishes, and where poles come in
+/// pairs several in a row may be small.
+const LAST: usize = 4;
+/// A coefficient is expected to be worth this part of the one before.
+const RATIO: f64 = 0.5;
+
+/// The length for which the last coefficient amounts to `error`, judged by the last few as if each were worth half of the
+/// one before.
+pub(super) fn length(displacement: &[f64], error: f64) -> f64 {
+    let order = displacement.len() - 1;
+    let of = |before: usize| {
+        let size = displacement[order - before].abs() * RATIO.powi(before as i32);
+        root(error, size, order - before)
+    };
+    (0..LAST).map(of).fold(f64::INFINITY, f64::min)
+}
+
+/// The length of which the power k times a size is `most`.
+pub(super) fn root(most: f64, size: f64, k: usize) -> f64 {
+    exp2((log2(most) - log2(size.max(f64::MIN_POSITIVE))) / k as f64)
+}
+
+/// The logarithm of a normal number above 0, to 0.01: of its mantissa a parabola.
+fn log2(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let mantissa = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
+    #[expect(clippy::cast_possible_truncation, reason = "11 bits")]
+    let exponent = f64::from((bits >> MANTISSA.count_ones()) as i32 - 1023);
+    exponent + mantissa * (1.0 + BEND * (1.0 - mantissa))
+}
+
+/// 2^y, to half a per cent, for a y of a normal number.
+fn exp2(y: f64) -> f64 {
+    let whole = y.floor().clamp(-1000.0, 1000.0);
+    let part = (y - whole).clamp(0.0, 1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 1000")]
+    let power = f64::from_bits(((whole as i64 + 1023) as u64) << MANTISSA.count_ones());
+    power * (1.0 + part * (1.0 - BEND * (1.0 - part)))
+}
+
+const MANTISSA: u64 = (1 << 52) - 1;
+const BEND: f64 = 0.34;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_near_enough_to_plan_with() {
+        for i in 0..2000 {
+            let size = libm::exp(0.05 * f64::from(i) - 60.0);
+            for k in [7, 18, 28] {
+                let length = root(1e-12, size, k);
+                let exact = (1e-12 / size).powf(1.0 / k as f64);
+                assert!((length / exact - 1.0).abs() < 0.01, "{size} {k}: {length} {exact}");
+            }
+        }
+    }
+
+    /// Coefficients ρ^{-k}, of which the last fall faster than expected, and those of an even function.
+    #[test]
+    fn the_last_coefficient_over_such_a_length_is_the_error_allowed() {
+        let (rho, error) = (0.8_f64, 1e-11);
+        let coefficients: Vec<f64> = (0..=20).map(|k| rho.powi(-k)).collect();
+        let h = length(&coefficients, error);
+        let last = h.powi(20) * coefficients[20];
+        assert!(last <= 1.2 * error && last > 1e-2 * error, "{last}");
+        let even: Vec<f64> = coefficients
+            .iter()
+            .enumerate()
+            .map(|(k, c)| if k % 2 == 0 { 0.0 } else { *c })
+            .collect();
+        let shorter = length(&even, error);
+        assert!((0.9..1.3).contains(&(shorter / h)), "{shorter} {h}");
+    }
+}

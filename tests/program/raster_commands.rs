@@ -152,6 +152,9 @@ fn a_raster_is_compared_with_rows_of_cells() {
     assert!(number(&found["speedup"]) > 0.0 && found["grid_work"]["steps"].as_u64() > Some(100));
     let loose = folder.prints_json(&format!("{line} --grid-tolerance 1e-5"));
     assert!(apart(&loose) > 10.0 * apart(&found), "{} {}", apart(&loose), apart(&found));
+    let coarse = folder.prints_json(&format!("{line} --grid windowed --spacing 0.05"));
+    assert!(apart(&coarse) > 1e-5 && apart(&coarse) < 1e-2, "{}", apart(&coarse));
+    assert_eq!(coarse["parameters"]["grid"], "windowed");
     folder.write("a.json", found.to_string());
     folder.prints("plot a.json -o a.svg");
     folder.write("l.csv", "y,start,length\n0,-3,10\n0.5,-3,9\n");
@@ -159,7 +162,7 @@ fn a_raster_is_compared_with_rows_of_cells() {
     for (option, words) in [
         ("--until 30", ["--until", "--lines"]),
         ("--kick 0.1", ["--kick", "--lines"]),
-        ("--grid uniform", ["--grid", "--lines"]),
+        ("--grid uniform", ["--grid uniform", "second order"]),
         ("--spacing 2", ["--spacing 2", "at most"]),
         ("--time-limit 0", ["--time-limit 0", "above 0"]),
     ] {

@@ -22,5 +22,6 @@ mod stability_against_runs;
 mod surfaces;
 mod three_dimensions;
 mod tolerance_ladder;
+mod wider_images;
 mod wider_ladder;
 mod wider_law;

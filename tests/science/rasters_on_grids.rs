@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
-use stickslip_grid::{Layer, Scan, ScanLine, Stepping, scan};
+use stickslip_grid::{Layer, RowMethod, Scan, ScanLine, Stepping, scan};
 use stickslip_raster::{Area, AreaLine, Path, Plan, Scanned, Scanning};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
@@ -52,7 +52,7 @@ fn plan(case: &Case) -> Plan {
 /// Motions and heights on the grid, at these times and points.
 fn on_grid(
     case: &Case,
-    (spacing, tolerance): (f64, f64),
+    (method, spacing, tolerance): (RowMethod, f64, f64),
     (times, points): (&[f64], &[f64]),
 ) -> stickslip_grid::Scanned {
     let lines: Vec<AreaLine> = match &case.area {
@@ -81,7 +81,7 @@ fn on_grid(
     };
     let stepping = Stepping::absolute(tolerance);
     let mut go_on = |_: usize| ControlFlow::Continue(());
-    scan(&asked, spacing, &stepping, (times, points), &mut go_on).unwrap()
+    scan(&asked, (method, spacing), &stepping, (times, points), &mut go_on).unwrap()
 }
 
 fn cases() -> Vec<Case> {
@@ -123,7 +123,7 @@ fn rasters_are_those_of_the_full_equations_on_rows_of_cells() {
         let times: Vec<f64> = (0..56).map(|i| 0.4 * f64::from(i)).collect();
         let points: Vec<f64> = (0..90).map(|i| 0.37 * f64::from(i) - 8.0).collect();
         let tolerance = if case.wider.depth_limit.is_some() { 1e-13 } else { 1e-11 };
-        let grid = on_grid(&case, (EXACT, tolerance), (&times, &points));
+        let grid = on_grid(&case, (RowMethod::Sinc, EXACT, tolerance), (&times, &points));
         let mut worst = [0.0_f64; 2];
         for (line, x0) in lines.iter().zip(&grid.x0) {
             let end = line.trajectory().end();
@@ -148,7 +148,7 @@ fn the_rows_of_cells_are_converged() {
     let case = &cases()[0];
     let times: Vec<f64> = (0..20).map(f64::from).collect();
     let x0 = |spacing: f64, tolerance: f64| -> Vec<f64> {
-        on_grid(case, (spacing, tolerance), (&times, &[0.0])).x0.concat()
+        on_grid(case, (RowMethod::Sinc, spacing, tolerance), (&times, &[0.0])).x0.concat()
     };
     let best = x0(0.8 * EXACT, 1e-12);
     let off =
@@ -157,4 +157,25 @@ fn the_rows_of_cells_are_converged() {
         (off(x0(EXACT, 1e-12)), off(x0(EXACT, 1e-6)), off(x0(2.5 * EXACT, 1e-12)));
     println!("{same:.1e} {loose:.1e} {coarse:.1e}");
     assert!(same < 1e-9 && loose > 10.0 * same && coarse > 1e-5, "{same:e} {loose:e} {coarse:e}");
+}
+
+/// The second-order rows come to the raster as the square of their spacing.
+#[test]
+fn rows_as_in_the_papers_grid_converge_at_second_order() {
+    let case = &cases()[0];
+    let times: Vec<f64> = (0..20).map(f64::from).collect();
+    let x0 = |method, spacing: f64| -> Vec<f64> {
+        on_grid(case, (method, spacing, 1e-9), (&times, &[0.0])).x0.concat()
+    };
+    let best = x0(RowMethod::Sinc, EXACT);
+    let off = |spacing: f64| {
+        let found = x0(RowMethod::ThreePoint, spacing);
+        best.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let errors = [0.08, 0.04, 0.02].map(off);
+    println!("{errors:?}");
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((1.7..2.4).contains(&order), "{errors:?}");
+    }
 }

@@ -2,10 +2,11 @@
 //! with the `direct` memory at 1e-13; tests/science/wider_law.rs ties that to the outside.
 
 use crate::acceptance::{Acceptance, largest_difference, observed_order};
+use std::ops::ControlFlow;
 use stickslip_tip::memory::Policy;
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Run, Scenario, Start, Step, SupportPath, TipFunction,
-    Trajectory, Wider, run,
+    Trajectory, Wider, run, run_observed,
 };
 
 const LADDER: Acceptance = Acceptance { floor: 5e-13, slack: 10.0 };
@@ -230,5 +231,31 @@ fn each_extension_vanishes_to_first_order() {
         let order = observed_order(&found);
         println!("order {order:.3} {found:?}");
         assert!((order - 1.0).abs() < 0.1, "{order} {found:?}");
+    }
+}
+
+/// In steady motion on the corner the height is what round-off and the sum that stands for f make of 0. Where that was
+/// just what counts as 0, steps were 3e-5 long: four million of them to t = 301 (α = 0.8, b = 2, 1e-9). Measured: up to 35,346
+/// and 5,148.
+#[test]
+fn steady_motion_on_the_corner_is_no_run_along_it() {
+    for (alpha, limit, most) in [(0.8, 2.0, 60_000), (1.0, 5.0, 12_000)] {
+        let wider = Wider { depth_limit: Some(limit), ..Wider::default() };
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let model = Model::under(wider, tip, alpha, 1.0).unwrap();
+        for tolerance in [1e-6, 1e-9, 1e-11] {
+            let mut scenario = Scenario::new(model.clone(), 600.0);
+            (scenario.kick, scenario.tolerance) = (0.1, tolerance);
+            let mut steps = 0;
+            let found = run_observed(&scenario, |_| {
+                steps += 1;
+                if steps > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let found = found.unwrap();
+            println!("{alpha} {limit} {tolerance:e}: {steps} steps");
+            assert!(!found.interrupted, "{alpha} {limit} {tolerance:e}");
+            let end = found.trajectory.end();
+            assert!((found.trajectory.l(end) - model.steady_l()).abs() < 1e-4);
+        }
     }
 }

@@ -66,7 +66,7 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) tolerance: f64,
 
-    /// Which discretisation of (10), (11).
+    /// Which discretisation of (10), (11); of a raster sinc, which spectral stands for there too, or windowed.
     #[arg(
         long,
         value_parser = named::<GridName>(),
@@ -125,8 +125,8 @@ const USAGE: &str =
        stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --pitch <D> --lines <N> --length <X> [OPTIONS]
        stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]";
 
-/// What lines of a raster have not: they start flat, end where they do, and are compared with one kind of grid.
-const OF_A_RUN: [&str; 12] = [
+/// What lines of a raster have not: they start flat and end where they do.
+const OF_A_RUN: [&str; 11] = [
     "until",
     "start",
     "start_position",
@@ -137,7 +137,6 @@ const OF_A_RUN: [&str; 12] = [
     "seed",
     "initial_surface",
     "force_file",
-    "grid",
     "grid_until",
 ];
 

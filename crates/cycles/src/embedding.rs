@@ -43,6 +43,8 @@ const SHARE_OF_FINE: f64 = 0.1;
 /// Displacement that the short one may bring about: multipliers are as accurate, where they are not
 /// amplified.
 const ACCURACY_OF_SHORT: f64 = 1e-8;
+/// Few exponentials are no more than these.
+const FEW: usize = 60;
 /// Waves of a lattice of exponents, where no few exponentials follow f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
 const MOST_WAVES_OF_SHORT: usize = 120;
@@ -105,6 +107,11 @@ impl Embedding {
         };
         let wider = *model.wider();
         Ok(Self { tip, alpha, r, wider, fine, short, short_is_precise, band })
+    }
+
+    /// Whether f is told by exponents on a lattice.
+    pub(super) fn is_on_lattice(&self) -> bool {
+        self.fine.terms().len() > FEW
     }
 
     /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.

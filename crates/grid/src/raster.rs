@@ -10,9 +10,8 @@
 use crate::cells::Cells;
 use crate::marcher::Marcher;
 use crate::patch::Patch;
+use crate::row_scheme::{HALF_WIDTH, RowMethod, RowScheme};
 use crate::scheme::{Scheme, sample};
-use crate::sinc::Sinc;
-use crate::tableau::Tableau;
 use crate::{Footprint, GridError, Path, Problem, Request, Start, Stepping, Wider, Work};
 use std::ops::ControlFlow;
 
@@ -69,22 +68,20 @@ pub struct Scanned {
     pub work: Work,
 }
 
-/// Cells on either side that the interpolation reaches over.
-const HALF_WIDTH: usize = 80;
 /// A tip so many reaches outside of where the support goes has left the grid.
 const OUTSIDE: f64 = 2.0;
 
 /// Told the number of lines that are done; may stop the scan there.
 pub type LineObserver<'a> = dyn FnMut(usize) -> ControlFlow<()> + 'a;
 
-/// Scans all lines on a flat surface; `spacing` is that of the cells, at most π over the largest wave number in f. Times
+/// Scans all lines on a flat surface; `spacing` is that of the cells. Times
 /// are those of every line, ascending from its start, each hit by a step; those after its end count for nothing.
 ///
 /// # Errors
 /// Unusable input; a tip that leaves the grid; a step lost in round-off; [`GridError::Stopped`].
 pub fn scan(
     scan: &Scan,
-    spacing: f64,
+    (method, spacing): (RowMethod, f64),
     stepping: &Stepping,
     (times, points): (&[f64], &[f64]),
     observe: &mut LineObserver,
@@ -98,7 +95,8 @@ pub fn scan(
     for (n, line) in scan.lines.iter().enumerate() {
         let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
         let mut own = vec![];
-        let (at, end, took) = plane.line(scan, n, start, stepping, times, &mut own)?;
+        let asked = Asked { method, stepping, times, steps: &mut own };
+        let (at, end, took) = plane.line(scan, n, start, asked)?;
         x0.push(at);
         steps.push(own);
         state = Some(end);
@@ -110,7 +108,7 @@ pub fn scan(
             return Err(GridError::Stopped { time: elapsed(scan, n) });
         }
     }
-    let u = plane.rows.iter().map(|row| plane.read(row, points)).collect();
+    let u = plane.rows.iter().map(|row| plane.read(row, method, points)).collect();
     Ok(Scanned { x0, steps, y: plane.y, u, work })
 }
 
@@ -133,6 +131,14 @@ struct Plane {
 
 /// x0 and x0' at the end of a line.
 type State = (f64, f64);
+
+/// How a line is to be stepped through, and what is noted.
+struct Asked<'a> {
+    method: RowMethod,
+    stepping: &'a Stepping,
+    times: &'a [f64],
+    steps: &'a mut Vec<(f64, f64)>,
+}
 
 impl Plane {
     fn new(scan: &Scan, spacing: f64) -> Result<Self, GridError> {
@@ -161,9 +167,7 @@ impl Plane {
         scan: &Scan,
         n: usize,
         (start, velocity): State,
-        stepping: &Stepping,
-        times: &[f64],
-        steps: &mut Vec<(f64, f64)>,
+        Asked { method, stepping, times, steps }: Asked,
     ) -> Result<(Vec<f64>, State, Work), GridError> {
         let (line, (alpha, r)) = (scan.lines[n], scan.model);
         let duration = (line.to - line.from).abs() / r;
@@ -175,7 +179,7 @@ impl Plane {
         let left = move |time: f64| healing_time.map_or(1.0, |healing| (-time / healing).exp());
         let section = |x: f64| scan.layers.iter().map(|l| (l.along)(x) * (l.across)(0.0)).sum();
         let footprint = Footprint::new(&section, scan.reach.0)?;
-        let scheme = || Sinc::new(footprint, self.spacing, HALF_WIDTH);
+        let scheme = || method.scheme(footprint, self.spacing);
         let reader =
             Reader { scheme: scheme(), first: self.first, cells: self.own_row(line.y).to_vec() };
         let surface = Start::new(0.0, start, |x| reader.height(x), |x| reader.slope(x));
@@ -195,7 +199,7 @@ impl Plane {
             let mut carve = |visits: &[(f64, f64, f64)]| {
                 carver.carve(visits, -alpha, &|t| left(duration - t));
             };
-            let (cells, tableau) = (Cells::new(&nothing), Tableau::dop853());
+            let (cells, tableau) = (Cells::new(&nothing), method.tableau());
             Marcher::new(&problem, scheme, tableau, *stepping, cells, Some(&problem.start))
                 .telling(&mut carve)
                 .run_to_velocity(&request, &mut |time, x0| {
@@ -221,18 +225,18 @@ impl Plane {
         &self.rows[own]
     }
 
-    fn read(&self, row: &[f64], points: &[f64]) -> Vec<f64> {
+    fn read(&self, row: &[f64], method: RowMethod, points: &[f64]) -> Vec<f64> {
         let nothing = |_: f64| 0.0;
         let Ok(footprint) = Footprint::new(&nothing, 1.0) else { return vec![] };
-        let scheme = Sinc::new(footprint, self.spacing, HALF_WIDTH);
+        let scheme = method.scheme(footprint, self.spacing);
         let reader = Reader { scheme, first: self.first, cells: row.to_vec() };
         points.iter().map(|x| reader.height(*x)).collect()
     }
 }
 
-/// A row as it was before the line, read by a regularised sinc.
+/// A row as it was before the line.
 struct Reader<'a> {
-    scheme: Sinc<'a>,
+    scheme: RowScheme<'a>,
     first: i64,
     cells: Vec<f64>,
 }
@@ -246,7 +250,7 @@ impl Reader<'_> {
         self.dot(|scheme, out| scheme.slope_stencil(x, out))
     }
 
-    fn dot(&self, stencil: impl Fn(&Sinc, &mut Patch)) -> f64 {
+    fn dot(&self, stencil: impl Fn(&RowScheme, &mut Patch)) -> f64 {
         let mut patch = Patch::default();
         stencil(&self.scheme, &mut patch);
         let cell = |k: usize| {

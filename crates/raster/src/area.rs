@@ -19,6 +19,8 @@ pub enum Area {
     Lines(Vec<AreaLine>),
 }
 
+/// Beyond these y lines an ordinary pitch apart would not be told from each other.
+const FARTHEST: f64 = 1e9;
 /// Distances of lines that differ by less than this part are the same.
 const EVEN: f64 = 1e-9;
 
@@ -91,7 +93,7 @@ impl Area {
         }
         let Self::Lines(lines) = self else { return Ok(()) };
         let is_line = |l: &AreaLine| {
-            [l.y, l.start].iter().all(|v| v.is_finite()) && l.length > 0.0 && l.length <= most
+            l.y.abs() <= FARTHEST && l.start.abs() <= most && l.length > 0.0 && l.length <= most
         };
         if let Some(n) = lines.iter().position(|line| !is_line(line)) {
             return Err(RasterError::AreaLine { line: n + 1, found: lines[n], most });
@@ -149,10 +151,16 @@ mod tests {
             Area::Lines(lines).validate(1e3, (9.0, 4.0)).unwrap_err().to_string()
         };
         assert!(refused(vec![]).contains("between 1 and"));
-        for bad in [line(f64::NAN, 0.0, 1.0), line(0.0, 0.0, 0.0), line(0.0, 0.0, 2e3)] {
+        for bad in [
+            line(f64::NAN, 0.0, 1.0),
+            line(1e308, 0.0, 1.0),
+            line(0.0, 1e300, 1.0),
+            line(0.0, 0.0, 0.0),
+            line(0.0, 0.0, 2e3),
+        ] {
             assert!(refused(vec![line(0.0, 0.0, 1.0), bad]).starts_with("line 2"));
         }
-        assert!(refused(vec![line(0.0, 0.0, 1.0), line(0.0, 2e3, 1.0)]).contains("extent"));
+        assert!(refused(vec![line(0.0, 0.0, 1.0), line(0.0, 1e3, 1.0)]).contains("extent"));
         let crowded = (0..6).map(|i| line(f64::from(i), 0.0, 1.0)).collect();
         assert!(refused(crowded).contains("within"));
         // At the same y they are one row.

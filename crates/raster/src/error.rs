@@ -34,7 +34,7 @@ pub enum RasterError {
     Lines(usize),
     /// A line of an area that is none.
     #[error(
-        "line {line} of the area: y and start must be finite numbers, the length above 0 and at most {most:.1e}, not {found:?}"
+        "line {line} of the area: y must lie within ±1e9, start within ±{most:.1e}, and the length be above 0 and at most {most:.1e}, not {found:?}"
     )]
     AreaLine {
         /// Counted from 1.

@@ -13,8 +13,8 @@ impl Surface<'_> {
     ///     u(x,y,t) = u0(x,y) - α ∫_{t1}^t f(x - x0(t'), y)dt'
     /// ```
     ///
-    /// A steady past was carved by the same footprint; a given profile and noise are known along the
-    /// path alone, and are taken to be the same for all y. Costs one plane surface for each layer of the
+    /// Under a wider law each visit counts by its weight, and all of it heals. A steady past was carved by the same
+    /// footprint; a given profile and noise are known along the path alone, and are taken to be the same for all y. Costs one plane surface for each layer of the
     /// footprint and one multiplication for each layer and pixel.
     ///
     /// # Errors
@@ -27,8 +27,10 @@ impl Surface<'_> {
         y: &[f64],
     ) -> Result<Array2<f64>, SurfaceError> {
         self.check(t, x, y)?;
-        let before: Array1<f64> = x.iter().map(|x| self.initial.texture(*x)).collect();
-        let mut image = self.layered(footprint, t, x, y, |layer| self.steady_past(layer, x));
+        let left = self.trajectory.wider().left_after(t - self.trajectory.start());
+        let before: Array1<f64> = x.iter().map(|x| left * self.initial.texture(*x)).collect();
+        let steady = |layer: &Layer| self.steady_past(layer, x) * left;
+        let mut image = self.layered(footprint, t, x, y, steady);
         image.axis_iter_mut(Axis(0)).for_each(|mut row| row += &before);
         Ok(image)
     }
@@ -93,15 +95,16 @@ impl Surface<'_> {
         Array2::from_shape_fn((y.len(), layers.len()), height).dot(&along)
     }
 
-    /// (24) with the layer's g for f.
+    /// (24) with the layer's g for f, as it was when the run began.
     fn steady_past(&self, layer: &Layer, x: &[f64]) -> Array1<f64> {
         let Some(position) = self.initial.steady_position() else {
             return Array1::zeros(x.len());
         };
-        let depth = self.model.alpha() / self.model.r();
+        let (depth, fading) = (self.model.steady_density(), self.model.fading());
         let (all, reach) = (layer.along.integral(), layer.along.reach().unwrap_or(f64::INFINITY));
         let tail = |x: f64| match x - position {
             ahead if ahead > reach => 0.0,
+            near if fading > 0.0 => layer.along.fading_tail(near, fading),
             behind if behind < -reach => all,
             near => layer.along.tail(near),
         };

@@ -17,7 +17,7 @@ pub(super) const PREPARED: [&str; 6] = [
 ];
 
 /// Every command with what it cannot do without.
-const LINES: [&str; 19] = [
+const LINES: [&str; 20] = [
     "run --alpha 1.2 --r 1 --until 30",
     "verify run.json",
     "surface run.json",
@@ -36,6 +36,7 @@ const LINES: [&str; 19] = [
     "figures --only fig6 --out-dir figures",
     "raster --alpha 1.2 --r 1 --pitch 1 --lines 3 --length 20",
     "stability --r 1 --pitch 1",
+    "compare --alpha 0.5 --r 1 --pitch 1 --lines 2 --length 8",
     "surface raster.json --range 5:15 --y-range 0:2 --spacing 0.5",
 ];
 /// Has no numbers.

@@ -11,8 +11,8 @@ use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
 use std::ops::ControlFlow;
 use std::time::Instant;
-use stickslip_documents::{GridWork, RasterCompareDocument, RasterCompared};
-use stickslip_grid::{GridError, Layer, Scan, ScanLine, Scanned, Stepping, scan};
+use stickslip_documents::{GridName, GridWork, RasterCompareDocument, RasterCompared};
+use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 
 /// Heights compared on each row.
@@ -29,7 +29,8 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let pulse = &arguments.disturbance.pulse;
     let (plan, parameters) = plan_of(&arguments.model, &arguments.scan, pulse, accuracy)?;
     let (stepping, limit) = (stepping(arguments)?, time_limit(arguments)?);
-    let spacing = spacing(arguments, &plan)?;
+    let (grid, method) = method(arguments.grid)?;
+    let spacing = spacing(arguments, method, &plan)?;
     // Its own steps, unless times are asked for, which it would have to step to.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
     let times = if is_asked { sample_times(sampling, &plan)? } else { vec![] };
@@ -37,19 +38,20 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;
-    let (grid, grid_seconds) = on_cells(&plan, spacing, &stepping, (&times, &x), limit)?;
+    let (scanned, grid_seconds) =
+        on_cells(&plan, (method, spacing), &stepping, (&times, &x), limit)?;
     let work = GridWork {
-        steps: grid.work.steps,
-        rejected: grid.work.rejected,
-        right_hand_sides: grid.work.right_hand_sides,
-        cells_updated: grid.work.cells_updated,
+        steps: scanned.work.steps,
+        rejected: scanned.work.rejected,
+        right_hand_sides: scanned.work.right_hand_sides,
+        cells_updated: scanned.work.cells_updated,
         seconds: grid_seconds,
     };
     let asked_for = |x0: &Vec<f64>| times.iter().copied().zip(x0.iter().copied()).collect();
-    let motions = if is_asked { grid.x0.iter().map(asked_for).collect() } else { grid.steps };
-    let compared = RasterCompared { x, motions, y: grid.y, u: grid.u, work };
+    let motions = if is_asked { scanned.x0.iter().map(asked_for).collect() } else { scanned.steps };
+    let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
-    let discretisation = (spacing, tolerance, arguments.step);
+    let discretisation = (grid, spacing, tolerance, arguments.step);
     job.finish(&RasterCompareDocument::new(
         parameters,
         (&plan, &lines, seconds),
@@ -58,12 +60,25 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     ))
 }
 
-/// Δx, by default the widest that is exact to round-off.
-fn spacing(arguments: &CompareArguments, plan: &Plan) -> Result<f64, Failure> {
+/// The one that is exact to round-off along x, or the one of second order.
+fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
+    match asked {
+        GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
+        GridName::Windowed => Ok((GridName::Windowed, RowMethod::ThreePoint)),
+        GridName::Uniform => {
+            let message = "is none for a raster: sinc is exact along x, windowed of second order";
+            Err(Failure::input("--grid uniform", message))
+        }
+    }
+}
+
+/// Δx: by default the widest that is exact to round-off, or a fiftieth of that.
+fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Result<f64, Failure> {
     let bands = plan.footprint.layers().iter().map(|layer| layer.along.band());
     let exact = std::f64::consts::PI / bands.fold(0.0, f64::max);
     match arguments.spacing {
-        None => Ok(exact),
+        None if method == RowMethod::Sinc => Ok(exact),
+        None => Ok(0.02 * exact),
         Some(spacing) if spacing > 0.0 && spacing <= exact => Ok(spacing),
         Some(spacing) => Err(Failure::input(
             format!("--spacing {}", Typed(spacing)),
@@ -92,7 +107,7 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
 
 fn on_cells(
     plan: &Plan,
-    spacing: f64,
+    rows: (RowMethod, f64),
     stepping: &Stepping,
     asked: (&[f64], &[f64]),
     limit: f64,
@@ -131,7 +146,7 @@ fn on_cells(
         failure = too_slow(clock, done, lines.len(), limit);
         if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let scanned = scan(&problem, spacing, stepping, asked, &mut watch);
+    let scanned = scan(&problem, rows, stepping, asked, &mut watch);
     let seconds = clock.elapsed().as_secs_f64();
     match (failure, scanned) {
         (Some(failure), _) => Err(failure),

@@ -31,7 +31,7 @@ impl Images {
             return Ok(None);
         }
         let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
-        let stiffness_needed = footprint.transverse_stiffness_needed(model.alpha() / model.r());
+        let stiffness_needed = footprint.transverse_stiffness_needed(model.steady_density());
         let far_behind = arguments.far_behind;
         if arguments.plot.is_some() && (places.spacing.is_none() || places.x.len() < 2) {
             let named = format!("--x with {} values", places.x.len());

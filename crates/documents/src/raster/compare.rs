@@ -2,7 +2,7 @@
 
 use super::RasterParameters;
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{DifferenceDocument, FORMAT_VERSION, GridWork, Software};
+use crate::{DifferenceDocument, FORMAT_VERSION, GridName, GridWork, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
@@ -46,6 +46,8 @@ pub struct RasterCompareParameters {
     /// The raster.
     #[serde(flatten)]
     pub raster: RasterParameters,
+    /// Discretisation: sinc or windowed.
+    pub grid: GridName,
     /// Δx of the cells, in σ.
     pub spacing: f64,
     /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null where all steps have one length.
@@ -100,12 +102,13 @@ impl RasterCompareDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/raster-compare";
 
-    /// Of a plan, its lines and the seconds they took; of a spacing, a tolerance or a step, and what became of these.
+    /// Of a plan, its lines and the seconds they took; of a grid, its spacing, a tolerance or a step, and what became of
+    /// these.
     #[must_use]
     pub fn new(
         raster: RasterParameters,
         (plan, lines, seconds): (&Plan, &[Line], f64),
-        (spacing, grid_tolerance, step): (f64, Option<f64>, Option<f64>),
+        (name, spacing, grid_tolerance, step): (GridName, f64, Option<f64>, Option<f64>),
         grid: RasterCompared,
     ) -> Self {
         let compared = |(line, motion): (&Line, &Vec<(f64, f64)>)| {
@@ -126,7 +129,13 @@ impl RasterCompareDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
-            parameters: RasterCompareParameters { raster, spacing, grid_tolerance, step },
+            parameters: RasterCompareParameters {
+                raster,
+                grid: name,
+                spacing,
+                grid_tolerance,
+                step,
+            },
             lines: compared,
             x: grid.x,
             y: grid.y,

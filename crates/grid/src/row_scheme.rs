@@ -1,0 +1,73 @@
+//! How the rows of a scanned area are held along x.
+
+use crate::Footprint;
+use crate::patch::Patch;
+use crate::scheme::Scheme;
+use crate::sinc::Sinc;
+use crate::tableau::Tableau;
+use crate::three_point::ThreePoint;
+
+/// How rows are held along x, and steps are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowMethod {
+    /// Samples read by a regularised sinc, exact to round-off for a spacing of at most π over the largest wave number in f;
+    /// order 8 in time.
+    Sinc,
+    /// As the paper's grid: slopes by central differences, interpolated linearly, order 2; order 5 in time.
+    ThreePoint,
+}
+
+/// Cells on either side that the sinc reaches over.
+pub(crate) const HALF_WIDTH: usize = 80;
+
+impl RowMethod {
+    pub(crate) fn scheme(self, footprint: Footprint<'_>, spacing: f64) -> RowScheme<'_> {
+        match self {
+            Self::Sinc => RowScheme::Sinc(Sinc::new(footprint, spacing, HALF_WIDTH)),
+            Self::ThreePoint => RowScheme::ThreePoint(ThreePoint { footprint, spacing }),
+        }
+    }
+
+    pub(crate) fn tableau(self) -> Tableau {
+        match self {
+            Self::Sinc => Tableau::dop853(),
+            Self::ThreePoint => Tableau::dopri5(),
+        }
+    }
+}
+
+/// Either.
+pub(crate) enum RowScheme<'a> {
+    Sinc(Sinc<'a>),
+    ThreePoint(ThreePoint<'a>),
+}
+
+impl Scheme for RowScheme<'_> {
+    fn spacing(&self) -> f64 {
+        match self {
+            Self::Sinc(scheme) => scheme.spacing(),
+            Self::ThreePoint(scheme) => scheme.spacing(),
+        }
+    }
+
+    fn imprint(&self, tip: f64, out: &mut Patch) {
+        match self {
+            Self::Sinc(scheme) => scheme.imprint(tip, out),
+            Self::ThreePoint(scheme) => scheme.imprint(tip, out),
+        }
+    }
+
+    fn slope_stencil(&self, x: f64, out: &mut Patch) {
+        match self {
+            Self::Sinc(scheme) => scheme.slope_stencil(x, out),
+            Self::ThreePoint(scheme) => scheme.slope_stencil(x, out),
+        }
+    }
+
+    fn height_stencil(&self, x: f64, out: &mut Patch) {
+        match self {
+            Self::Sinc(scheme) => scheme.height_stencil(x, out),
+            Self::ThreePoint(scheme) => scheme.height_stencil(x, out),
+        }
+    }
+}

@@ -28,8 +28,8 @@ pub(super) struct Corner {
 const ROUNDINGS_OF_TIME: f64 = 8.0;
 /// Heights as polynomials are wanted to the tolerance itself, of which an error of a step is allowed a small part.
 const SHARE_OF_DENSE: f64 = 0.1;
-/// Heights are sums of terms of the size of α, and not better known than this part of it.
-const ROUND_OFF: f64 = 1e-13;
+/// Heights are sums of terms of the size of α, at positions rounded by up to 3e-14: not better known than this part of it.
+const ROUND_OFF: f64 = 4e-13;
 /// A step on the wrong side indents by 2|h|/b too much or little: this share of what it may err.
 const SHARE: f64 = 0.1;
 

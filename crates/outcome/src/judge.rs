@@ -36,8 +36,8 @@ const NOISE: f64 = 30.0;
 const ROUND_OFF: f64 = 1e-12;
 /// Errors of steps push l away from steady motion by this part of the tolerance in a period.
 const PUSHED: f64 = 0.6;
-/// Below this part of the tolerance l is steady motion itself: what steps by series leave of it hovers at up to 0.02.
-const UNDISTURBED: f64 = 0.05;
+/// Below this part of the tolerance l is steady motion itself: what steps by series leave of it hovers at up to 0.06.
+const UNDISTURBED: f64 = 0.2;
 /// Multipliers closer to the unit circle than this cannot be told from it.
 const ON_THE_CIRCLE: f64 = 1e-7;
 

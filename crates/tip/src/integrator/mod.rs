@@ -303,8 +303,16 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self.limits_from_before = (self.relief_slope(), self.force.value(self.t.next_down()));
         self.last = Some(step);
         self.work.steps += 1;
-        self.taylor.made(h * (1.0 + self.curvature));
+        self.taylor.made(h * self.fastest(self.curvature));
         step
+    }
+
+    /// How fast the fastest fades over a groove of this curvature, in k/Γ.
+    fn fastest(&self, curvature: f64) -> f64 {
+        let stiffness = 1.0 + curvature;
+        let Some(mass) = self.model.wider().inertia else { return stiffness };
+        let damped = 1.0 - 4.0 * mass * stiffness;
+        if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { (stiffness / mass).sqrt() }
     }
 
     /// x0 now.

@@ -191,7 +191,7 @@ impl<M: Memory> Integrator<'_, M> {
         let piece = pieces::longest(displacement, length, error);
         let piece = piece.min(length * limited / moved.max(f64::MIN_POSITIVE));
         length = length.min(MOST_PIECES as f64 * piece);
-        let stiffness = length * (1.0 - self.taylor.chain.curvature());
+        let stiffness = length * self.fastest(-self.taylor.chain.curvature());
         if self.taylor.switch.leaves(stiffness, self.taylor.order) {
             return None;
         }

@@ -5,13 +5,13 @@
 use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
 use crate::files::beside;
-use crate::files::place::IN_USE;
+use crate::files::place::taken;
 use crate::message::remark;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
 use std::fs::File;
-use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use stickslip_documents::{KeptLine, Software, SweepPoint};
 
@@ -95,15 +95,11 @@ impl<P: Part> Finished<P> {
         let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
         let opened = open(&path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
-            let message = match error.kind() {
-                ErrorKind::WouldBlock => IN_USE.into(),
-                ErrorKind::AlreadyExists => error.to_string(),
-                _ => {
-                    let advice = "remove it, or choose another --output";
-                    format!("{} {error}; {advice}", path.display())
-                }
-            };
-            Failure::input(format!("--output {}", output.display()), message)
+            taken("--output", output, &error).unwrap_or_else(|| {
+                let advice = "remove it, or choose another --output";
+                let message = format!("{} {error}; {advice}", path.display());
+                Failure::input(format!("--output {}", output.display()), message)
+            })
         })?;
         Ok(Self { parts, kept: Some(Kept { path, file, is_gone: false, name: P::NAME }) })
     }

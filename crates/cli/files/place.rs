@@ -58,25 +58,36 @@ pub(crate) fn folder(option: &str, path: &Path) -> Result<Lock, Failure> {
     Lock::of(&resolved(path)).map_err(|_| Failure::input(named(option, path), IN_USE))
 }
 
+/// What is told where another process writes what the option names, or a file of the user's stands there; `None` of any
+/// other error.
+pub(crate) fn taken(option: &str, path: &Path, error: &io::Error) -> Option<Failure> {
+    match error.kind() {
+        ErrorKind::WouldBlock => Some(Failure::input(named(option, path), IN_USE)),
+        // The file that is there, and is not ours, is named.
+        ErrorKind::AlreadyExists => Some(Failure::input(named(option, path), error)),
+        _ => None,
+    }
+}
+
 pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
+    if let Some(taken) = taken(option, path, error) {
+        return taken;
+    }
     let advice = "choose a place that exists and can be written to";
     let said = match error.kind() {
         ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
         ErrorKind::NotFound => "there is no such folder".into(),
-        ErrorKind::WouldBlock => return Failure::input(named(option, path), IN_USE),
         ErrorKind::NotConnected => {
             let message = "nobody reads from this pipe: start its reader first";
             return Failure::input(named(option, path), message);
         }
-        // The file that is there, and is not ours, is named.
-        ErrorKind::AlreadyExists => return Failure::input(named(option, path), error),
         kind => kind.to_string(),
     };
     Failure::input(named(option, path), format!("{said}; {advice}"))
 }
 
 /// Said where a lock is another's.
-pub(crate) const IN_USE: &str = "is being written by another stickslip: wait until it has ended, or \
+const IN_USE: &str = "is being written by another stickslip: wait until it has ended, or \
                                  choose another name";
 
 fn named(option: &str, path: &Path) -> String {

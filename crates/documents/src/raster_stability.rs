@@ -1,7 +1,7 @@
 //! `stickslip/raster-stability`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{ModelParameters, PathName, Software, SpacingName, TipDocument};
+use crate::{FORMAT_VERSION, ModelParameters, PathName, Software, SpacingName, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::RasterCritical;
@@ -32,6 +32,26 @@ pub struct RasterStabilityDocument {
 impl RasterStabilityDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/raster-stability";
+
+    /// What was found for these parameters, with remarks.
+    pub fn new(
+        parameters: RasterStabilityParameters,
+        critical: Option<&RasterCritical>,
+        stable: Option<bool>,
+        growth: Option<RasterGrowth>,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            parameters,
+            critical: critical.map(Into::into),
+            stable,
+            growth,
+            remarks,
+        }
+    }
 }
 
 /// A raster, of which α need not be given.

@@ -162,7 +162,7 @@ impl End<'_> {
     fn stuck(&self) -> Option<Outcome> {
         let Scenario { model, tolerance, .. } = self.scenario;
         // Under a depth limit, or where the surface heals, no tip is held for ever.
-        if model.wider().depth_limit.or(model.wider().healing_time).is_some() {
+        if !model.wider().traps() {
             return None;
         }
         if model.tip().reach().is_none() {

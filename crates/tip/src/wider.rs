@@ -66,6 +66,12 @@ impl Wider {
         Ok(())
     }
 
+    /// Whether a tip can be held for ever: a depth limit lets the groove deepen ever more slowly, healing lets it go.
+    #[must_use]
+    pub fn traps(&self) -> bool {
+        self.depth_limit.is_none() && self.healing_time.is_none()
+    }
+
     /// Whether it is the paper's law.
     #[must_use]
     pub fn is_papers(&self) -> bool {

@@ -30,8 +30,7 @@ pub(super) fn of(
     let from = |f: &Found| f.from.map(|(branch, place)| offsets[branch] + place);
     let Wider { depth_limit, healing_time, inertia, .. } = *origin.wider();
     // In steady creep α/r is what counts; under a depth limit, or where the surface heals, no tip is held for ever.
-    let is_held = depth_limit.or(healing_time).is_none();
-    let ratio = trapping_alpha(origin.tip(), 1.0).ok().filter(|_| is_held);
+    let ratio = trapping_alpha(origin.tip(), 1.0).ok().filter(|_| origin.wider().traps());
     let papers = ModelParameters::papers(
         TipDocument::from(origin.tip()),
         first.alpha,

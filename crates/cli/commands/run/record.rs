@@ -1,7 +1,7 @@
 //! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
 
 use crate::failure::Failure;
-use crate::files::place::IN_USE;
+use crate::files::place::taken;
 use crate::files::rows::{Rows, journal_of};
 use crate::files::stream::Stream;
 use std::io;
@@ -125,11 +125,10 @@ impl Record {
     /// Fills the record with what a journal holds up to a mark, which is all until time t, and goes on with it.
     pub(super) fn resume(&mut self, path: &Path, mark: Mark, t: f64) -> Result<(), Failure> {
         let unusable = |error: io::Error| {
-            if error.kind() == io::ErrorKind::WouldBlock {
-                return Failure::input(format!("--resume {}", path.display()), IN_USE);
-            }
-            let needed = "the checkpoint cannot be resumed without it";
-            Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
+            taken("--resume", path, &error).unwrap_or_else(|| {
+                let needed = "the checkpoint cannot be resumed without it";
+                Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
+            })
         };
         let rows = if self.steps.is_some() {
             let (rows, steps) = Rows::resume::<STEP_NUMBERS>(path, mark).map_err(unusable)?;
@@ -185,12 +184,7 @@ pub(super) fn journal(path: &Path, numbers: usize) -> Result<Sink, Failure> {
     match Rows::create(&journal, path, numbers) {
         Ok(rows) => Ok(Sink::Journal(journal, rows)),
         Err(error) => {
-            let message = match error.kind() {
-                io::ErrorKind::WouldBlock => IN_USE.into(),
-                io::ErrorKind::AlreadyExists => error.to_string(),
-                _ => return Err(failed(&journal, error)),
-            };
-            Err(Failure::input(format!("--checkpoint {}", path.display()), message))
+            Err(taken("--checkpoint", path, &error).unwrap_or_else(|| failed(&journal, error)))
         }
     }
 }

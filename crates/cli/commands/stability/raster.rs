@@ -8,8 +8,7 @@ use crate::commands::job::Job;
 use crate::commands::model::{model_of, tip, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, ModelParameters, PathName, RasterGrowth, RasterStabilityDocument,
-    RasterStabilityParameters, Software,
+    ModelParameters, PathName, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction};
@@ -97,23 +96,17 @@ fn document(
     if path == PathName::Repeat {
         remarks.push("critical: another pass deepens some ripple of the groove at every α".into());
     }
-    Ok(RasterStabilityDocument {
-        format: RasterStabilityDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters: RasterStabilityParameters {
-            model: ModelParameters::of(&model, given.alpha_above),
-            width_y,
-            path,
-            pitch: arguments.pitch,
-            length: None,
-            at_critical_point: !is_given,
-        },
-        critical: critical.as_ref().map(Into::into),
-        stable: critical.filter(|_| is_given).map(|at| alpha < at.alpha),
-        growth: (is_given && path != PathName::Zigzag).then(|| growth(raster, path, alpha, band)),
-        remarks,
-    })
+    let parameters = RasterStabilityParameters {
+        model: ModelParameters::of(&model, given.alpha_above),
+        width_y,
+        path,
+        pitch: arguments.pitch,
+        length: None,
+        at_critical_point: !is_given,
+    };
+    let stable = critical.filter(|_| is_given).map(|at| alpha < at.alpha);
+    let growth = (is_given && path != PathName::Zigzag).then(|| growth(raster, path, alpha, band));
+    Ok(RasterStabilityDocument::new(parameters, critical.as_ref(), stable, growth, remarks))
 }
 
 fn growth(raster: &Raster, path: PathName, alpha: f64, band: f64) -> RasterGrowth {

@@ -52,9 +52,8 @@ impl Point {
 pub(super) fn trapping(
     model: &Model,
 ) -> (Result<f64, StabilityError>, Result<Creep, StabilityError>) {
-    let held = model.wider().depth_limit.or(model.wider().healing_time).is_none();
     let papers = Model::new(model.tip().clone(), model.alpha(), model.r());
-    match papers.ok().filter(|_| held) {
+    match papers.ok().filter(|_| model.wider().traps()) {
         Some(papers) => (trapping_alpha(model.tip(), model.r()), creep(&papers)),
         None => {
             let error = StabilityError::PapersLawOnly("trapping");

@@ -7,8 +7,7 @@ use crate::commands::job::Job;
 use crate::commands::model::{tip, wide_model, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, ModelParameters, PathName, RasterStabilityDocument, RasterStabilityParameters,
-    Software,
+    ModelParameters, PathName, RasterStabilityDocument, RasterStabilityParameters,
 };
 use stickslip_stability::{RasterCritical, StabilityError, WiderRaster};
 use stickslip_tip::{Model, Wider};
@@ -46,23 +45,21 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let growth = || growth_of(tip.band(), |q| raster.growth(alpha, q).to_polar());
     let stable = critical.as_ref().map_or(true, |at| alpha < at.alpha);
     let none = critical.as_ref().err().map(|error| format!("critical: {error}"));
-    job.finish(&RasterStabilityDocument {
-        format: RasterStabilityDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters: RasterStabilityParameters {
-            model: ModelParameters::of(&model, given.alpha_above),
-            width_y,
-            path,
-            pitch: Some(pitch),
-            length: arguments.length,
-            at_critical_point: !is_given,
-        },
-        critical: critical.as_ref().ok().map(Into::into),
-        stable: is_given.then_some(stable),
-        growth: is_given.then(growth),
-        remarks: none.into_iter().collect(),
-    })
+    let parameters = RasterStabilityParameters {
+        model: ModelParameters::of(&model, given.alpha_above),
+        width_y,
+        path,
+        pitch: Some(pitch),
+        length: arguments.length,
+        at_critical_point: !is_given,
+    };
+    job.finish(&RasterStabilityDocument::new(
+        parameters,
+        critical.as_ref().ok(),
+        is_given.then_some(stable),
+        is_given.then(growth),
+        none.into_iter().collect(),
+    ))
 }
 
 /// What is left of a groove after another line.

@@ -25,3 +25,4 @@ mod tolerance_ladder;
 mod wider_images;
 mod wider_ladder;
 mod wider_law;
+mod wider_stability_against_runs;

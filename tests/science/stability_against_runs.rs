@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use stickslip_stability::{critical, leading_roots, onset, response};
 use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, run};
 
-fn triple(beta: f64) -> TipFunction {
+pub(crate) fn triple(beta: f64) -> TipFunction {
     TipFunction::triple_gaussian(beta, 1.0).unwrap()
 }
 
@@ -36,7 +36,7 @@ fn kicked(model: &Model, kick: f64, span: f64) -> Trajectory {
 
 /// λ of the oscillation A e^{λt} + c.c. that y, sampled every `dt`, is: Prony's method, with
 /// y(t+2dt) = p y(t+dt) + q y(t) in the least-squares sense.
-fn fitted_exponent(y: &[f64], dt: f64) -> (f64, f64) {
+pub(crate) fn fitted_exponent(y: &[f64], dt: f64) -> (f64, f64) {
     let sum = |f: &dyn Fn(&[f64]) -> f64| y.windows(3).map(f).sum::<f64>();
     let (aa, ab, bb) = (sum(&|w| w[1] * w[1]), sum(&|w| w[1] * w[0]), sum(&|w| w[0] * w[0]));
     let (ca, cb) = (sum(&|w| w[2] * w[1]), sum(&|w| w[2] * w[0]));

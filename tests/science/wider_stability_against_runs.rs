@@ -1,12 +1,9 @@
 //! Linear theory under the wider law against runs that know nothing of it: growth exponents and the response to
 //! a pulse. Runs from kicks or pulses of either sign have a half difference free of even orders.
 
+use crate::stability_against_runs::{fitted_exponent, triple};
 use stickslip_stability::{critical, critical_under, leading_roots, response};
 use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, Wider, run};
-
-fn triple(beta: f64) -> TipFunction {
-    TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip")
-}
 
 /// Each extension by itself and all of them, with the tip and r.
 fn cases() -> Vec<(Wider, TipFunction, f64)> {
@@ -27,18 +24,6 @@ fn cases() -> Vec<(Wider, TipFunction, f64)> {
             1.0,
         ),
     ]
-}
-
-/// λ of the oscillation A e^{λt} + c.c. that y, sampled every `dt`, is: Prony's method, with
-/// y(t+2dt) = p y(t+dt) + q y(t) in the least-squares sense.
-fn fitted_exponent(y: &[f64], dt: f64) -> (f64, f64) {
-    let sum = |f: &dyn Fn(&[f64]) -> f64| y.windows(3).map(f).sum::<f64>();
-    let (aa, ab, bb) = (sum(&|w| w[1] * w[1]), sum(&|w| w[1] * w[0]), sum(&|w| w[0] * w[0]));
-    let (ca, cb) = (sum(&|w| w[2] * w[1]), sum(&|w| w[2] * w[0]));
-    let determinant = aa * bb - ab * ab;
-    let (p, q) = ((ca * bb - cb * ab) / determinant, (cb * aa - ca * ab) / determinant);
-    let modulus = (-q).sqrt();
-    (modulus.ln() / dt, (0.5 * p / modulus).acos() / dt)
 }
 
 fn moved(model: &Model, kick: f64, force: Force, span: f64) -> Trajectory {

@@ -95,10 +95,21 @@ impl Chain {
         self.rows[0][self.slope + 1]
     }
 
-    /// Of minus the height under the tip, where there is a depth limit.
-    #[cfg(test)]
-    pub(super) fn depth(&self) -> impl Iterator<Item = f64> + '_ {
-        self.rows[..self.order].iter().map(|row| row[0])
+    /// Minus the height under the tip at the start, where there is a depth limit.
+    pub(super) fn depth_now(&self) -> f64 {
+        self.rows[0][0]
+    }
+
+    /// Of the height; how many there are.
+    pub(super) fn heights(&self, heights: &mut [f64; MOST_ORDER]) -> usize {
+        heights.iter_mut().zip(&self.rows[..self.order]).for_each(|(h, row)| *h = -row[0]);
+        self.order
+    }
+
+    /// Of w, as many.
+    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) {
+        let known = self.weight.iter().rev().take(self.order);
+        weights.iter_mut().zip(known).for_each(|(weight, known)| *weight = *known);
     }
 
     /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,

@@ -200,7 +200,9 @@ impl<M: Memory> Integrator<'_, M> {
             let height = heights.map(|heights| heights[i]);
             let step = Step { t, h: end - t, extension, displacement, height };
             self.taylor.pieces.push(step);
-            if let Some((corner, height)) = self.corner.as_mut().zip(height) {
+            if i + 1 == pieces.len()
+                && let Some((corner, height)) = self.corner.as_mut().zip(height)
+            {
                 corner.arrive(&height, (t, step.h));
             }
             before = positions[STAGES - 1];

@@ -7,6 +7,7 @@ mod cycle;
 mod dense;
 mod drawn;
 mod labels;
+mod measured_tip;
 mod raster;
 mod raster_stability;
 mod raster_sweep;
@@ -22,9 +23,10 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
-    RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable, read_from, told,
+    MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
+    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable,
+    read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -74,7 +76,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 16] = [
+pub const FORMATS: [&str; 17] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -90,6 +92,7 @@ pub const FORMATS: [&str; 16] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    MeasuredTipDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -117,6 +120,7 @@ pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
         RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
         RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
         RasterBoundaryDocument::FORMAT => boxed::<RasterBoundaryDocument>(source, &format),
+        MeasuredTipDocument::FORMAT => boxed::<MeasuredTipDocument>(source, &format),
         FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
         _ => Err(Unusable::new(format_args!(
             "format is {}; a picture is there for {}",

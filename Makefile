@@ -67,7 +67,7 @@ peers: ## race other programs on one problem at matched error: data/peers.json, 
 	python3 peers/race.py data
 
 fuzz: ## millions of mutated files and command lines, 100,000 random motions; CASES and MOTIONS set how many
-	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked --bin stickslip fuzz -- --nocapture
+	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked -p stickslip --lib fuzz -- --nocapture
 	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test science properties
 
 doc: ## the libraries' documentation, in target/doc

@@ -4,9 +4,11 @@
 //! signals and for nothing else. One that keeps what it has [listens](Interrupt::listen): the first signal is remembered, for it
 //! to end at its next step, and the second one ends the program at once. Where all that it keeps is in a file
 //! already, it need not come to its next step: it says [what is told then](Interrupt::or_else). All this holds too
-//! where the program was started with SIGINT ignored, as a job in the background is.
+//! where the program was started with SIGINT ignored, as a job in the background is. Within a [host](crate::host) the
+//! signals are not ours.
 
 use crate::failure::Failure;
+use crate::host::{self, Host};
 use crate::message::say;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
@@ -71,9 +73,10 @@ fn after_a_while(signal: u8) -> Option<Failure> {
     farewell().as_ref().map(|tell| tell(signal))
 }
 
-/// The signals, for as long as there is something to keep.
-#[derive(Debug)]
-pub(crate) struct Interrupt(());
+/// The signals, for as long as there is something to keep; of a host the wish that the work stops.
+pub(crate) struct Interrupt {
+    host: Option<Arc<Host>>,
+}
 
 impl Interrupt {
     /// Starts listening.
@@ -81,35 +84,44 @@ impl Interrupt {
     /// # Errors
     /// The system does not let it.
     pub(crate) fn listen() -> Result<Self, Failure> {
+        if let Some(host) = host::current() {
+            return Ok(Self { host: Some(host) });
+        }
         state().keepers.fetch_add(1, Ordering::SeqCst);
         let listening = end_at_once();
         listening.map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-        Ok(Self(()))
+        Ok(Self { host: None })
     }
 
     /// All that is kept is in a file at any time: the program ends soon after a signal, and tells this.
     pub(crate) fn or_else(&self, tell: impl Fn(u8) -> Failure + Send + 'static) {
-        *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
+        if self.host.is_none() {
+            *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
+        }
     }
 
     /// The signal received.
     pub(crate) fn signal(&self) -> Option<u8> {
-        Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0)
+        match &self.host {
+            Some(host) => host.stop().load(Ordering::Relaxed).then_some(SIGINT as u8),
+            None => Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0),
+        }
     }
 
     /// Raised by the first signal: for work to look at.
     pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
-        flag()
+        match &self.host {
+            Some(host) => host.stop(),
+            None => &state().received,
+        }
     }
-}
-
-/// Raised by the first signal that is listened for.
-pub(crate) fn flag() -> &'static Arc<AtomicBool> {
-    &state().received
 }
 
 impl Drop for Interrupt {
     fn drop(&mut self) {
+        if self.host.is_some() {
+            return;
+        }
         *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;
         state().keepers.fetch_sub(1, Ordering::SeqCst);
     }

@@ -3,6 +3,7 @@
 //! File names and the contents of files come back in messages. They may hold what moves a cursor or renames a
 //! window, and megabytes of it.
 
+use crate::host;
 use crate::sign_of_life::aside;
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -14,9 +15,12 @@ const LONGEST: usize = 2000;
 /// Characters of the end.
 const END: usize = 400;
 
-/// Says a line. Where standard error cannot be written there is nobody to be told.
+/// Says a line, to the host if there is one. Where standard error cannot be written there is nobody to be told.
 pub(crate) fn say(line: impl Display) {
     let mut line = harmless(&short(&line.to_string())).into_owned();
+    if let Some(host) = host::current() {
+        return host.hear(line);
+    }
     line.push('\n');
     // In one piece: lines of several processes do not mix.
     aside(|| stderr().lock().write_all(line.as_bytes()).ok());

@@ -43,11 +43,15 @@ impl Modules {
     fn of(folder: &Path) -> Self {
         let mut files = vec![];
         sources(folder, &mut files);
+        let has_library = folder.join("lib.rs").is_file();
         let module = |file: PathBuf| {
             let inside = file.strip_prefix(folder).unwrap().with_extension("");
             let mut path: Vec<String> =
                 inside.iter().map(|part| part.to_str().unwrap().to_owned()).collect();
-            path.pop_if(|last| ["mod", "lib", "main"].contains(&last.as_str()));
+            // The program beside a library is a file of its own.
+            let is_root =
+                |last: &str| ["mod", "lib"].contains(&last) || (last == "main" && !has_library);
+            path.pop_if(|last| is_root(last));
             (path, code(&fs::read_to_string(file).unwrap()))
         };
         Self(files.into_iter().map(module).collect())

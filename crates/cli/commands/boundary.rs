@@ -56,7 +56,7 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
         let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
         figure.write(&onset, &Size::default())?;
     }
-    job.finish(&document)
+    job.finish(document)
 }
 
 const OPTION: &str = "--r-range";

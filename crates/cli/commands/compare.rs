@@ -31,7 +31,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let x = asked.positions(&closed)?;
     let motion = grid::run(&asked, &x)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
-    job.finish(&document)
+    job.finish(document)
 }
 
 /// The options, judged.

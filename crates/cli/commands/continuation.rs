@@ -40,7 +40,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
-    job.finish(&document)?;
+    job.finish(document)?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }
 

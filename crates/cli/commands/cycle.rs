@@ -34,5 +34,5 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     };
     let seconds = started.elapsed().as_secs_f64();
     let document = CycleDocument::of(&cycle, parameters, arguments.points, seconds);
-    job.finish(&document)
+    job.finish(document)
 }

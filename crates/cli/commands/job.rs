@@ -9,6 +9,8 @@ use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, OutputFormat};
 use crate::files::table::{write_csv, write_npz};
+use crate::host;
+use crate::made::{pictured, plain};
 use crate::message::remark_lines;
 use crate::sign_of_life;
 use schemars::JsonSchema;
@@ -86,16 +88,27 @@ impl Job {
     }
 
     /// Draws, writes and tells the result.
-    pub(crate) fn finish<P: Product + Drawn>(mut self, product: &P) -> Result<(), Failure> {
+    pub(crate) fn finish<P: Product + Drawn + Clone + Send + Sync + 'static>(
+        self,
+        product: P,
+    ) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
-        let figure = self.figure.take();
-        self.write(product)?;
-        figure.map_or(Ok(()), |figure| figure.draw(product))
+        let told = product.told();
+        let figure = self.write_told(&product, &told)?;
+        let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
+        host::give(|| told.of(pictured(product)));
+        drawn
     }
 
     /// Writes and tells a result that is not drawn.
-    pub(crate) fn write<P: Product>(self, product: &P) -> Result<(), Failure> {
-        self.write_told(product, &product.told()).map(drop)
+    pub(crate) fn write<P: Product + Clone + Send + Sync + 'static>(
+        self,
+        product: P,
+    ) -> Result<(), Failure> {
+        let told = product.told();
+        self.write_told(&product, &told)?;
+        host::give(|| told.of(plain(product)));
+        Ok(())
     }
 
     /// Writes a result and tells of it what is given; what remains is the figure.
@@ -105,8 +118,8 @@ impl Job {
         told: &Told,
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
-        // Fields take the place of the document.
-        if self.is_file || self.fields.is_empty() {
+        // Fields take the place of the document, and a host takes it as it is.
+        if self.is_file || (self.fields.is_empty() && !host::is_there()) {
             match self.format {
                 Format::Json => self.output.write_json(product)?,
                 Format::Csv => write_csv(product, self.output)?,
@@ -119,15 +132,17 @@ impl Job {
     }
 
     /// Draws and tells a result of which these bytes are written.
-    pub(crate) fn finish_bytes<P: Product + Drawn>(
+    pub(crate) fn finish_bytes<P: Product + Drawn + Clone + Send + Sync + 'static>(
         mut self,
         bytes: &[u8],
-        product: &P,
+        product: P,
     ) -> Result<(), Failure> {
-        let figure = self.figure.take();
+        let (figure, told) = (self.figure.take(), product.told());
         self.output.write_bytes(bytes)?;
-        after(product, &product.told(), &self.fields, self.is_told)?;
-        figure.map_or(Ok(()), |figure| figure.draw(product))
+        after(&product, &told, &self.fields, self.is_told)?;
+        let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
+        host::give(|| told.of(pictured(product)));
+        drawn
     }
 }
 
@@ -143,7 +158,8 @@ pub(crate) fn after(
         let done = io::stdout().lock().write_all(text.as_bytes());
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }
-    if is_told {
+    // A host has the result itself.
+    if is_told && !host::is_there() {
         remark_lines(&told.in_short());
     }
     Ok(())
@@ -166,5 +182,5 @@ pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result
 
 /// Text for a person, JSON for a program.
 pub(crate) fn on_standard_output() -> Format {
-    if io::stdout().is_terminal() { Format::Text } else { Format::Json }
+    if io::stdout().is_terminal() && !host::is_there() { Format::Text } else { Format::Json }
 }

@@ -1,10 +1,12 @@
 //! Progress of long work, on standard error when it is a terminal: how far it is, what is counted, how long it has
-//! taken, and how much longer it takes where that can be told.
+//! taken, and how much longer it takes where that can be told; or to a host.
 
+use crate::host::{self, Host, Pace};
 use crate::message::is_quiet;
 use crate::sign_of_life::{self, PATIENCE};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Of work whose parts take no longer than a look at the clock.
@@ -19,6 +21,8 @@ pub(crate) struct Progress {
     /// Calls between two looks at the clock.
     calls_per_look: u32,
     bar: Option<ProgressBar>,
+    /// Sees it in place of a person.
+    host: Option<Arc<Host>>,
 }
 
 impl Progress {
@@ -30,6 +34,7 @@ impl Progress {
             calls: 0,
             calls_per_look: CALLS_PER_LOOK,
             bar: None,
+            host: host::current(),
         }
     }
 
@@ -55,10 +60,17 @@ impl Progress {
     pub(crate) fn counted<D: Display>(&mut self, at: f64, what: impl FnOnce() -> D) {
         self.calls = self.calls.wrapping_add(1);
         let is_due = self.calls.is_multiple_of(self.calls_per_look);
-        if !is_due || self.started.elapsed() < PATIENCE || is_quiet() {
+        if !is_due {
             return;
         }
         let (span, started) = (self.span, self.started);
+        if let Some(host) = &self.host {
+            let part = span.map(|(from, to)| ((at - from) / (to - from)).clamp(0.0, 1.0));
+            return host.show(Pace { part, counted: what().to_string() });
+        }
+        if started.elapsed() < PATIENCE || is_quiet() {
+            return;
+        }
         let bar = self.bar.get_or_insert_with(|| new_bar(span.is_some(), started));
         if let Some((from, to)) = span {
             let done = ((at - from) / (to - from)).clamp(0.0, 1.0);

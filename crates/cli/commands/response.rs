@@ -27,7 +27,7 @@ pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
     let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(&document(arguments, &asked)?)
+    job.finish(document(arguments, &asked)?)
 }
 
 /// The options, judged.

@@ -33,7 +33,7 @@ pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let point = Point::asked(arguments)?;
     judge_extent(arguments, &point.model)?;
     let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(&document(arguments, &point)?)
+    job.finish(document(arguments, &point)?)
 }
 
 /// The critical point, and the one whose roots are listed.

@@ -39,7 +39,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = grid.indices().collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
-    job.finish(&sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
+    job.finish(sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
     finished.remove();
     Ok(())
 }

@@ -50,7 +50,7 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
         resamples: request.resamples,
         seed: request.seed,
     };
-    job.finish(&MeasuredTipDocument::of(&found, parameters, metres))
+    job.finish(MeasuredTipDocument::of(&found, parameters, metres))
 }
 
 /// Unit of the positions.

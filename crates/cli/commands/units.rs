@@ -25,7 +25,7 @@ pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let given = Given::read(arguments, &tip)?;
     let physical = given.solved()?;
     let job = Job::open::<UnitsDocument>(&arguments.outlet, None)?;
-    job.write(&document(arguments, &tip, &given, &physical)?)
+    job.write(document(arguments, &tip, &given, &physical)?)
 }
 
 fn document(

@@ -66,7 +66,7 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     };
     let failure = broken(&verification, scenario.tolerance);
     let job = job.silent_if(failure.is_some());
-    job.write(&VerifyDocument::new(run.parameters, verification, None))?;
+    job.write(VerifyDocument::new(run.parameters, verification, None))?;
     failure.map_or(Ok(()), Err)
 }
 

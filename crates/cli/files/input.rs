@@ -1,10 +1,11 @@
-//! Files that users give: two-column CSV, tip functions, documents. All of it may be wrong.
+//! Files that users give, or that a host supplies: two-column CSV, tip functions, documents. All of it may be wrong.
 
 use crate::failure::Failure;
+use crate::host;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Cursor, Read};
 use std::path::Path;
 use stickslip_documents::{
     self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable,
@@ -21,7 +22,9 @@ const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    let text = if path == Path::new("-") {
+    let text = if let Some(bytes) = host::bytes(path) {
+        text_of(&*bytes, most)
+    } else if path == Path::new("-") {
         text_of(io::stdin().lock(), most)
     } else {
         File::open(path).map_err(unreadable).and_then(|file| text_of(file, most))
@@ -197,6 +200,9 @@ pub(crate) enum RunOrRaster {
 
 /// A document that `stickslip run` or `stickslip raster` wrote.
 pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
+    if let Some(run) = host::document(path) {
+        return Ok(RunOrRaster::Run(Box::new(run)));
+    }
     let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
     let (kind, source) =
         documents::told(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
@@ -215,17 +221,23 @@ pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocumen
 }
 
 /// A document of this format, that of a command of the same name.
-pub(crate) fn read_document<D: DeserializeOwned>(
+pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
     option: &str,
     path: &Path,
     wanted: &str,
 ) -> Result<D, Failure> {
+    if let Some(document) = host::document(path) {
+        return Ok(document);
+    }
     documents::read_from(open(option, path)?, wanted)
         .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 
 /// The stream of a document (`-`: standard input), which ends where it would be larger than any.
 pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
+    if let Some(bytes) = host::bytes(path) {
+        return Ok(Box::new(Cursor::new(bytes)));
+    }
     if path == Path::new("-") {
         return Ok(Box::new(io::stdin().take(LARGEST_DOCUMENT)));
     }

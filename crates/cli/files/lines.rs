@@ -1,6 +1,7 @@
 //! A run written as lines, read again, line by line: none of them is kept.
 
 use super::input::unreadable;
+use crate::host;
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
@@ -30,6 +31,9 @@ pub(crate) fn open(path: &Path) -> Result<Written, String> {
 }
 
 fn opened(path: &Path) -> io::Result<Written> {
+    if let Some(bytes) = host::bytes(path) {
+        return Ok(Written::Document(Box::new(Cursor::new(bytes))));
+    }
     let mut source: Box<dyn Read> = match path {
         path if path == Path::new("-") => Box::new(io::stdin().lock()),
         path if path.metadata()?.is_file() => {

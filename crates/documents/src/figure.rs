@@ -1,5 +1,6 @@
 //! `stickslip/figure`: figures as data, from which they are drawn.
 
+use crate::table::{Named, Tabular};
 use crate::{FORMAT_VERSION, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,13 @@ impl FigureDocument {
             panels: vec![],
             columns: 1,
         }
+    }
+}
+
+impl Tabular for FigureDocument {
+    /// None: what is drawn has its numbers curve by curve.
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![]
     }
 }
 

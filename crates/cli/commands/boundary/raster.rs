@@ -61,5 +61,5 @@ pub(super) fn boundary(
         document.alpha_zigzag.push(zigzag.ok().map(|at| at.alpha));
         progress.counted(n as f64 + 1.0, || format!("{} of {points} pitches", n + 1));
     }
-    job.finish(&document)
+    job.finish(document)
 }

@@ -52,7 +52,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
     let discretisation = (grid, spacing, tolerance, arguments.step);
-    job.finish(&RasterCompareDocument::new(
+    job.finish(RasterCompareDocument::new(
         parameters,
         (&plan, &lines, seconds),
         discretisation,

@@ -43,9 +43,9 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     if is_gsf {
         let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
         let bytes = field(&document.parameters, &map, (1.0, 1.0, ""));
-        job.finish_bytes(&bytes, &document)?;
+        job.finish_bytes(&bytes, document)?;
     } else {
-        job.finish(&document)?;
+        job.finish(document)?;
     }
     finished.remove();
     Ok(())

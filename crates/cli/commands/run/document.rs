@@ -2,7 +2,6 @@
 
 use super::integration::Integrated;
 use crate::failure::Failure;
-use crate::interrupt;
 use stickslip_documents::{OscillationDocument, RunEnd, WorkDocument};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{InitialSurface, Scenario, stop};
@@ -16,7 +15,7 @@ pub(super) fn end(
     let Integrated { running, seconds, interrupt, .. } = integrated;
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
     // Whoever stops the judgement too, or stopped the run, is told what can be said at once.
-    let outcome = stop::where_asked_by(interrupt::flag(), || running.outcome());
+    let outcome = stop::where_asked_by(interrupt.flag(), || running.outcome());
     let work = running.work();
     Ok(RunEnd {
         end: running.t(),

@@ -7,6 +7,8 @@ use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
 use crate::commands::{told, verify};
 use crate::failure::Failure;
+use crate::host;
+use crate::made::pictured;
 use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
@@ -44,7 +46,7 @@ pub(super) fn all(
     let end = document::end(scenario, initial, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
     let reached = signal.map(|_| end.end);
-    if order.output == Path::new("-") && order.format != RunFormat::Text {
+    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
         // Beside a file they are told with what was found.
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
@@ -85,7 +87,9 @@ pub(super) fn all(
                 // Drawn from the history, whether or not it is written.
                 document.history = Some(trajectory.into());
                 figure.draw(&document)?;
+                document.history.take_if(|_| !order.history);
             }
+            host::give(|| told.of(pictured(document)));
             failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),

@@ -32,7 +32,7 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         PathName::Zigzag => Some(critical(arguments, &raster, RasterPath::Zigzag)?),
         PathName::Repeat => None,
     };
-    job.finish(&document(arguments, (tip, width_y), path, &raster, critical)?)
+    job.finish(document(arguments, (tip, width_y), path, &raster, critical)?)
 }
 
 fn raster(

@@ -61,8 +61,8 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         }
     };
     match format {
-        SurfaceFormat::Document(_) => job.finish(&result),
-        SurfaceFormat::Gsf => job.finish_bytes(&write::field(&result, &places, &scale), &result),
+        SurfaceFormat::Document(_) => job.finish(result),
+        SurfaceFormat::Gsf => job.finish_bytes(&write::field(&result, &places, &scale), result),
     }
 }
 

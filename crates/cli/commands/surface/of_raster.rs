@@ -45,11 +45,11 @@ pub(super) fn surface(
     let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;
     let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
     if !is_gsf {
-        return job.finish(&document);
+        return job.finish(document);
     }
     let unit = (scale.length, scale.height, scale.unit);
     let bytes = field(&document.parameters, &document.surfaces[0], unit);
-    job.finish_bytes(&bytes, &document)
+    job.finish_bytes(&bytes, document)
 }
 
 /// What has no meaning after the last line.

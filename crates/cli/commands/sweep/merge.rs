@@ -41,7 +41,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     whole.points.sort_by_key(|point| point.index);
     complete(&whole.parameters, &whole.points)?;
     let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
-    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(&whole)
+    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(whole)
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {

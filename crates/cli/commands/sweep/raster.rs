@@ -50,7 +50,7 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = (0..count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
-    job.finish(&RasterSweepDocument {
+    job.finish(RasterSweepDocument {
         format: RasterSweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),

@@ -3,6 +3,7 @@
 use crate::commands::finished::{Finished, Part};
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
+use crate::host;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -82,7 +83,9 @@ pub(super) fn compute<P: Part + Send>(
     };
     // More than there are points have nothing to do but to look for it; 0 of them is one for each core.
     let threads = threads.min(missing.len().max(1));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let host = host::current();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let pool = pool.start_handler(move |_| host::set(host.clone())).build();
     let pool = pool.map_err(|error| Failure::Run(format!("cannot start threads: {error}")))?;
     pool.install(|| missing.par_iter().with_max_len(1).try_for_each(work));
     let State { finished, kept, .. } = state.into_inner().unwrap_or_else(PoisonError::into_inner);

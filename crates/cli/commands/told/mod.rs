@@ -10,6 +10,7 @@ mod verify;
 
 pub(in crate::commands) use run::{of_lines, of_run};
 
+use crate::made::{Document, Made};
 use std::fmt::Write;
 
 /// What a person is told of a result.
@@ -61,6 +62,12 @@ impl Told {
     pub(crate) fn in_short(&self) -> String {
         let remarks = self.remarks.iter().map(|remark| format!("\nremark: {remark}"));
         self.headline.clone() + &remarks.collect::<String>()
+    }
+
+    /// With what it tells of, but for commands to try: whoever takes a document in hand types none.
+    pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
+        let told = Self { next: vec![], ..self };
+        Made { document, text: told.text(), headline: told.headline }
     }
 
     /// All of it, in lines.

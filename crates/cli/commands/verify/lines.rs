@@ -41,7 +41,7 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let verification = VerificationDocument::from(&found);
     let failure = failure(&verification, &lines, &scenario, &named);
     let job = job.silent_if(failure.is_some());
-    job.write(&VerifyDocument::new(head.parameters, verification, Some(lines)))?;
+    job.write(VerifyDocument::new(head.parameters, verification, Some(lines)))?;
     failure.map_or(Ok(()), Err)
 }
 

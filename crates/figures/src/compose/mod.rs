@@ -19,14 +19,14 @@ mod sweep;
 mod tip;
 
 use crate::error::FigureError;
-use serde::de::DeserializeOwned;
+use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
-    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Unusable,
-    read_from, told,
+    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
+    Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -96,45 +96,77 @@ pub const FORMATS: [&str; 17] = [
     FigureDocument::FORMAT,
 ];
 
+/// Takes a document of whatever kind it turns out to be.
+pub trait Taker {
+    /// What it makes of it.
+    type Taken;
+
+    /// Takes the document.
+    fn take<D>(self, document: D) -> Self::Taken
+    where
+        D: Drawn + Tabular + Serialize + Clone + Send + Sync + 'static;
+}
+
 /// The document that a stream holds, whatever it is of [`FORMATS`]; of something else no more is read than it takes to
 /// tell.
 ///
 /// # Errors
 /// It is no JSON, a document without a figure, or damaged.
 pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
-    let (kind, source) = told(source, "stickslip/COMMAND")?;
-    let format = kind.format.unwrap_or_default();
-    match format.as_str() {
-        RunDocument::FORMAT => boxed::<RunDocument>(source, &format),
-        SurfaceDocument::FORMAT => boxed::<SurfaceDocument>(source, &format),
-        StabilityDocument::FORMAT => boxed::<StabilityDocument>(source, &format),
-        BoundaryDocument::FORMAT => boxed::<BoundaryDocument>(source, &format),
-        CycleDocument::FORMAT => boxed::<CycleDocument>(source, &format),
-        ContinueDocument::FORMAT => boxed::<ContinueDocument>(source, &format),
-        SweepDocument::FORMAT => boxed::<SweepDocument>(source, &format),
-        RasterSweepDocument::FORMAT => boxed::<RasterSweepDocument>(source, &format),
-        ResponseDocument::FORMAT => boxed::<ResponseDocument>(source, &format),
-        CompareDocument::FORMAT => boxed::<CompareDocument>(source, &format),
-        RasterDocument::FORMAT => boxed::<RasterDocument>(source, &format),
-        RasterCompareDocument::FORMAT => boxed::<RasterCompareDocument>(source, &format),
-        RasterSurfaceDocument::FORMAT => boxed::<RasterSurfaceDocument>(source, &format),
-        RasterStabilityDocument::FORMAT => boxed::<RasterStabilityDocument>(source, &format),
-        RasterBoundaryDocument::FORMAT => boxed::<RasterBoundaryDocument>(source, &format),
-        MeasuredTipDocument::FORMAT => boxed::<MeasuredTipDocument>(source, &format),
-        FigureDocument::FORMAT => boxed::<FigureDocument>(source, &format),
-        _ => Err(Unusable::new(format_args!(
-            "format is {}; a picture is there for {}",
-            if format.is_empty() { "missing" } else { &format },
-            FORMATS.join(", ")
-        ))),
-    }
+    saved_as(source, Boxed)
 }
 
-fn boxed<D: Drawn + DeserializeOwned + 'static>(
-    source: impl Read,
-    format: &str,
-) -> Result<Box<dyn Drawn>, Unusable> {
-    Ok(Box::new(read_from::<D>(source, format)?))
+/// The same, for one who takes it as what it is.
+///
+/// # Errors
+/// As [`saved`].
+pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusable> {
+    macro_rules! by_format {
+        ($source:ident, $format:ident, $($document:ident),+) => {
+            match $format.as_str() {
+                $($document::FORMAT => Ok(taker.take(read_from::<$document>($source, &$format)?)),)+
+                _ => Err(Unusable::new(format_args!(
+                    "format is {}; a picture is there for {}",
+                    if $format.is_empty() { "missing" } else { &$format },
+                    FORMATS.join(", ")
+                ))),
+            }
+        };
+    }
+    let (kind, source) = told(source, "stickslip/COMMAND")?;
+    let format = kind.format.unwrap_or_default();
+    by_format!(
+        source,
+        format,
+        RunDocument,
+        SurfaceDocument,
+        StabilityDocument,
+        BoundaryDocument,
+        CycleDocument,
+        ContinueDocument,
+        SweepDocument,
+        RasterSweepDocument,
+        ResponseDocument,
+        CompareDocument,
+        RasterDocument,
+        RasterCompareDocument,
+        RasterSurfaceDocument,
+        RasterStabilityDocument,
+        RasterBoundaryDocument,
+        MeasuredTipDocument,
+        FigureDocument
+    )
+}
+
+/// Asks no more of a document than its figure.
+struct Boxed;
+
+impl Taker for Boxed {
+    type Taken = Box<dyn Drawn>;
+
+    fn take<D: Drawn + 'static>(self, document: D) -> Box<dyn Drawn> {
+        Box::new(document)
+    }
 }
 
 impl Drawn for FigureDocument {

@@ -53,7 +53,7 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         length: arguments.length,
         at_critical_point: !is_given,
     };
-    job.finish(&RasterStabilityDocument::new(
+    job.finish(RasterStabilityDocument::new(
         parameters,
         critical.as_ref().ok(),
         is_given.then_some(stable),

@@ -1,0 +1,98 @@
+//! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line; and [the same](hosted)
+//! within another program.
+//!
+//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit
+//! status is 0, 1 for what failed at run time, 2 for unusable input, 3 for a run to be verified that is
+//! right as far as it goes but has no end, 130 (143) when interrupted by SIGINT (SIGTERM).
+
+// All that is said goes through `message`.
+#![deny(clippy::print_stderr, clippy::print_stdout)]
+
+mod arguments;
+mod arithmetic;
+mod commands;
+mod failure;
+mod files;
+#[cfg(test)]
+mod fuzz;
+mod host;
+pub mod hosted;
+mod interrupt;
+mod made;
+mod message;
+mod sign_of_life;
+
+use arguments::{Cli, Command};
+use clap::Parser;
+use failure::Failure;
+use message::{say, say_lines};
+use std::io::ErrorKind;
+use std::process::ExitCode;
+
+/// The program, as a shell calls it.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return answered(&error),
+    };
+    if cli.quiet {
+        message::be_quiet();
+    }
+    if let Err(error) = interrupt::end_at_once() {
+        say(format_args!("stickslip: cannot listen for signals: {error}"));
+        return ExitCode::FAILURE;
+    }
+    if !cli.quiet {
+        sign_of_life::begin();
+    }
+    let done = done(&cli.command);
+    sign_of_life::end();
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if !failure.is_silent() {
+                say(format_args!("stickslip: {failure}"));
+            }
+            failure.exit_code()
+        }
+    }
+}
+
+fn done(command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(arguments) => commands::run::run(arguments),
+        Command::Verify(arguments) => commands::verify::verify(arguments),
+        Command::Surface(arguments) => commands::surface::surface(arguments),
+        Command::Stability(arguments) => commands::stability::stability(arguments),
+        Command::Boundary(arguments) => commands::boundary::boundary(arguments),
+        Command::Compare(arguments) => commands::compare::compare(arguments),
+        Command::Response(arguments) => commands::response::response(arguments),
+        Command::Cycle(arguments) => commands::cycle::cycle(arguments),
+        Command::Continue(arguments) => commands::continuation::follow(arguments),
+        Command::Sweep(arguments) => commands::sweep::sweep(arguments),
+        Command::Raster(arguments) => commands::raster::raster(arguments),
+        Command::Tip(arguments) => commands::tip::measured_tip(arguments),
+        Command::Units(arguments) => commands::units::units(arguments),
+        Command::Plot(arguments) => commands::plot::plot(arguments),
+        Command::Figures(arguments) => commands::figures::figures(arguments),
+        Command::Schema(arguments) => commands::schema::schema(arguments),
+    }
+}
+
+/// Help and version, to standard output; or what is wrong with the command line.
+fn answered(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() {
+        say_lines(&error.render().to_string());
+        return ExitCode::from(2);
+    }
+    match error.print() {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+impl Failure {
+    fn exit_code(&self) -> ExitCode {
+        ExitCode::from(self.status())
+    }
+}

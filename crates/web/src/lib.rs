@@ -142,7 +142,8 @@ pub fn raster(asked: &str, scan: &str, on_line: &js_sys::Function) -> Result<Str
         let heights = js_sys::Float64Array::from(heights);
         let [line, row, columns] = [line, row, columns].map(|n| JsValue::from(n as f64));
         // What the page does with it is its own affair.
-        let _ = on_line.apply(&JsValue::NULL, &[line, row, columns, heights.into()].iter().collect());
+        let _ =
+            on_line.apply(&JsValue::NULL, &[line, row, columns, heights.into()].iter().collect());
     }))
 }
 

@@ -23,7 +23,8 @@ fn model(asked: &Asked) -> String {
 }
 
 pub(crate) fn run(asked: &Asked) -> String {
-    let kick = if asked.kick.abs() > 0.0 { format!(" --kick {}", asked.kick) } else { String::new() };
+    let kick =
+        if asked.kick.abs() > 0.0 { format!(" --kick {}", asked.kick) } else { String::new() };
     let start = if asked.start == StartName::Flat { " --start flat" } else { "" };
     format!("stickslip run{}{start}{kick} --until {} -o run.json", model(asked), asked.until)
 }

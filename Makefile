@@ -14,7 +14,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install clean
+.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install site test-site clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -26,8 +26,9 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
-survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
 
 judge: ## 1,000 random runs, each against one ten times as long: regimes, errors, prospects
 	CASES=$(RUNS) $(CARGO) test --release --locked -p stickslip-outcome --test judged_runs -- --ignored --nocapture
@@ -74,6 +75,14 @@ doc: ## the libraries' documentation, in target/doc
 
 install: ## put `stickslip` among cargo's binaries
 	$(CARGO) install --locked --path .
+
+site: ## the page to play with, in one file: target/site/play.html (needs node and a standard library for wasm32)
+	.ci/site
+
+test-site: ## the page in a Chromium beside the program: values, speed, keys, a phone; pictures in target/site-shots
+	.ci/site
+	$(CARGO) build --release --locked
+	cd crates/web && node --test test/page.test.mjs
 
 clean: ## remove what building made
 	$(CARGO) clean

@@ -14,7 +14,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install site test-site clean
+.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install site test-site dist clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -76,13 +76,15 @@ doc: ## the libraries' documentation, in target/doc
 install: ## put `stickslip` among cargo's binaries
 	$(CARGO) install --locked --path .
 
-site: ## the page to play with, in one file: target/site/play.html (needs node and a standard library for wasm32)
+site: ## the book and the page to play with, in target/site (needs node and a standard library for wasm32)
 	.ci/site
 
-test-site: ## the page in a Chromium beside the program: values, speed, keys, a phone; pictures in target/site-shots
+test-site: ## the page in a Chromium beside the program, and every link of the book; pictures in target/site-shots
 	.ci/site
-	$(CARGO) build --release --locked
-	cd crates/web && node --test test/page.test.mjs
+	cd crates/web && node --test test/site.test.mjs test/page.test.mjs
+
+dist: ## for Linux, in target/dist: an archive with its checksum and a .deb, with man pages and completions (glibc 2.28)
+	.ci/dist
 
 clean: ## remove what building made
 	$(CARGO) clean

@@ -29,6 +29,12 @@ use message::{say, say_lines};
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
+/// What can be typed, for whoever writes of it.
+#[cfg(feature = "manual")]
+pub fn arguments() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
+}
+
 /// The program, as a shell calls it.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {

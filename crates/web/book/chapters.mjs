@@ -1,0 +1,93 @@
+// The chapters of the book, from docs/*.md as they stand: `node chapters.mjs TARGET`. Equations become HTML here, so that
+// the book needs no network; links to what is not in the book become the name of the file.
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join, normalize, resolve } from 'node:path';
+import katex from 'katex';
+
+const here = import.meta.dirname;
+const root = resolve(here, '../../..');
+const book = resolve(process.argv[2]);
+const src = join(book, 'src');
+const program = process.env.STICKSLIP ?? join(root, 'target/release/stickslip');
+
+rmSync(src, { recursive: true, force: true });
+mkdirSync(src, { recursive: true });
+
+/** File of the project to chapter of the book. */
+const chapters = new Map([['README.md', 'start.md'], ['docs/figures/paper/reproduction.md', 'numbers.md'], ['CHANGELOG.md', 'changelog.md'], ['CONTRIBUTING.md', 'contributing.md']]);
+for (const name of readdirSync(join(root, 'docs')).filter((n) => n.endsWith('.md') && n !== 'README.md')) chapters.set(`docs/${name}`, name);
+
+const listed = readFileSync(join(here, 'SUMMARY.md'), 'utf8');
+for (const name of chapters.values()) if (!listed.includes(`(${name})`)) throw new Error(`${name} has no place in SUMMARY.md`);
+
+const escape = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
+function equation(tex, displayMode) {
+  const html = katex.renderToString(tex.replaceAll('\\|', '|').trim(), { displayMode, strict: false, output: 'htmlAndMathml' });
+  // Markdown must leave it alone.
+  return html.replaceAll(/\s*\n\s*/g, ' ').replaceAll('|', '&#124;').replaceAll('*', '&#42;').replaceAll('_', '&#95;').replaceAll('\\', '&#92;').replaceAll('`', '&#96;');
+}
+
+/** Equations of a text without code. `$$` may go over lines, `$` over one line break. */
+function typeset(text) {
+  return text
+    .replaceAll(/\$\$([\s\S]+?)\$\$/g, (_, tex) => `<div>${equation(tex, true)}</div>`)
+    .replaceAll(/(?<![\\$])\$(?!\s)((?:[^$\n]|\n(?!\n))+?)(?<!\s)\$/g, (_, tex) => equation(tex, false));
+}
+
+/** Where a link leads, seen from a file of the project. */
+function link(file, [whole, mark, label, target]) {
+  if (/^(https?:|mailto:|#)/.test(target)) return whole;
+  const [path, anchor] = target.split('#');
+  const there = normalize(join(dirname(file), path));
+  if (there === 'docs/README.md' || there === 'docs') return label;
+  if (chapters.has(there)) return `${mark}[${label}](${chapters.get(there)}${anchor ? `#${anchor}` : ''})`;
+  if (there.startsWith('docs/figures/')) return `${mark}[${label}](${there.slice('docs/'.length)})`;
+  if (!existsSync(join(root, there))) throw new Error(`${file}: ${target} is not there`);
+  return label.includes(basename(there)) ? `\`${there}\`` : `${label} (\`${there}\`)`;
+}
+
+function chapter(file) {
+  const text = readFileSync(join(root, file), 'utf8');
+  const code = /(^```[\s\S]*?^```$|^(?: {4}.*\n)+|`[^`\n]+`)/m;
+  const parts = text.split(new RegExp(code.source, 'gm'));
+  // Code stands at odd places; a link may hold some, and is set before.
+  return parts.map((part, n) => (n % 2 ? part : typeset(part))).join('')
+    .replaceAll(/(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)/g, (...found) => link(file, found));
+}
+
+for (const [file, name] of chapters) writeFileSync(join(src, name), chapter(file));
+
+/** What the program says of itself. */
+function commands() {
+  const help = (...words) => execFileSync(program, [...words, '--help'], { encoding: 'utf8', env: { ...process.env, COLUMNS: '100' } });
+  const names = [...help().matchAll(/^ {2}([a-z]+) {2,}/gm)].map((match) => match[1]).filter((name) => name !== 'help');
+  const told = names.map((name) => `## ${name}\n\n<pre><code>${escape(help(name))}</code></pre>\n`);
+  return `# Commands and their options\n\nWhat \`stickslip COMMAND --help\` prints.\n\n${told.join('\n')}`;
+}
+writeFileSync(join(src, 'commands.md'), commands());
+
+/** The libraries by what their manifests say. */
+function libraries() {
+  const rows = readdirSync(join(root, 'crates')).sort().flatMap((name) => {
+    const manifest = join(root, 'crates', name, 'Cargo.toml');
+    if (!existsSync(manifest) || name === 'web' || name === 'python') return [];
+    const of = (key) => readFileSync(manifest, 'utf8').match(new RegExp(`^${key} = "(.*)"`, 'm'))[1];
+    return [`| \`${of('name')}\` | ${of('description')} |`];
+  });
+  return `# Libraries\n\n\`make doc\` writes the documentation of all of them, equation by equation, into \`target/doc\`.\n\n| crate | |\n|---|---|\n${rows.join('\n')}\n`;
+}
+writeFileSync(join(src, 'libraries.md'), libraries());
+
+for (const name of ['SUMMARY.md', 'play.md']) cpSync(join(here, name), join(src, name));
+cpSync(join(root, 'docs/figures'), join(src, 'figures'), { recursive: true });
+const style = join(here, '../node_modules/katex/dist');
+mkdirSync(join(src, 'katex'), { recursive: true });
+const fonts = readdirSync(join(style, 'fonts')).filter((name) => name.endsWith('.woff2'));
+for (const name of fonts) cpSync(join(style, 'fonts', name), join(src, 'katex/fonts', name));
+// Of each font the newest form alone, which every browser knows.
+const css = readFileSync(join(style, 'katex.min.css'), 'utf8').replaceAll(/,url\([^)]*\.(?:woff|ttf)\) format\("[a-z]*"\)/g, '');
+writeFileSync(join(src, 'katex/katex.min.css'), css);
+mkdirSync(join(book, 'theme'), { recursive: true });
+writeFileSync(join(book, 'theme/head.hbs'), '<link rel="stylesheet" href="{{ path_to_root }}katex/katex.min.css">\n');
+cpSync(join(here, 'book.toml'), join(book, 'book.toml'));

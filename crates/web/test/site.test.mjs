@@ -1,0 +1,55 @@
+// The book: every link leads somewhere, every picture is there, nothing is asked of others.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { dirname, join, relative } from 'node:path';
+import { test } from 'node:test';
+import { launch, missing } from './browser.mjs';
+import { root } from './program.mjs';
+
+const site = join(root, 'target/site');
+const skip = !existsSync(join(site, 'index.html')) && 'no book here: make site';
+const pages = skip ? [] : readdirSync(site, { recursive: true }).filter((name) => name.endsWith('.html')).map((name) => join(site, name));
+const kept = new Map();
+const text = (file) => kept.get(file) ?? kept.set(file, readFileSync(file, 'utf8')).get(file);
+/** The page is one file without links; its script is no text to look for any in. */
+const chapters = pages.filter((file) => !file.endsWith('/play.html'));
+
+const targets = (file) => [...text(file).matchAll(/\s(href|src)="([^"]*)"/g)].map(([, kind, target]) => ({ kind, target: target.replaceAll('&amp;', '&') }));
+const isOutside = (target) => /^(https?:)?\/\//.test(target);
+
+test('no link is dead and no picture missing', { skip }, () => {
+  assert.ok(chapters.length > 20, `${chapters.length} pages`);
+  const dead = [];
+  for (const file of chapters) {
+    for (const { target } of targets(file)) {
+      if (isOutside(target) || /^(mailto|data|javascript):/.test(target)) continue;
+      const [path, anchor] = target.split('#');
+      let there = path ? join(dirname(file), decodeURIComponent(path.split('?')[0])) : file;
+      if (there.endsWith('/')) there += 'index.html';
+      // The page for addresses that are not there refers to the root of a server.
+      if (file.endsWith('/404.html') && path.startsWith('/')) continue;
+      if (!existsSync(there)) dead.push(`${relative(site, file)}: ${target}`);
+      else if (anchor && there.endsWith('.html') && !text(there).includes(`id="${decodeURIComponent(anchor)}"`)) dead.push(`${relative(site, file)}: ${target}`);
+    }
+  }
+  assert.deepEqual(dead, []);
+});
+
+test('nothing is left of equations that could not be set', { skip }, () => {
+  const left = chapters.filter((file) => /katex-error|\\frac|\\int(?!_)/.test(text(file).replaceAll(/<annotation[\s\S]*?<\/annotation>/g, '').replaceAll(/<code[\s\S]*?<\/code>/g, '')));
+  assert.deepEqual(left.filter((file) => !file.endsWith('print.html')), []);
+  assert.ok(text(join(site, 'mathematics.html')).match(/class="katex"/g).length > 100);
+});
+
+test('a browser asks nothing of others for any page, and complains of none', { skip: skip || missing }, async () => {
+  const browser = await launch();
+  const page = await browser.newPage();
+  const noted = [];
+  page.on('request', (request) => /^(file|blob|data):/.test(request.url()) || noted.push(request.url()));
+  // What the next page cuts off has not failed.
+  page.on('requestfailed', (request) => request.failure().errorText === 'net::ERR_ABORTED' || noted.push(`${request.url()} failed`));
+  page.on('pageerror', (error) => noted.push(error.stack));
+  for (const file of chapters.filter((name) => !/404|print|toc/.test(name))) await page.goto(`file://${file}`);
+  await browser.close();
+  assert.deepEqual(noted, []);
+});

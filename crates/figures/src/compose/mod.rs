@@ -17,6 +17,7 @@ mod stability;
 mod surface;
 mod sweep;
 mod tip;
+mod walking;
 
 use crate::error::FigureError;
 use serde::Serialize;
@@ -26,7 +27,7 @@ use stickslip_documents::{
     MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
-    Unusable, read_from, told,
+    Unusable, WalkingDocument, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -76,7 +77,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 17] = [
+pub const FORMATS: [&str; 18] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -92,6 +93,7 @@ pub const FORMATS: [&str; 17] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    WalkingDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
@@ -153,6 +155,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterSurfaceDocument,
         RasterStabilityDocument,
         RasterBoundaryDocument,
+        WalkingDocument,
         MeasuredTipDocument,
         FigureDocument
     )

@@ -28,6 +28,7 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
+<<<<<<< HEAD
 test-python: ## the Python package in a clean environment: the program's numbers, stubs, examples; PYTHONS names interpreters
 	crates/python/test $(PYTHONS)
 
@@ -39,7 +40,11 @@ wheel: ## the Python package for Linux of glibc 2.28 and later, in target/wheels
 	crates/python/wheel
 
 survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals
+=======
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles
+>>>>>>> main
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
 
 judge: ## 1,000 random runs, each against one ten times as long: regimes, errors, prospects
 	CASES=$(RUNS) $(CARGO) test --release --locked -p stickslip-outcome --test judged_runs -- --ignored --nocapture

@@ -33,6 +33,7 @@ mod stability_commands;
 mod supply_chain;
 mod sweep;
 mod sweep_axes;
+mod tip_command;
 mod units_command;
 mod verification;
 mod verified_lines;

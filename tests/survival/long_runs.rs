@@ -71,7 +71,7 @@ fn a_history_that_would_outgrow_memory_ends_with_advice() {
     let line = "run --alpha 1 --r 1e10 --until 2 --tolerance 1e-2 -o run.json";
     let output = folder.command(line).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
-    for word in ["4000000 steps", "-o FILE.jsonl", "--history none", "--until 1"] {
+    for word in ["1700000 steps", "-o FILE.jsonl", "--history none", "--until 1"] {
         assert!(said(&output).contains(word), "{}", said(&output));
     }
     assert!(folder.names().is_empty(), "{:?}", folder.names());

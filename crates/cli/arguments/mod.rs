@@ -23,7 +23,11 @@ mod stability;
 mod start;
 mod surface;
 mod sweep;
+<<<<<<< HEAD
 mod sweep_start;
+=======
+mod tip;
+>>>>>>> main
 mod units;
 mod verify;
 
@@ -48,6 +52,7 @@ pub(crate) use stability::StabilityArguments;
 pub(crate) use start::{StartArguments, StartChoice};
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, SweepArguments, SweepThen};
+pub(crate) use tip::MeasuredTipArguments;
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
@@ -84,6 +89,7 @@ const EXAMPLES: &str = "Examples:
   stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
+  stickslip tip measured.csv -o tip.json --plot tip.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
@@ -104,6 +110,7 @@ pub(crate) enum Command {
     Continue(ContinueArguments),
     Sweep(SweepArguments),
     Raster(RasterArguments),
+    Tip(MeasuredTipArguments),
     Units(UnitsArguments),
     Plot(PlotArguments),
     Figures(FiguresArguments),

@@ -1,6 +1,6 @@
 //! From the model's options to a model.
 
-use super::noise::tell_of_noise;
+use super::judged::judge_table;
 use crate::arguments::{ModelArguments, TipArguments, TipName, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
@@ -157,7 +157,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         };
         let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
         if let Some((x, f)) = table {
-            tell_of_noise(&named, (&x, &f), &tip);
+            judge_table(path, (&x, &f), &tip)?;
         }
         return Ok(tip);
     }
@@ -204,6 +204,10 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
         TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
+        TipFile::Measured(measured) => {
+            let gaussians = measured.gaussians.iter().map(Gaussian::from).collect();
+            TipFunction::gaussian_sum(gaussians)
+        }
         TipFile::Gaussians(entries) if entries.iter().any(is_2d) => {
             let terms: Option<Vec<Gaussian2d>> = entries.iter().map(gaussian_2d).collect();
             let terms =

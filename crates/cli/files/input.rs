@@ -7,14 +7,16 @@ use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::Path;
-use stickslip_documents::{self as documents, RasterDocument, RunDocument, Unusable};
+use stickslip_documents::{
+    self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable,
+};
 use stickslip_raster::AreaLine;
 
 /// Two columns read from a CSV file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 
 /// Measured series are small; this is a million rows and more.
-const LARGEST_TABLE: u64 = 64 << 20;
+pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
 const LARGEST_DOCUMENT: u64 = 4 << 30;
 
@@ -137,6 +139,8 @@ pub(crate) enum TipFile {
     Gaussians(Vec<GaussianEntry>),
     Table(Columns),
     Table2d([Vec<f64>; 3]),
+    /// What `stickslip tip` made of a profile.
+    Measured(Box<MeasuredTipDocument>),
 }
 
 #[derive(Debug, Deserialize)]
@@ -174,6 +178,11 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
         } else {
             parse_columns(text, "x,f").map(TipFile::Table)
         };
+    }
+    let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
+    if kind.is_ok_and(|kind| kind.format.is_some()) {
+        let measured = documents::read(text, MeasuredTipDocument::FORMAT);
+        return measured.map(|m| TipFile::Measured(Box::new(m))).map_err(|e| e.to_string());
     }
     let tip: TipJson = serde_json::from_str(text).map_err(|error| {
         format!(

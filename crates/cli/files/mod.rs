@@ -7,6 +7,7 @@ pub(crate) mod input;
 pub(crate) mod journal;
 pub(crate) mod lines;
 mod lock;
+pub(crate) mod measured;
 pub(crate) mod output;
 pub(crate) mod paths;
 pub(crate) mod place;

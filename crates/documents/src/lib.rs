@@ -29,6 +29,7 @@ mod continuation;
 mod cycle;
 mod figure;
 mod history;
+mod measured_tip;
 mod model;
 mod outcome;
 mod raster;
@@ -67,6 +68,9 @@ pub use figure::{
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
 pub use history::{FARTHEST, History};
+pub use measured_tip::{
+    CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,
+};
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,

@@ -2,10 +2,10 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument,
-    ResponseDocument, RunDocument, RunLine, StabilityDocument, SurfaceDocument, SweepDocument,
-    UnitsDocument, VerifyDocument,
+    FigureDocument, MeasuredTipDocument, RasterBoundaryDocument, RasterCompareDocument,
+    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    ReproductionDocument, ResponseDocument, RunDocument, RunLine, StabilityDocument,
+    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -13,7 +13,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 21] = [
+pub const SCHEMAS: [NamedSchema; 22] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -32,6 +32,7 @@ pub const SCHEMAS: [NamedSchema; 21] = [
     ("raster-stability", || schema_for!(RasterStabilityDocument)),
     ("raster-boundary", || schema_for!(RasterBoundaryDocument)),
     ("sweep", || schema_for!(SweepDocument)),
+    ("tip", || schema_for!(MeasuredTipDocument)),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),
     ("reproduction", || schema_for!(ReproductionDocument)),

@@ -102,9 +102,9 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
-    /// u0', u0'' and u0''' on the stretch, of all but the steady past; `None` where they are not all.
-    pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64) -> Option<[f64; 3]> {
-        let mut sum = [0.0; 3];
+    /// u0, u0', u0'' and u0''' on the stretch, of all but the steady past; `None` where they are not all.
+    pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64) -> Option<[f64; 4]> {
+        let mut sum = [0.0; 4];
         if stretch.flat {
             return Some(sum);
         }

@@ -160,12 +160,12 @@ impl Relief {
 
     /// Slope and two more derivatives on a piece where there are no others but 0, or of a steady past nothing; `None`
     /// elsewhere.
-    pub(crate) fn jet_on(&self, piece: Option<usize>, x: f64) -> Option<[f64; 3]> {
+    pub(crate) fn jet_on(&self, piece: Option<usize>, x: f64) -> Option<[f64; 4]> {
         match (&self.0, piece) {
-            (Shape::SteadyPast(_), _) | (Shape::Spline(_), None) => Some([0.0; 3]),
+            (Shape::SteadyPast(_), _) | (Shape::Spline(_), None) => Some([0.0; 4]),
             (Shape::Spline(spline), Some(piece)) => {
-                let (_, slope, curvature) = spline.jet_on(piece, x);
-                Some([slope, curvature, spline.third_on(piece)])
+                let (height, slope, curvature) = spline.jet_on(piece, x);
+                Some([height, slope, curvature, spline.third_on(piece)])
             }
             (Shape::OnLattice(_), _) => None,
         }

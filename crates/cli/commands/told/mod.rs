@@ -2,6 +2,7 @@
 
 mod cycles;
 mod linear;
+mod measured;
 mod others;
 mod raster;
 mod run;

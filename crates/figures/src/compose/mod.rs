@@ -7,6 +7,7 @@ mod cycle;
 mod dense;
 mod drawn;
 mod labels;
+mod measured_tip;
 mod raster;
 mod raster_stability;
 mod raster_sweep;
@@ -22,10 +23,10 @@ use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
-    RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular, Unusable, read_from,
-    told,
+    MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
+    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
+    Unusable, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -75,7 +76,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 16] = [
+pub const FORMATS: [&str; 17] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -91,6 +92,7 @@ pub const FORMATS: [&str; 16] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    MeasuredTipDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -151,6 +153,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterSurfaceDocument,
         RasterStabilityDocument,
         RasterBoundaryDocument,
+        MeasuredTipDocument,
         FigureDocument
     )
 }

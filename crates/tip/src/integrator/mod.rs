@@ -25,6 +25,7 @@ use control::Control;
 use corner::Corner;
 pub use error::IntegrationError;
 use stage_equations::{Begin, Solution, StageEquations};
+use std::cell::OnceCell;
 use taylor::Taylor;
 
 /// What the integrator did, in counts that do not depend on the machine.
@@ -45,7 +46,8 @@ pub struct Work {
 /// The state of a tip under way, and all that acts on it.
 pub struct Integrator<'a, M> {
     model: &'a Model,
-    apex: Apex,
+    /// Once collocation has asked for it.
+    apex: OnceCell<Apex>,
     surface: &'a InitialSurface,
     force: &'a Force,
     support: Support,
@@ -89,7 +91,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let control = Control::new(tolerance);
         let integrator = Self {
             model,
-            apex: Apex::new(model.tip(), (ENOUGH * control.target()).max(f64::EPSILON)),
+            apex: OnceCell::new(),
             corner: None,
             taylor: Taylor::new(model, control.target()),
             surface,
@@ -170,8 +172,10 @@ impl<'a, M: Memory> Integrator<'a, M> {
     /// # Errors
     /// The tolerance cannot be met.
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
-        if let Some(step) = self.step_by_series(until) {
-            return Ok(step);
+        if self.step_by_series(until)
+            && let Some(step) = self.taylor.taken()
+        {
+            return Ok(*step);
         }
         self.enter_stretch();
         let (limit, end) = (self.length_limit(), self.next_end(until));
@@ -216,7 +220,9 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let guess = self.predict(h, longest);
         let enough = ENOUGH * self.control.target();
         let (surface, force) = ((self.surface, &self.stretch), self.force);
-        let model = (self.model, &self.apex);
+        let accuracy = enough.max(f64::EPSILON);
+        let apex = self.apex.get_or_init(|| Apex::new(self.model.tip(), accuracy));
+        let model = (self.model, apex);
         let mass = self.model.wider().inertia;
         let inertia = mass.map(|mass| step::Inertia::new(mass, h, self.velocity));
         let begin = self.begin(h);

@@ -11,7 +11,7 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         for number in [self.t, self.extension, self.velocity, self.curvature, slope, force] {
             state.number(number);
         }
-        state.steps(self.last.iter());
+        state.steps(self.taylor.taken().or(self.last.as_ref()).into_iter());
         self.corner.iter().for_each(|corner| corner.save(state));
         let Work { steps, rejected, newton_iterations, series, switches } = self.work;
         [steps, rejected, newton_iterations, series, switches]

@@ -94,31 +94,33 @@ impl Record {
     /// As [`Memory::remember`](super::groove::Memory::remember).
     pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(moved) = position.last() else { return };
-        let (whole, rest) = position.as_chunks::<STAGES>();
-        let (whole_weights, rest_weights) = weight.as_chunks::<STAGES>();
-        for (position, weight) in whole.iter().zip(whole_weights) {
-            self.push(position, weight);
-        }
-        if !rest.is_empty() {
-            self.push(rest, rest_weights);
+        match &self.kept {
+            Kept::All(_) => self.push_blocks(position, weight),
+            Kept::Gathered(_) | Kept::OnLattice => self.push(position, weight),
         }
         self.position += moved;
         self.follow();
         if let Kept::Gathered(bins) = &mut self.kept {
-            let lowest = position.iter().copied().fold(f64::INFINITY, f64::min);
-            bins.look_from(self.position + (lowest - moved) - self.reach);
+            bins.look_from(|| {
+                let lowest = position.iter().copied().fold(f64::INFINITY, f64::min);
+                self.position + (lowest - moved) - self.reach
+            });
         }
     }
 
-    /// Visits of at most one step, seen from where the tip was.
-    #[inline]
+    /// Blocks of at most one step.
+    fn push_blocks(&mut self, position: &[f64], weight: &[f64]) {
+        for (position, weight) in position.chunks(STAGES).zip(weight.chunks(STAGES)) {
+            self.push(position, weight);
+            self.close_block(position.len());
+        }
+    }
+
+    /// Visits seen from where the tip was.
     fn push(&mut self, position: &[f64], weight: &[f64]) {
         self.make_room(position.len());
         let here = self.position;
         self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
-        if matches!(self.kept, Kept::All(_)) {
-            self.close_block(position.len());
-        }
     }
 
     /// The last nodes are a block.

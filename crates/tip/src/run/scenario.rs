@@ -5,7 +5,7 @@ use crate::memory::{FitError, MemoryChoice, Policy, accuracy_needed};
 use crate::series::SeriesError;
 use crate::state::Damaged;
 use crate::support::PathError;
-use crate::{Force, InitialSurface, Model, Noise, Support, SupportPath, TipFunction};
+use crate::{Force, InitialSurface, Model, Noise, Step, Support, SupportPath, TipFunction};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -138,8 +138,11 @@ pub enum RunError {
     State(#[from] Damaged),
 }
 
-/// The longest history that is kept: 300 MB of steps.
-pub const MOST_STEPS: usize = 4_000_000;
+/// The longest history that is kept in memory.
+pub const MOST_STEPS: usize = 1_700_000;
+
+// A run that is refused for its length has stayed below 256 MB until then.
+const _: () = assert!(MOST_STEPS * size_of::<Step>() <= 235_000_000);
 
 /// Tolerances that can be met: below 1e-13 round-off of positions takes over.
 pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);

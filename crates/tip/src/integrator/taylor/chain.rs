@@ -1,14 +1,14 @@
 //! The Taylor series of the tip's motion, from the derivatives of the groove under it.
 //!
 //! With exponentials for f the system is polynomial. Its unknowns need not be the states of the exponentials: the
-//! derivatives of the groove where the tip is, `g_n = α ∫ f⁽ⁿ⁾(x0 - x0(t'))dt' - ∂ⁿu0`, follow each other,
+//! derivatives of the groove where the tip is, `g_n = α ∫ w f⁽ⁿ⁾(x0 - x0(t'))dt' - ∂ⁿu0`, follow each other,
 //!
 //! ```text
-//!     g_n' = α f⁽ⁿ⁾(0) + v g_{n+1} - g_n/T        M v' + v = g_1 + κ(R - x0) + F        x0' = v
+//!     g_n' = α w f⁽ⁿ⁾(0) + v g_{n+1} - g_n/T        M v' + v = g_1 + κ(R - x0) + F        x0' = v
 //! ```
 //!
 //! and of `g_n` the coefficients up to `t^{p-n}` are all that x0 takes up to `t^p`: a triangle of p³/6 products, the n
-//! side by side.
+//! side by side. Under a depth limit `-g_0` is the height, and `w' = σ w g_0'/b` on its side σ of the corner; else w = 1.
 
 use crate::memory::ROOM;
 use multiversion::multiversion;
@@ -20,6 +20,16 @@ const LANES: usize = 4;
 /// Of a row, with room for a group of lanes that begins one after the first.
 const WIDTH: usize = ROOM + LANES;
 type Row = [f64; WIDTH];
+/// 1/k
+pub(super) const INVERSE: [f64; MOST_ORDER + 1] = {
+    let mut inverse = [0.0; MOST_ORDER + 1];
+    let mut k = 1;
+    while k <= MOST_ORDER {
+        inverse[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverse
+};
 
 /// What acts on the tip while it moves.
 #[derive(Debug, Clone, Copy)]
@@ -34,19 +44,28 @@ pub(super) struct Acting {
     pub(super) inertia: Option<(f64, f64)>,
     /// R - x0
     pub(super) extension: f64,
+    /// w now and σ/b, where there is a depth limit.
+    pub(super) depth: Option<(f64, f64)>,
 }
 
 /// Coefficients of powers of time, up to an order.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     order: usize,
-    /// Row k: coefficients of t^k of `g_1`, `g_2`, …
+    /// Row k: coefficients of t^k of `g_1`, `g_2`, …, under a depth limit from `g_0` on.
     rows: Box<[Row; MOST_ORDER]>,
-    /// Sources: α f', α f'', … at 0.
+    /// Where `g_1` is in them.
+    slope: usize,
+    /// Sources, one entry further on: α f', α f'', … at 0.
     sources: Row,
     /// Of the force.
     pub(super) force: [f64; MOST_ORDER],
+    /// Of the velocity, the highest first: each product of two series is then a sum along both.
     velocity: [f64; MOST_ORDER],
+    /// Of w, likewise.
+    weight: [f64; MOST_ORDER],
+    /// Of `g_0'`.
+    rate: [f64; MOST_ORDER],
     /// Of x0 less its value at the start.
     displacement: [f64; MOST_ORDER + 1],
 }
@@ -56,9 +75,12 @@ impl Chain {
         Self {
             order: 0,
             rows: Box::new([[0.0; WIDTH]; MOST_ORDER]),
+            slope: 0,
             sources: [0.0; WIDTH],
             force: [0.0; MOST_ORDER],
             velocity: [0.0; MOST_ORDER],
+            weight: [0.0; MOST_ORDER],
+            rate: [0.0; MOST_ORDER],
             displacement: [0.0; MOST_ORDER + 1],
         }
     }
@@ -68,93 +90,148 @@ impl Chain {
         &self.displacement[..=self.order]
     }
 
-    pub(super) fn velocity(&self) -> &[f64] {
-        &self.velocity[..self.order]
-    }
-
     /// `g_2`, minus the stiffness of the groove, at the start.
     pub(super) fn curvature(&self) -> f64 {
-        self.rows[0][1]
+        self.rows[0][self.slope + 1]
     }
 
-    /// Room for `g_1`, `g_2`, … now, and for `α f'(0)`, `α f''(0)`, …
-    pub(super) fn start(&mut self, order: usize) -> (&mut [f64], &mut [f64]) {
+    /// Of minus the height under the tip, where there is a depth limit.
+    #[cfg(test)]
+    pub(super) fn depth(&self) -> impl Iterator<Item = f64> + '_ {
+        self.rows[..self.order].iter().map(|row| row[0])
+    }
+
+    /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
+    /// `relief` are u0 and its derivatives.
+    pub(super) fn start(
+        &mut self,
+        (order, with_height): (usize, bool),
+        alpha: f64,
+        (past, of_tip): (&[f64; ROOM], &[f64; ROOM]),
+        relief: [f64; 4],
+    ) {
         self.order = order;
-        (&mut self.rows[0][..ROOM], &mut self.sources[..ROOM])
+        self.slope = usize::from(with_height);
+        let from = 1 - self.slope;
+        let first = &mut self.rows[0];
+        first.iter_mut().zip(&past[from..]).for_each(|(g, past)| *g = alpha * past);
+        first.iter_mut().zip(&relief[from..]).for_each(|(g, relief)| *g -= relief);
+        let sources = self.sources[1..].iter_mut().zip(&of_tip[from..]);
+        sources.for_each(|(source, of_tip)| *source = alpha * of_tip);
     }
 
-    /// The series, from what [`start`](Self::start) was filled with and from the force.
+    /// The series, from what [`start`](Self::start) was given and from the force.
     pub(super) fn run(&mut self, acting: &Acting) {
         run(self, acting);
     }
 
     #[inline(always)]
     fn coefficients(&mut self, acting: &Acting) {
-        let order = self.order;
-        // Of R - x0.
-        let mut extension = acting.extension;
         if let Some((_, velocity)) = acting.inertia {
-            self.velocity[0] = velocity;
+            self.velocity[MOST_ORDER - 1] = velocity;
         }
-        for k in 0..order {
-            let next = 1.0 / (k + 1) as f64;
-            let pull = self.rows[k][0] + acting.spring * extension + self.force[k];
-            match acting.inertia {
-                None => self.velocity[k] = pull,
-                Some((mass, _)) if k + 1 < order => {
-                    self.velocity[k + 1] = (pull - self.velocity[k]) * next / mass;
-                }
-                Some(_) => {}
-            }
-            self.displacement[k + 1] = self.velocity[k] * next;
-            extension = if k == 0 { acting.support } else { 0.0 } - self.displacement[k + 1];
-            if k + 1 < order {
-                self.next_row(k, next, acting.healing);
-            }
-        }
+        self.weight[MOST_ORDER - 1] = acting.depth.map_or(1.0, |(weight, _)| weight);
+        // Of each row so many as the order needs: ever fewer groups of lanes.
+        let k = self.rows_of::<7>(0, acting);
+        let k = self.rows_of::<6>(k, acting);
+        let k = self.rows_of::<5>(k, acting);
+        let k = self.rows_of::<4>(k, acting);
+        let k = self.rows_of::<3>(k, acting);
+        let k = self.rows_of::<2>(k, acting);
+        let k = self.rows_of::<1>(k, acting);
+        self.advance(k, acting);
     }
 
-    /// Row k + 1: of so many `g_n` as the order needs.
+    /// Rows that need so many groups, from that after k on; how far they go.
     #[inline(always)]
-    fn next_row(&mut self, k: usize, next: f64, healing: f64) {
-        let needed = self.order - 1 - k;
-        match needed.div_ceil(LANES) {
-            1 => self.products::<1>(k, next, healing),
-            2 => self.products::<2>(k, next, healing),
-            3 => self.products::<3>(k, next, healing),
-            4 => self.products::<4>(k, next, healing),
-            5 => self.products::<5>(k, next, healing),
-            6 => self.products::<6>(k, next, healing),
-            _ => self.products::<7>(k, next, healing),
+    fn rows_of<const GROUPS: usize>(&mut self, mut k: usize, acting: &Acting) -> usize {
+        let needed = self.order - 1 + self.slope;
+        while k + 1 < self.order && needed > k + LANES * (GROUPS - 1) {
+            self.advance(k, acting);
+            self.products::<GROUPS>(k, acting);
+            if let Some((_, rate)) = acting.depth {
+                self.weigh(k, rate);
+            }
+            k += 1;
         }
+        k
     }
 
-    /// `Σ_i v_i g_{n+1, k-i}`, of few lanes every other product in a sum of its own: in this order on every machine.
+    /// The next coefficients of velocity and displacement.
     #[inline(always)]
-    fn products<const GROUPS: usize>(&mut self, k: usize, next: f64, healing: f64) {
-        let (rows, velocity) = (&self.rows[..=k], &self.velocity[..=k]);
+    fn advance(&mut self, k: usize, acting: &Acting) {
+        let next = INVERSE[k + 1];
+        let extension = match k {
+            0 => acting.extension,
+            1 => acting.support - self.displacement[1],
+            _ => -self.displacement[k],
+        };
+        let pull = self.rows[k][self.slope] + (acting.spring * extension + self.force[k]);
+        let at = MOST_ORDER - 1 - k;
+        match acting.inertia {
+            None => self.velocity[at] = pull,
+            Some((mass, _)) if k + 1 < self.order => {
+                self.velocity[at - 1] = (pull - self.velocity[at]) * next / mass;
+            }
+            Some(_) => {}
+        }
+        self.displacement[k + 1] = self.velocity[at] * next;
+    }
+
+    /// Row k + 1, by `Σ_i v_i g_{n+1, k-i}`, of few lanes every other product in a sum of its own: in this order on every
+    /// machine.
+    #[inline(always)]
+    fn products<const GROUPS: usize>(&mut self, k: usize, acting: &Acting) {
+        let (rows, after) = self.rows.split_at_mut(k + 1);
+        let factors = &self.velocity[MOST_ORDER - 1 - k..];
         let mut sums = [[[0.0; LANES]; GROUPS]; 2];
-        let mut pairs = rows.chunks_exact(2);
-        let mut factors = velocity.rchunks_exact(2);
-        for (rows, factors) in pairs.by_ref().zip(factors.by_ref()) {
-            // Few sums would wait for each other; many fill the registers.
-            add::<GROUPS>(&mut sums[0], &rows[0], factors[1]);
-            add::<GROUPS>(&mut sums[usize::from(GROUPS <= 2)], &rows[1], factors[0]);
+        // Few sums would wait for each other; many fill the registers.
+        let other = usize::from(GROUPS <= 2);
+        let between = 1..k.max(1);
+        let (pairs, last) = rows[between.clone()].as_chunks::<2>();
+        let (factor_pairs, last_factor) = factors[between].as_chunks::<2>();
+        for (rows, factors) in pairs.iter().zip(factor_pairs) {
+            add::<GROUPS>(&mut sums[0], &rows[0], factors[0]);
+            add::<GROUPS>(&mut sums[other], &rows[1], factors[1]);
         }
-        if let (Some(row), Some(factor)) = (pairs.remainder().first(), factors.remainder().first())
-        {
+        for (row, factor) in last.iter().zip(last_factor) {
             add::<GROUPS>(&mut sums[0], row, *factor);
         }
-        if k == 0 {
-            for (sum, source) in sums[1].as_flattened_mut().iter_mut().zip(&self.sources) {
-                *sum += source;
+        if k == 0 || acting.depth.is_some() {
+            add::<GROUPS>(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
+        }
+        // What has only just been found comes last: nothing else waits for it.
+        if k > 0 {
+            add::<GROUPS>(&mut sums[0], &rows[k], factors[k]);
+        }
+        add::<GROUPS>(&mut sums[other], &rows[0], factors[0]);
+        let (before, next) = (&rows[k], INVERSE[k + 1]);
+        let [even, odd] = &sums;
+        let lanes = even.as_flattened().iter().zip(odd.as_flattened()).zip(before);
+        for (new, ((even, odd), old)) in after[0].iter_mut().zip(lanes) {
+            *new = next * ((even + odd) - acting.healing * old);
+        }
+    }
+
+    /// The next coefficient of w, by `w' = rate w g_0'`.
+    #[inline(always)]
+    fn weigh(&mut self, k: usize, rate: f64) {
+        self.rate[k] = rate * (k + 1) as f64 * self.rows[k + 1][0];
+        let mut sums = [0.0; LANES];
+        let weights = &self.weight[MOST_ORDER - 1 - k..];
+        let (rates, last) = self.rate[..=k].as_chunks::<LANES>();
+        let (weights, last_weights) = weights[..=k].as_chunks::<LANES>();
+        for (rates, weights) in rates.iter().zip(weights) {
+            for i in 0..LANES {
+                sums[i] += rates[i] * weights[i];
             }
         }
-        let (before, after) = self.rows.split_at_mut(k + 1);
-        let [even, odd] = &sums;
-        let lanes = even.as_flattened().iter().zip(odd.as_flattened()).zip(&before[k]);
-        for (new, ((even, odd), old)) in after[0].iter_mut().zip(lanes) {
-            *new = next * ((even + odd) - healing * old);
+        for (sum, (rate, weight)) in sums.iter_mut().zip(last.iter().zip(last_weights)) {
+            *sum += rate * weight;
+        }
+        if k + 1 < MOST_ORDER {
+            let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * sum;
         }
     }
 }
@@ -177,73 +254,4 @@ fn add<const GROUPS: usize>(sum: &mut [[f64; LANES]; GROUPS], row: &Row, factor:
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use num_complex::Complex;
-
-    const ORDER: usize = 22;
-    const ALPHA: f64 = 1.3;
-
-    /// (s, w, z)
-    fn modes() -> Vec<[Complex<f64>; 3]> {
-        let c = Complex::new;
-        vec![
-            [c(-1.9, 0.0), c(0.7, 0.0), c(1.2, 0.0)],
-            [c(-1.4, 1.1), c(-0.4, 0.9), c(0.3, 0.5)],
-            [c(-2.2, 2.6), c(0.2, -0.3), c(-0.2, 0.1)],
-        ]
-    }
-
-    /// The definition: z' = 1 + (sv - 1/T)z for each exponential, and v from all of them. Displacements.
-    fn by_modes(acting: &Acting, force: &[f64]) -> Vec<f64> {
-        let modes = modes();
-        let mut z: Vec<Vec<Complex<f64>>> = modes.iter().map(|m| vec![m[2]]).collect();
-        let (mut v, mut d) = (vec![], vec![0.0]);
-        v.extend(acting.inertia.map(|(_, velocity)| velocity));
-        for k in 0..ORDER {
-            let slope: f64 = modes.iter().zip(&z).map(|(m, z)| (m[1] * z[k]).re).sum();
-            let extension = match k {
-                0 => acting.extension,
-                1 => acting.support - d[1],
-                _ => -d[k],
-            };
-            let pull = ALPHA * slope + acting.spring * extension + force[k];
-            match acting.inertia {
-                None => v.push(pull),
-                Some((mass, _)) => v.push((pull - v[k]) / (mass * (k + 1) as f64)),
-            }
-            for (m, z) in modes.iter().zip(&mut z) {
-                let carried: Complex<f64> = (0..=k).map(|i| v[i] * z[k - i]).sum();
-                let source = if k == 0 { 1.0 } else { 0.0 };
-                let next = m[0] * carried + source - acting.healing * z[k];
-                z.push(next / (k + 1) as f64);
-            }
-            d.push(v[k] / (k + 1) as f64);
-        }
-        d
-    }
-
-    #[test]
-    fn the_series_is_that_of_the_exponentials() {
-        let force: Vec<f64> = (0..ORDER).map(|k| 0.3 / (1.0 + (k * k) as f64)).collect();
-        for (healing, inertia) in [(0.0, None), (0.7, None), (0.4, Some((0.6, 0.9)))] {
-            let acting = Acting { spring: 1.0, support: 0.8, healing, inertia, extension: 1.7 };
-            let mut chain = Chain::new();
-            // Left over from a step before.
-            chain.rows.iter_mut().flatten().for_each(|entry| *entry = 7.0);
-            let (groove, sources) = chain.start(ORDER);
-            for n in 0..ORDER {
-                let power = |m: &[Complex<f64>; 3]| m[1] * m[0].powu(n as u32);
-                groove[n] = ALPHA * modes().iter().map(|m| (power(m) * m[2]).re).sum::<f64>();
-                sources[n] = ALPHA * modes().iter().map(|m| power(m).re).sum::<f64>();
-            }
-            chain.force[..ORDER].copy_from_slice(&force);
-            chain.run(&acting);
-            let (slow, fast) = (by_modes(&acting, &force), chain.displacement());
-            assert_eq!(slow.len(), fast.len());
-            for (k, (slow, fast)) in slow.iter().zip(fast).enumerate() {
-                assert!((slow - fast).abs() <= 1e-11 * slow.abs(), "{k}: {slow} {fast}");
-            }
-        }
-    }
-}
+mod tests;

@@ -4,7 +4,7 @@
 //! Experimental Mathematics 14 (2005) 99: with coefficients that fall as ρ^{-k} a step of the length
 //! `ρ ε^{1/p}` errs by ε, whatever ρ is; the order is that of the least work per time.
 
-use super::chain::MOST_ORDER;
+use super::chain::{INVERSE, MOST_ORDER};
 
 /// The order for an error ε of a step.
 pub(super) fn order(error: f64) -> usize {
@@ -14,29 +14,29 @@ pub(super) fn order(error: f64) -> usize {
     order.clamp(LEAST_ORDER, MOST_ORDER)
 }
 
-const ORDER_PER_DIGIT: f64 = 0.85;
+const ORDER_PER_DIGIT: f64 = 1.0;
 const LEAST_ORDER: usize = 10;
 
 /// So many of the last coefficients are looked at: of an even function every other one vanishes, and where poles come in
 /// pairs several in a row may be small.
 const LAST: usize = 4;
-/// A coefficient is expected to be worth this part of the one before.
-const RATIO: f64 = 0.5;
 
 /// The length for which the last coefficient amounts to `error`, judged by the last few as if each were worth half of the
 /// one before.
-pub(super) fn length(displacement: &[f64], error: f64) -> f64 {
-    let order = displacement.len() - 1;
+pub(super) fn length(coefficients: &[f64], error: f64) -> f64 {
+    let order = coefficients.len() - 1;
+    let wanted = log2(error);
     let of = |before: usize| {
-        let size = displacement[order - before].abs() * RATIO.powi(before as i32);
-        root(error, size, order - before)
+        let size = coefficients[order - before].abs();
+        let digits = wanted - log2(size.max(f64::MIN_POSITIVE)) + before as f64;
+        digits * INVERSE[order - before]
     };
-    (0..LAST).map(of).fold(f64::INFINITY, f64::min)
+    exp2((0..LAST).map(of).fold(f64::INFINITY, f64::min))
 }
 
 /// The length of which the power k times a size is `most`.
 pub(super) fn root(most: f64, size: f64, k: usize) -> f64 {
-    exp2((log2(most) - log2(size.max(f64::MIN_POSITIVE))) / k as f64)
+    exp2((log2(most) - log2(size.max(f64::MIN_POSITIVE))) * INVERSE[k])
 }
 
 /// The logarithm of a normal number above 0, to 0.01: of its mantissa a parabola.
@@ -50,10 +50,12 @@ fn log2(x: f64) -> f64 {
 
 /// 2^y, to half a per cent, for a y of a normal number.
 fn exp2(y: f64) -> f64 {
-    let whole = y.floor().clamp(-1000.0, 1000.0);
-    let part = (y - whole).clamp(0.0, 1.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 1000")]
-    let power = f64::from_bits(((whole as i64 + 1023) as u64) << MANTISSA.count_ones());
+    // What is above 0 rounded towards 0 is its floor.
+    let above = y.clamp(-1000.0, 1000.0) + 1023.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "23 to 2023")]
+    let whole = above as u64;
+    let part = above - whole as f64;
+    let power = f64::from_bits(whole << MANTISSA.count_ones());
     power * (1.0 + part * (1.0 - BEND * (1.0 - part)))
 }
 

@@ -3,21 +3,25 @@
 //! Collocation makes the other steps: where the groove is stiff ([`switch`]), and where its memory is another.
 
 mod chain;
+mod expansion;
 mod length;
 mod pieces;
+mod plan;
 mod switch;
+mod values;
 mod visits;
 
 use super::Integrator;
-use crate::collocation::{RADAU, STAGES};
+use crate::collocation::STAGES;
 use crate::history::Step;
-use crate::memory::{Derivatives, Memory, ROOM, SteadyPast};
+use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
-use crate::step;
-use chain::{Acting, Chain};
+use chain::Chain;
 use pieces::{MOST_PIECES, Pieces};
+use plan::Plan;
 use switch::Switch;
+use values::Scaled;
 use visits::Visits;
 
 /// What steps by series need.
@@ -33,23 +37,11 @@ pub(super) struct Taylor {
     visits: Visits,
 }
 
-/// A step by series, before it is made.
-struct Plan {
-    length: f64,
-    pieces: usize,
-}
-
 /// What a series leaves out may amount to, over the error allowed in a step of collocation: there are fewer steps, but
 /// nothing else tells of their errors.
-const SHARE_OF_SERIES: f64 = 0.02;
-/// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
-const SHARE_OF_INTERPOLATION: f64 = 0.1;
+const SHARE_OF_SERIES: f64 = 0.1;
 /// What visits stand for is known to this part of the same.
 const SHARE_OF_VISITS: f64 = 0.0005;
-/// A piece leads no farther than this part of what a step of collocation may,
-const REACH_OF_PIECE: f64 = 0.7;
-/// and a step than so many pieces.
-const FARTHEST: f64 = 3.0;
 /// A step is shortened so often to stay where its series holds; collocation goes on from there.
 const MOST_SHORTENINGS: usize = 8;
 const NODES: usize = MOST_PIECES * STAGES;
@@ -72,6 +64,11 @@ impl Taylor {
         self.switch.made(stiffness, self.order);
     }
 
+    /// The piece taken last, if it was the last step.
+    pub(super) fn taken(&self) -> Option<&Step> {
+        self.pieces.taken()
+    }
+
     pub(super) fn save(&self, state: &mut State) {
         self.pieces.save(state);
         self.switch.save(state);
@@ -85,26 +82,25 @@ impl Taylor {
 }
 
 impl<M: Memory> Integrator<'_, M> {
-    /// The next piece of a step by series, or of a new one; `None` where collocation is to make the step.
-    pub(super) fn step_by_series(&mut self, until: f64) -> Option<Step> {
+    /// Takes the next piece of a step by series, or of a new one; false where collocation is to make the step.
+    pub(super) fn step_by_series(&mut self, until: f64) -> bool {
         if self.taylor.pieces.left().is_empty() {
             if self.control.is_fixed() || !self.taylor.switch.is_to_series() {
-                return None;
+                return false;
             }
             if !self.expand(until) {
                 if self.taylor.switch.left_series() {
                     self.hand_over();
                 }
-                return None;
+                return false;
             }
         }
         let velocity = self.support.velocity(self.t);
-        let step = self.taylor.pieces.take(until, velocity)?;
+        let Some(step) = self.taylor.pieces.take(until, velocity) else { return false };
         self.extension = step.extension_at_end(velocity);
         self.t = step.end();
-        self.last = Some(step);
         self.work.steps += 1;
-        Some(step)
+        true
     }
 
     /// Makes a step: its pieces wait, the memory knows of all of it.
@@ -119,127 +115,20 @@ impl<M: Memory> Integrator<'_, M> {
         self.make(&plan, end)
     }
 
-    /// The series from here on; false where there is none.
-    fn look_ahead(&mut self) -> bool {
-        let order = self.taylor.order;
-        if self.model.wider().depth_limit.is_some() {
-            return false;
-        }
-        let Some(jet) = self.surface.jet_on(&self.stretch, self.position()) else { return false };
-        let steady = self.steady_past();
-        let told = &mut self.taylor.told;
-        if !self.memory.derivatives(steady.as_ref(), order + 1, told) {
-            return false;
-        }
-        if let Some(steady) = steady {
-            told.farthest = told.farthest.max(-steady.distance);
-        }
-        let age = self.t - self.start;
-        let relief = self.model.wider().left_after(age);
-        let alpha = self.model.alpha();
-        let (groove, sources) = self.taylor.chain.start(order);
-        for n in 0..order.min(ROOM - 1) {
-            groove[n] = alpha * told.past[n + 1];
-            sources[n] = alpha * told.of_tip[n + 1];
-        }
-        for (groove, jet) in groove.iter_mut().zip(jet) {
-            *groove -= relief * jet;
-        }
-        if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
-            return false;
-        }
-        let wider = self.model.wider();
-        let acting = Acting {
-            spring: if wider.spring { 1.0 } else { 0.0 },
-            support: self.support.velocity(self.t),
-            healing: wider.healing_time.map_or(0.0, |time| 1.0 / time),
-            inertia: wider.inertia.map(|mass| (mass, self.velocity)),
-            extension: self.extension,
-        };
-        self.taylor.chain.run(&acting);
-        true
-    }
-
-    /// What is left of the steady past that the run began with, as far as it can be felt.
-    fn steady_past(&self) -> Option<SteadyPast> {
-        if self.stretch.flat {
-            return None;
-        }
-        let distance = self.position() - self.surface.steady_position()?;
-        let wider = self.model.wider();
-        let weight = self.taylor.steady_weight * wider.left_after(self.t - self.start);
-        let healing = wider.healing_time.map_or(0.0, |time| 1.0 / time);
-        Some(SteadyPast { distance, velocity: self.model.r(), healing, weight })
-    }
-
-    /// How long a step, in how many pieces; `None` where collocation gets farther.
-    fn plan(&mut self, end: f64) -> Option<Plan> {
-        let displacement = self.taylor.chain.displacement();
-        let error = SHARE_OF_SERIES * self.control.target();
-        let mut length = length::length(displacement, error).min(self.force.longest_step(self.t));
-        let limited = self.reach_of_piece();
-        let longest = (FARTHEST * limited).min(self.taylor.visits.farthest());
-        for _ in 0..MOST_SHORTENINGS {
-            let moved = pieces::value(displacement, length).abs();
-            if moved <= longest {
-                break;
-            }
-            length *= (0.9 * longest / moved).max(0.3);
-        }
-        let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
-        let moved = pieces::value(displacement, length).abs();
-        let piece = pieces::longest(displacement, length, error);
-        let piece = piece.min(length * limited / moved.max(f64::MIN_POSITIVE));
-        length = length.min(MOST_PIECES as f64 * piece);
-        let stiffness = length * self.fastest(-self.taylor.chain.curvature());
-        if self.taylor.switch.leaves(stiffness, self.taylor.order) {
-            return None;
-        }
-        // As in collocation: the end is met, or enough left for another step.
-        let distance = end - self.t;
-        if length >= distance * (1.0 - 1e-9) {
-            length = distance;
-        } else if 2.0 * length > distance {
-            length = 0.5 * distance;
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let pieces = (length / piece).ceil() as usize;
-        Some(Plan { length, pieces: pieces.clamp(1, MOST_PIECES) })
-    }
-
-    /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.
-    fn reach_of_piece(&self) -> f64 {
-        REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
-    }
-
     /// The pieces of a step, shortened to where its series and the stretch of u0 hold.
     fn make(&mut self, plan: &Plan, end: f64) -> bool {
-        let Plan { mut length, mut pieces } = *plan;
+        let Plan { mut length, mut pieces, .. } = *plan;
         for _ in 0..MOST_SHORTENINGS {
             let Some(total) = self.landing(length, end) else { return false };
+            let scaled = plan.scaled.over(total / plan.over);
             let mut positions = [0.0; NODES];
-            let mut times = [0.0; NODES];
-            let mut lengths = [0.0; MOST_PIECES];
-            let displacement = self.taylor.chain.displacement();
-            let mut from = 0.0;
-            for i in 0..pieces {
-                let to = if i + 1 < pieces {
-                    (self.t + total * ((i + 1) as f64 / pieces as f64)) - self.t
-                } else {
-                    total
-                };
-                lengths[i] = to - from;
-                let nodes = pieces::nodes(displacement, from, to - from);
-                for (j, (node, c)) in nodes.into_iter().zip(RADAU.c).enumerate() {
-                    positions[STAGES * i + j] = node;
-                    times[STAGES * i + j] = from + c * (to - from);
-                }
-                from = to;
-            }
-            let nodes = STAGES * pieces;
-            match self.broken(&times[..nodes], &positions[..nodes]) {
+            let nodes = pieces::nodes(pieces);
+            let positions = &mut positions[..nodes.parts.len()];
+            nodes.table.sums(&scaled, positions);
+            match self.broken(&nodes.parts, positions, total) {
                 None => {
-                    self.accept_series(&lengths[..pieces], &positions[..nodes], total);
+                    self.accept_series(positions, total);
+                    self.remember_series(&scaled, plan.fastest, total);
                     return true;
                 }
                 Some(shorter) => {
@@ -252,68 +141,71 @@ impl<M: Memory> Integrator<'_, M> {
     }
 
     /// A shorter length for a step that leaves the stretch, or retreats too far.
-    fn broken(&self, times: &[f64], positions: &[f64]) -> Option<f64> {
+    fn broken(&self, parts: &[f64], positions: &[f64], total: f64) -> Option<f64> {
         let displacement = self.taylor.chain.displacement();
-        let value = |t: f64| pieces::value(displacement, t);
-        if let Some(at) = self.leaves(times, positions, value) {
-            return Some(at);
+        let value = |part: f64| pieces::value(displacement, part * total);
+        if let Some(part) = self.leaves(parts, positions, value) {
+            return Some(part * total);
         }
         let told = &self.taylor.told;
+        let span = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
+        let (low, high) = positions.iter().fold((f64::INFINITY, told.farthest), span);
+        if low >= high - told.retreat {
+            return None;
+        }
         let mut farthest = told.farthest;
-        for (t, position) in times.iter().zip(positions) {
+        for (part, position) in parts.iter().zip(positions) {
             farthest = farthest.max(*position);
             if *position < farthest - told.retreat {
-                return Some(0.5 * t);
+                return Some(0.5 * part * total);
             }
         }
         None
     }
 
-    fn accept_series(&mut self, lengths: &[f64], positions: &[f64], total: f64) {
+    fn accept_series(&mut self, positions: &[f64], total: f64) {
         let support = self.support.velocity(self.t);
         let (mut t, mut extension, mut before) = (self.t, self.extension, 0.0);
+        let (pieces, _) = positions.as_chunks::<STAGES>();
         self.taylor.pieces.clear();
-        for (i, h) in lengths.iter().enumerate() {
-            let nodes = STAGES * i..STAGES * (i + 1);
-            let displacement = std::array::from_fn(|j| positions[nodes.start + j] - before);
-            let step = Step { t, h: *h, extension, displacement, height: None };
+        for (i, positions) in pieces.iter().enumerate() {
+            let part = (i + 1) as f64 / pieces.len() as f64;
+            // Ends are representable times.
+            let end = if i + 1 < pieces.len() { self.t + part * total } else { self.t + total };
+            let displacement = positions.map(|position| position - before);
+            let step = Step { t, h: end - t, extension, displacement, height: None };
             self.taylor.pieces.push(step);
-            before = positions[nodes.end - 1];
+            before = positions[STAGES - 1];
             (t, extension) = (step.end(), step.extension_at_end(support));
         }
-        self.remember_series(total);
-        self.velocity = pieces::value(self.taylor.chain.velocity(), total);
         self.taylor.switch.made_series();
         self.work.series += 1;
     }
 
     /// Tells the memory of the whole step.
-    fn remember_series(&mut self, total: f64) {
-        let displacement = self.taylor.chain.displacement();
-        let velocity = |part: f64| pieces::value(self.taylor.chain.velocity(), part * total).abs();
+    fn remember_series(&mut self, scaled: &Scaled, fastest: f64, total: f64) {
+        self.velocity = scaled.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
-        let fastest = velocity(0.0).max(velocity(0.5)).max(velocity(1.0));
         let rule = self.taylor.visits.rule(fastest * total).unwrap_or_else(visits::last);
-        let mut at = [(0.0, 0.0); visits::MOST_NODES];
         let (mut positions, mut weights) = ([0.0; visits::MOST_NODES], [0.0; visits::MOST_NODES]);
         let count = rule.nodes.len();
-        for (i, (node, weight)) in rule.nodes.iter().zip(&rule.weights).enumerate() {
-            at[i] = (node * total, weight * total);
+        let (positions, weights) = (&mut positions[..count], &mut weights[..count]);
+        rule.table.sums(scaled, positions);
+        for (weight, (node, spent)) in weights.iter_mut().zip(rule.nodes.iter().zip(&rule.weights))
+        {
+            *weight = spent * total * self.model.wider().left_after((1.0 - node) * total);
         }
-        pieces::values(displacement, &at[..count], &mut positions[..count]);
-        let healing = self.model.wider().healing_time;
-        for (weight, (t, spent)) in weights.iter_mut().zip(&at[..count]) {
-            *weight = spent * self.model.wider().left_after(total - t);
-        }
-        if let Some(time) = healing {
+        if let Some(time) = self.model.wider().healing_time {
             self.memory.fade((-total / time).exp());
         }
-        self.memory.remember(&positions[..count], &weights[..count]);
+        self.memory.remember(positions, weights);
     }
 
     /// What collocation is to go on from.
     fn hand_over(&mut self) {
         self.work.switches += 1;
+        self.last = self.taylor.pieces.taken().copied().or(self.last);
+        self.taylor.pieces.clear();
         let mut slope = [0.0];
         let mut curvature = [0.0];
         let mut groove = crate::memory::Groove::new(&mut slope, &mut curvature);

@@ -1,31 +1,35 @@
 //! A long polynomial as steps: each of them its interpolant of degree s on a piece.
 
-use super::chain::MOST_ORDER;
 use super::length;
-use crate::collocation::{RADAU, STAGES, Stages};
+use super::values::{Outlook, Table};
+use crate::collocation::{RADAU, STAGES};
 use crate::history::Step;
 use crate::state::{Damaged, Reader, State};
+use std::sync::LazyLock;
 
 /// Of one series at most.
 pub(super) const MOST_PIECES: usize = 8;
 
-/// Steps made, not yet handed out: the first `next` of `steps` have been.
+/// Steps made: those before `next` have been handed out, those up to `end` are yet to be.
 #[derive(Debug, Clone)]
 pub(super) struct Pieces {
-    steps: [Step; MOST_PIECES],
+    /// The first is room for a part of the second.
+    steps: [Step; MOST_PIECES + 1],
     next: usize,
     end: usize,
+    /// Whether the one before `next` has been handed out.
+    taken: bool,
 }
 
 impl Pieces {
     pub(super) fn none() -> Self {
         let zero = [0.0; STAGES];
         let nothing = Step { t: 0.0, h: 0.0, extension: 0.0, displacement: zero, height: None };
-        Self { steps: [nothing; MOST_PIECES], next: 0, end: 0 }
+        Self { steps: [nothing; MOST_PIECES + 1], next: 1, end: 1, taken: false }
     }
 
     pub(super) fn clear(&mut self) {
-        (self.next, self.end) = (0, 0);
+        (self.next, self.end, self.taken) = (1, 1, false);
     }
 
     pub(super) fn push(&mut self, step: Step) {
@@ -38,16 +42,22 @@ impl Pieces {
         &self.steps[self.next..self.end]
     }
 
+    /// The one that was handed out last.
+    pub(super) fn taken(&self) -> Option<&Step> {
+        self.taken.then_some(&self.steps[self.next - 1])
+    }
+
     /// The next one; as far as `until`, if that is within it.
-    pub(super) fn take(&mut self, until: f64, support: f64) -> Option<Step> {
-        let step = *self.left().first()?;
+    pub(super) fn take(&mut self, until: f64, support: f64) -> Option<&Step> {
+        let step = self.left().first()?;
         if until > step.t && until < step.end() {
-            let (first, rest) = parted(&step, until, support);
-            self.steps[self.next] = rest;
-            return Some(first);
+            let (first, rest) = parted(step, until, support);
+            (self.steps[self.next - 1], self.steps[self.next]) = (first, rest);
+        } else {
+            self.next += 1;
         }
-        self.next += 1;
-        Some(step)
+        self.taken = true;
+        self.taken()
     }
 
     pub(super) fn save(&self, state: &mut State) {
@@ -92,62 +102,31 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
     (first, second)
 }
 
-/// The longest pieces, if they are equal, on which interpolation errs by at most `error`.
-pub(super) fn longest(displacement: &[f64], length: f64, error: f64) -> f64 {
-    let size = RADAU.interpolation_bound(steepest(displacement, length), 1.0);
+/// The longest part of a step that may be a piece, for interpolation to err by at most `error`.
+pub(super) fn longest(outlook: &Outlook, error: f64) -> f64 {
+    let size = RADAU.interpolation_bound(outlook.steepest, 1.0);
     length::root(error, size, STAGES + 1)
 }
 
-/// The largest divided difference that interpolation leaves out: the derivative of order s + 1, over (s + 1)!, at
-/// points of [0, length].
-fn steepest(displacement: &[f64], length: f64) -> f64 {
-    const AT: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
-    let t = AT.map(|at| at * length);
-    let mut sums = [0.0; AT.len()];
-    for (coefficient, binomial) in displacement.iter().zip(&BINOMIALS).skip(STAGES + 1).rev() {
-        for (sum, t) in sums.iter_mut().zip(t) {
-            *sum = *sum * t + binomial * coefficient;
-        }
-    }
-    sums.iter().fold(0.0, |most: f64, sum| most.max(sum.abs()))
+/// The nodes of all pieces of a step, as parts of it.
+pub(super) struct Nodes {
+    pub(super) parts: Vec<f64>,
+    pub(super) table: Table,
 }
 
-/// `k` over s + 1.
-const BINOMIALS: [f64; MOST_ORDER + 1] = {
-    let mut row = [0.0; MOST_ORDER + 1];
-    let mut k = STAGES + 1;
-    row[k] = 1.0;
-    while k < MOST_ORDER {
-        row[k + 1] = row[k] * (k + 1) as f64 / (k - STAGES) as f64;
-        k += 1;
-    }
-    row
-};
+static NODES: LazyLock<[Nodes; MOST_PIECES]> =
+    LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
 
-/// The polynomial at the nodes of a piece.
-pub(super) fn nodes(displacement: &[f64], from: f64, h: f64) -> Stages {
-    let t = RADAU.c.map(|c| from + c * h);
-    let mut sums = [0.0; STAGES];
-    for coefficient in displacement.iter().rev() {
-        for (sum, t) in sums.iter_mut().zip(t) {
-            *sum = *sum * t + coefficient;
-        }
-    }
-    sums
+/// Of a step in so many pieces.
+pub(super) fn nodes(pieces: usize) -> &'static Nodes {
+    &NODES[pieces - 1]
 }
 
-/// A polynomial at the first of each pair.
-pub(super) fn values(coefficients: &[f64], at: &[(f64, f64)], values: &mut [f64]) {
-    const LANES: usize = 8;
-    for (at, values) in at.chunks(LANES).zip(values.chunks_mut(LANES)) {
-        let (mut t, mut sums) = ([0.0; LANES], [0.0; LANES]);
-        t.iter_mut().zip(at).for_each(|(t, at)| *t = at.0);
-        for coefficient in coefficients.iter().rev() {
-            for (sum, t) in sums.iter_mut().zip(t) {
-                *sum = *sum * t + coefficient;
-            }
-        }
-        values.copy_from_slice(&sums[..values.len()]);
+impl Nodes {
+    fn new(pieces: usize) -> Self {
+        let piece = |i: usize| RADAU.c.map(|c| (i as f64 + c) / pieces as f64);
+        let parts: Vec<f64> = (0..pieces).flat_map(piece).collect();
+        Self { table: Table::of_parts(&parts), parts }
     }
 }
 
@@ -158,6 +137,7 @@ pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::values::Scaled;
     use super::*;
 
     /// 1/(1 + t) - 1, about 0: a pole at the distance 1.
@@ -168,9 +148,10 @@ mod tests {
     #[test]
     fn pieces_as_long_as_said_interpolate_as_well_as_asked() {
         let (length, error) = (0.4, 1e-9);
-        let piece = longest(&coefficients(), length, error);
+        let outlook = Outlook::of(&Scaled::new(&coefficients(), length));
+        let piece = length * longest(&outlook, error);
         let worst = |h: f64| {
-            let nodes = nodes(&coefficients(), 0.0, h);
+            let nodes = RADAU.c.map(|c| value(&coefficients(), c * h));
             let miss = |i: i32| {
                 let tau = f64::from(i) / 200.0;
                 (RADAU.value(&nodes, tau) - value(&coefficients(), tau * h)).abs()
@@ -182,13 +163,25 @@ mod tests {
     }
 
     #[test]
+    fn nodes_of_pieces_are_those_of_each() {
+        let (length, pieces) = (0.3, 3);
+        let mut found = [0.0; 3 * STAGES];
+        nodes(pieces).table.sums(&Scaled::new(&coefficients(), length), &mut found);
+        for (i, found) in found.iter().enumerate() {
+            let from = (i / STAGES) as f64 * length / 3.0;
+            let t = from + RADAU.c[i % STAGES] * length / 3.0;
+            assert!((found - (1.0 / (1.0 + t) - 1.0)).abs() < 1e-11, "{i}: {found}");
+        }
+    }
+
+    #[test]
     fn a_step_in_two_parts_is_the_same_motion() {
         let displacement = RADAU.c.map(|c| c * (1.0 - 0.3 * c * c));
         let step = Step { t: 2.0, h: 0.5, extension: 1.1, displacement, height: None };
         let mut pieces = Pieces::none();
         pieces.push(step);
-        let first = pieces.take(2.125, 0.9).unwrap();
-        let rest = pieces.take(9.0, 0.9).unwrap();
+        let first = *pieces.take(2.125, 0.9).unwrap();
+        let rest = *pieces.take(9.0, 0.9).unwrap();
         assert!(pieces.left().is_empty());
         assert!((first.end() - 2.125).abs() < 1e-15 && (rest.end() - step.end()).abs() < 1e-15);
         for i in 0..=50 {

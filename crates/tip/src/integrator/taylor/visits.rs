@@ -1,5 +1,6 @@
 //! What a memory is told of a long step: where the tip was, and for how long.
 
+use super::values::Table;
 use std::sync::LazyLock;
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
@@ -7,6 +8,8 @@ use std::sync::LazyLock;
 pub(super) struct Rule {
     pub(super) nodes: Vec<f64>,
     pub(super) weights: Vec<f64>,
+    /// Of the nodes.
+    pub(super) table: Table,
 }
 
 /// Numbers of nodes.
@@ -14,6 +17,14 @@ const COUNTS: [usize; 9] = [6, 8, 10, 12, 14, 16, 18, 20, 24];
 pub(super) const MOST_NODES: usize = 24;
 
 static RULES: LazyLock<[Rule; COUNTS.len()]> = LazyLock::new(|| COUNTS.map(Rule::new));
+
+/// Of what the error of each rule is divided by: 2 (2n-1)!³/(n (n-1)!⁴).
+static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
+    COUNTS.map(|n| {
+        let factorials = 3.0 * log_factorial(2 * n - 1) - 4.0 * log_factorial(n - 1);
+        libm::log(2.0 / n as f64) + factorials
+    })
+});
 
 /// Which rule will do for a step, by how far it leads.
 #[derive(Debug, Clone)]
@@ -31,12 +42,10 @@ impl Visits {
     pub(super) fn new(band: f64, error: f64) -> Self {
         let digits = (-libm::log(error)).max(1.0);
         let wave = band * (digits / -libm::log(f64::EPSILON)).min(1.0).sqrt();
-        let farthest = COUNTS.map(|n| {
-            let count = n as f64;
-            let logarithm = 3.0 * log_factorial(2 * n - 1) - 4.0 * log_factorial(n - 1);
-            let phase = (libm::log(2.0 / count) - digits + logarithm) / (2.0 * count - 1.0);
-            libm::exp(phase) / wave
-        });
+        let phase = |(n, logarithm)| libm::exp((logarithm - digits) / (2 * n - 1) as f64) / wave;
+        let mut farthest = [0.0; COUNTS.len()];
+        let phases = COUNTS.into_iter().zip(*LOGARITHMS).map(phase);
+        farthest.iter_mut().zip(phases).for_each(|(farthest, phase)| *farthest = phase);
         Self { farthest }
     }
 
@@ -80,9 +89,10 @@ impl Rule {
         let ends = (0..n - 1).map(zero).chain([1.0]);
         let squared = |x: f64| (n as f64 * legendre(x).0).powi(2);
         let pair = |x: f64| (0.5 * (1.0 + x), 0.5 * (1.0 + x) / squared(x));
-        let (nodes, weights): (_, Vec<f64>) = ends.map(pair).unzip();
+        let (nodes, weights): (Vec<f64>, Vec<f64>) = ends.map(pair).unzip();
         let sum: f64 = weights.iter().sum();
-        Self { nodes, weights: weights.iter().map(|weight| weight / sum).collect() }
+        let weights = weights.iter().map(|weight| weight / sum).collect();
+        Self { table: Table::of_parts(&nodes), nodes, weights }
     }
 }
 

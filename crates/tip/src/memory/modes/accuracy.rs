@@ -9,6 +9,11 @@ const SHARE: f64 = 0.025;
 /// of them is that much at a time.
 const WIDTHS: f64 = 2.0;
 
+/// Down to here an error is cheap, one exponential more for a fifth of it, and is this much smaller than it need be: errors
+/// of a fit are there from the start of a run, and nothing but the motion says what becomes of them.
+const CHEAP: f64 = 1e-10;
+const SPARE: f64 = 0.1;
+
 /// Heights are forgotten more slowly than slopes, by about this factor.
 const HEIGHTS: f64 = 4.0;
 /// Exponentials do not fit much better than this: heights alone do not ask for more.
@@ -30,7 +35,7 @@ pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
     let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
     let of_slope = SHARE * tolerance / displacement(model, 1.0);
-    let largest = of_slope.min(FINEST.max(of_height * of_slope));
+    let largest = of_slope.min(FINEST.max(of_height * of_slope)).min(CHEAP.max(SPARE * of_slope));
     10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
 }
 

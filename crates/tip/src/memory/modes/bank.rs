@@ -7,10 +7,19 @@ use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
 use super::term::Term;
 use powers::Powers;
+use std::sync::Arc;
 
 /// The terms in real arithmetic, in groups that fill the machine's vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Bank {
+    groups: Vec<Group>,
+    tables: Arc<Tables>,
+}
+
+/// What of it follows from the terms alone.
+#[derive(Debug, Clone)]
+pub(super) struct Tables {
+    /// Nothing remembered.
     groups: Vec<Group>,
     powers: Vec<Powers>,
     /// `lengths[k]` is the distance up to which degree k + `LOWEST_DEGREE` expands every term.
@@ -31,7 +40,7 @@ const LOWEST_DEGREE: usize = 3;
 /// Expansions err by at most this fraction of the fit.
 const SHARE_OF_EXPANSION: f64 = 0.01;
 
-impl Bank {
+impl Tables {
     pub(super) fn new(fit: &Fit) -> Self {
         let terms = fit.terms();
         let group = |terms: &[Term]| {
@@ -48,14 +57,22 @@ impl Bank {
         let powers = groups.iter().map(|group| powers::powers(group.exponent)).collect();
         Self { groups, powers, lengths: expansion_lengths(terms, fit.wanted()) }
     }
+}
+
+impl Bank {
+    pub(super) fn new(tables: &Arc<Tables>) -> Self {
+        Self { groups: tables.groups.clone(), tables: Arc::clone(tables) }
+    }
 
     /// z of each term times a factor, real and imaginary parts in turn; where the last group is not full, some more that
     /// are 0.
     pub(super) fn all_states(&self, factor: f64, states: &mut Vec<f64>) {
-        for group in &self.groups {
+        states.resize(2 * LANES * self.groups.len(), 0.0);
+        let (rooms, _) = states.as_chunks_mut::<{ 2 * LANES }>();
+        for (group, room) in self.groups.iter().zip(rooms) {
             let (re, im) = group.state;
             for i in 0..LANES {
-                states.extend([factor * re[i], factor * im[i]]);
+                (room[2 * i], room[2 * i + 1]) = (factor * re[i], factor * im[i]);
             }
         }
     }
@@ -99,7 +116,7 @@ impl Bank {
             position.iter().zip(weight).for_each(|(p, w)| self.add(p - moved, *w));
             return;
         };
-        powers::carry(&mut self.groups, &self.powers, (position, weight), half, degree);
+        powers::carry(&mut self.groups, &self.tables.powers, (position, weight), half, degree);
     }
 
     /// Moves the tip: `z_j ← e^{s_j Δ} z_j`.
@@ -171,8 +188,9 @@ impl Bank {
 
     /// The degree that expands every `e^{s_j y}` for |y| ≤ radius.
     fn degree(&self, radius: f64) -> Option<usize> {
-        let k = self.lengths.partition_point(|length| *length < radius);
-        (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
+        let lengths = &self.tables.lengths;
+        let k = lengths.partition_point(|length| *length < radius);
+        (k < lengths.len()).then_some(k + LOWEST_DEGREE)
     }
 }
 

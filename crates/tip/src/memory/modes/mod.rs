@@ -7,6 +7,7 @@ mod fit;
 mod local;
 mod pencil;
 mod powers;
+mod prepared;
 mod term;
 mod weights;
 
@@ -21,7 +22,7 @@ use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
 use num_complex::Complex;
-use powers::Powers;
+use prepared::Prepared;
 use std::sync::Arc;
 
 /// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, the groove at `at` from the tip is
@@ -33,7 +34,7 @@ use std::sync::Arc;
 pub(super) struct Modes {
     fit: Arc<Fit>,
     bank: Bank,
-    powers: Powers,
+    prepared: Arc<Prepared>,
     groove: LocalGroove,
     /// The farthest-forward position, as a displacement from the tip.
     farthest: f64,
@@ -48,9 +49,9 @@ const SHARE_OF_RETREAT: f64 = 0.5;
 impl Modes {
     /// Nothing remembered yet.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
-        let (bank, powers) = (Bank::new(&fit), Powers::new(fit.terms()));
-        let groove = LocalGroove::nowhere();
-        Self { bank, powers, groove, farthest: f64::NEG_INFINITY, fit }
+        let prepared = Prepared::cached(&fit);
+        let (bank, groove) = (Bank::new(&prepared.bank), LocalGroove::nowhere());
+        Self { bank, prepared, groove, farthest: f64::NEG_INFINITY, fit }
     }
 
     pub(super) fn fit(&self) -> &Fit {
@@ -144,7 +145,6 @@ impl Modes {
     ) {
         (told.farthest, told.retreat) = (self.farthest, self.fit.retreat());
         let mut room = std::mem::take(&mut told.room);
-        room.clear();
         self.bank.all_states(left, &mut room);
         if let Some(past) = steady {
             for (z, term) in room.chunks_exact_mut(2).zip(self.fit.terms()) {
@@ -154,7 +154,7 @@ impl Modes {
                 z[1] += steady.im;
             }
         }
-        self.powers.derivatives(&room, count, told);
+        self.prepared.powers.derivatives(&room, count, told);
         told.room = room;
     }
 

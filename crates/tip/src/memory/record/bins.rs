@@ -45,9 +45,9 @@ impl Bins {
         self.first -= bins;
     }
 
-    /// Notes that the tip sees back to x.
-    pub(super) fn look_from(&mut self, x: f64) {
-        self.missed |= self.dropped && x < self.first as f64 * self.length;
+    /// Notes how far back the tip sees.
+    pub(super) fn look_from(&mut self, x: impl Fn() -> f64) {
+        self.missed |= self.dropped && x() < self.first as f64 * self.length;
     }
 
     /// How far behind the farthest point of the tip the past is kept, if it looked farther.
@@ -62,11 +62,7 @@ impl Bins {
         let y = 2.0 * (scaled - cell) - 1.0;
         #[expect(clippy::cast_possible_truncation, reason = "a count of bins")]
         let Some(bin) = self.bin(cell as i64) else { return };
-        let (mut before, mut t) = (y, 1.0);
-        for moment in bin {
-            *moment += weight * t;
-            (before, t) = (t, 2.0 * y * t - before);
-        }
+        add_polynomials(bin, y, weight);
     }
 
     /// The bin of that number, made if need be; `None` if it is farther behind than is kept.
@@ -111,6 +107,22 @@ impl Bins {
     }
 }
 
+/// Lanes that go side by side.
+const LANES: usize = 4;
+
+/// Adds `weight T_m(y)`, m = 0, 1, …: by `T_{m+4} = 2 T_4 T_m - T_{|m-4|}` four at a time.
+fn add_polynomials(bin: &mut Bin, y: f64, weight: f64) {
+    let t2 = 2.0 * y * y - 1.0;
+    let (t3, t4) = (2.0 * y * t2 - y, 2.0 * t2 * t2 - 1.0);
+    let (mut before, mut here) = ([t4, t3, t2, y], [1.0, y, t2, t3]);
+    for moments in bin.as_chunks_mut::<LANES>().0 {
+        for i in 0..LANES {
+            moments[i] += weight * here[i];
+            (before[i], here[i]) = (here[i], 2.0 * t4 * here[i] - before[i]);
+        }
+    }
+}
+
 /// The weights on Chebyshev points that have the moments of the bin.
 fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
     let n = MOMENTS as f64;
@@ -120,4 +132,21 @@ fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
         let sum: f64 = bin.iter().enumerate().map(term).sum();
         (angle.cos(), (2.0 * sum - bin[0]) / n)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_those_of_chebyshev_polynomials() {
+        for y in [-1.0, -0.73, -0.1, 0.0, 0.4, 0.99] {
+            let mut bin = [0.5; MOMENTS];
+            add_polynomials(&mut bin, y, 1.7);
+            for (m, moment) in bin.iter().enumerate() {
+                let wanted = 0.5 + 1.7 * (m as f64 * y.acos()).cos();
+                assert!((moment - wanted).abs() < 1e-13, "{y} {m}: {moment} {wanted}");
+            }
+        }
+    }
 }

@@ -6,17 +6,15 @@ use multiversion::multiversion;
 
 /// `s_j^m` of a group, m = 0, 1, …
 pub(super) type Powers = [(Lane, Lane); HIGHEST_DEGREE + 1];
-/// Coefficients `c_m`.
-pub(super) type Coefficients = [f64; HIGHEST_DEGREE + 1];
-
-/// Nodes that are summed over side by side.
-const NODES: usize = 2 * LANES;
+/// Coefficients `c_m`, with room to fill the lanes.
+const ROOM: usize = (HIGHEST_DEGREE + 1).next_multiple_of(LANES);
+type Coefficients = [f64; ROOM];
 
 /// 1/m!
 const INVERSE_FACTORIALS: Coefficients = {
-    let mut inverse = [1.0; HIGHEST_DEGREE + 1];
+    let mut inverse = [1.0; ROOM];
     let mut m = 1;
-    while m <= HIGHEST_DEGREE {
+    while m < ROOM {
         inverse[m] = inverse[m - 1] / m as f64;
         m += 1;
     }
@@ -32,38 +30,25 @@ pub(super) fn powers(exponent: (Lane, Lane)) -> Powers {
     powers
 }
 
-/// `x^m/m!`: the coefficients of `e^{sx}`.
-fn exponential(x: f64, degree: usize) -> Coefficients {
-    let mut coefficients = [0.0; HIGHEST_DEGREE + 1];
-    let mut power = 1.0;
-    for (c, inverse) in coefficients[..=degree].iter_mut().zip(INVERSE_FACTORIALS) {
-        *c = power * inverse;
-        power *= x;
-    }
-    coefficients
-}
-
-/// `Σ_k weight_k (from - position_k)^m/m!`: those of `Σ_k weight_k e^{s (from - position_k)}`.
+/// `Σ_k weight_k (from - position_k)^m/m!`: those of `Σ_k weight_k e^{s (from - position_k)}`, four powers side by side.
 #[inline(always)]
-fn moments(position: &[f64], weight: &[f64], from: f64, degree: usize) -> Coefficients {
-    let mut lanes = [[0.0; LANES]; HIGHEST_DEGREE + 1];
-    for (position, weight) in position.chunks(NODES).zip(weight.chunks(NODES)) {
-        let (mut offset, mut power) = ([0.0; NODES], [0.0; NODES]);
-        offset.iter_mut().zip(position).for_each(|(offset, x)| *offset = from - x);
-        power[..weight.len()].copy_from_slice(weight);
-        for lanes in &mut lanes[..=degree] {
+fn moments<const GROUPS: usize>(position: &[f64], weight: &[f64], from: f64) -> Coefficients {
+    let mut sums = [[0.0; LANES]; GROUPS];
+    for (position, weight) in position.iter().zip(weight) {
+        let y = from - position;
+        let square = y * y;
+        let mut power = [*weight, weight * y, weight * square, weight * (square * y)];
+        let fourth = square * square;
+        for sum in &mut sums {
             for i in 0..LANES {
-                lanes[i] += power[i] + power[i + LANES];
-            }
-            for i in 0..NODES {
-                power[i] *= offset[i];
+                sum[i] += power[i];
+                power[i] *= fourth;
             }
         }
     }
-    let mut moments = [0.0; HIGHEST_DEGREE + 1];
-    for ((moment, [a, b, c, d]), inverse) in moments.iter_mut().zip(lanes).zip(INVERSE_FACTORIALS) {
-        *moment = ((a + b) + (c + d)) * inverse;
-    }
+    let mut moments = [0.0; ROOM];
+    let sums = sums.as_flattened().iter().zip(INVERSE_FACTORIALS);
+    moments.iter_mut().zip(sums).for_each(|(moment, (sum, inverse))| *moment = sum * inverse);
     moments
 }
 
@@ -78,8 +63,29 @@ pub(super) fn carry(
     half: f64,
     degree: usize,
 ) {
-    let moments = moments(position, weight, half, degree);
-    let carried = exponential(half, degree);
+    let visits = (position, weight);
+    match degree / LANES + 1 {
+        0..=3 => carry_by::<3>(groups, powers, visits, half, degree),
+        4 => carry_by::<4>(groups, powers, visits, half, degree),
+        5 => carry_by::<5>(groups, powers, visits, half, degree),
+        6 => carry_by::<6>(groups, powers, visits, half, degree),
+        7 => carry_by::<7>(groups, powers, visits, half, degree),
+        8 => carry_by::<8>(groups, powers, visits, half, degree),
+        _ => carry_by::<11>(groups, powers, visits, half, degree),
+    }
+}
+
+#[inline(always)]
+fn carry_by<const GROUPS: usize>(
+    groups: &mut [Group],
+    powers: &[Powers],
+    (position, weight): (&[f64], &[f64]),
+    half: f64,
+    degree: usize,
+) {
+    let moments = moments::<GROUPS>(position, weight, half);
+    // Of e^{s half}: as of one visit.
+    let carried = self::moments::<GROUPS>(&[0.0], &[1.0], half);
     for (group, powers) in groups.iter_mut().zip(powers) {
         let zero = ([0.0; LANES], [0.0; LANES]);
         let (mut e, mut new) = (zero, zero);

@@ -1,0 +1,73 @@
+//! `stickslip tip`.
+
+use super::OutletArguments;
+use super::examples::examples;
+use clap::Args;
+use std::path::PathBuf;
+
+/// A footprint from a measured profile: noisy, tilted, off centre, in nanometres.
+///
+/// Fits a sum of Gaussians on a sloping ground, as many as the data ask for, and says how wide the tip is, at what α
+/// stick-slip sets in, and how far the noise leaves that open. What it writes is a tip file: every command takes it
+/// by --tip-file. Lengths in it are in σ, the width of the Gaussian that is as wide at half of its height, and f(0)
+/// is 1, unless --sigma says otherwise.
+#[derive(Debug, Args)]
+#[command(after_help = examples(EXAMPLES))]
+pub(crate) struct MeasuredTipArguments {
+    /// Positions and heights, in two columns with any separator, by a heading such as `x_nm,z_nm`; rows in any order,
+    /// at any distance. A pit has its heights below its surroundings. `-` is standard input.
+    #[arg(value_name = "MEASURED.csv")]
+    pub(crate) measured: PathBuf,
+
+    /// Unit of the positions, in place of that of the heading: m, um, nm, …
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) unit: Option<String>,
+
+    /// The profile is one half of an even one, about position 0 [default: where it begins at 0 with its apex].
+    #[arg(long, conflicts_with_all = ["both", "centre"])]
+    pub(crate) half: bool,
+
+    /// The profile has both halves.
+    #[arg(long)]
+    pub(crate) both: bool,
+
+    /// Where it is even about, in the unit of the positions [default: found].
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    pub(crate) centre: Option<f64>,
+
+    /// σ, with a unit (30nm) or in that of the positions [default: found].
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) sigma: Option<String>,
+
+    /// How many Gaussians, a pair of twins counted once [default: as many as Schwarz' criterion asks for].
+    #[arg(long, value_name = "N")]
+    pub(crate) terms: Option<usize>,
+
+    /// Dimensionless support velocity at which onset and trapping are told.
+    #[arg(long, value_name = "R", default_value_t = 1.0, allow_hyphen_values = true)]
+    pub(crate) r: f64,
+
+    /// Profiles drawn anew to tell what the noise leaves open.
+    #[arg(long, value_name = "N", default_value_t = 400)]
+    pub(crate) resamples: usize,
+
+    /// Of the draws.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
+
+    /// Draw data, fit and what it leaves to this .svg, .png or .pdf.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  A profile with a heading x_nm,z_nm, fitted, drawn, and used:
+    stickslip tip pit.csv -o tip.json --plot tip.svg
+    stickslip stability --tip-file tip.json --r 0.8
+  One without a heading, in micrometres, by two Gaussians of which σ is to be 30 nm:
+    stickslip tip pit.txt --unit um --terms 2 --sigma 30nm -o tip.json
+  What the noise leaves open of the onset at r = 0.5, for a script:
+    stickslip tip pit.csv --r 0.5 --print critical_alpha.low --print critical_alpha.high";

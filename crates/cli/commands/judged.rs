@@ -1,0 +1,45 @@
+//! A raw table of a tip, judged before anything is made of it.
+
+use crate::failure::Failure;
+use crate::message::say;
+use std::path::Path;
+use stickslip_measurement::{Verdict, judge};
+use stickslip_tip::TipFunction;
+
+/// Refuses a table that noise decides, and tells where noise is felt, or where nobody can say.
+pub(super) fn judge_table(
+    path: &Path,
+    (x, f): (&[f64], &[f64]),
+    tip: &TipFunction,
+) -> Result<(), Failure> {
+    let option = format!("--tip-file {}", path.display());
+    let advice = format!(
+        "fit it: `stickslip tip {} --half --sigma 1 -o tip.json`, then --tip-file tip.json",
+        path.display()
+    );
+    match judge((x, f), tip) {
+        Verdict::Sound => Ok(()),
+        Verdict::Few { rows } => {
+            say(format_args!(
+                "stickslip: {option}: {rows} rows do not tell their noise from their shape: 2 % of noise can halve alpha_c"
+            ));
+            Ok(())
+        }
+        Verdict::Felt { change } => {
+            say(format_args!(
+                "stickslip: {option}: its noise may change alpha_c by {:.0} % (r = 1); {advice}",
+                100.0 * change
+            ));
+            Ok(())
+        }
+        Verdict::Decided { table, fitted } => {
+            let instead =
+                fitted.map(|fitted| format!(" where a sum of few Gaussians has {fitted:.4}"));
+            let message = format!(
+                "its noise decides: alpha_c = {table:.4} at r = 1{}; {advice}",
+                instead.unwrap_or_default()
+            );
+            Err(Failure::input(option, message))
+        }
+    }
+}

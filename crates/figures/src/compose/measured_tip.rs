@@ -1,0 +1,85 @@
+//! A measured footprint: data, fit, and what it leaves.
+
+use super::drawn::{Drawn, View};
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip_documents::{
+    ColourName, CurveDocument, EstimateDocument, FigureDocument, GaussianDocument,
+    MeasuredTipDocument, ModelParameters, PanelDocument, StyleName, TipDocument,
+};
+
+/// Of the fitted curve.
+const POINTS: usize = 600;
+
+impl Drawn for MeasuredTipDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let (x, unit) = (&self.profile.x, self.parameters.unit.as_deref());
+        let (Some(first), Some(last)) = (x.first(), x.last()) else {
+            return Err(FigureError::Nothing("the profile has no rows".into()));
+        };
+        let title = format!(
+            "A tip of {} Gaussian{}: σ = {}{}, α_c = {} at r = {}",
+            self.terms,
+            if self.terms == 1 { "" } else { "s" },
+            with_error(&self.sigma),
+            unit.map(|unit| format!(" {unit}")).unwrap_or_default(),
+            with_error(&self.critical_alpha),
+            short(self.parameters.r),
+        );
+        let tip = TipDocument::Gaussians { gaussians: self.gaussians.clone() };
+        let alpha = self.critical_alpha.value;
+        let model = ModelParameters::papers(tip, alpha, None, self.parameters.r);
+        let mut figure = FigureDocument::new("tip", &title, vec![model]);
+        let x_label = unit.map_or("x".into(), |unit| format!("x ({unit})"));
+        let at = |i: usize| first + (last - first) * i as f64 / POINTS as f64;
+        let along: Vec<f64> = (0..=POINTS).map(at).collect();
+        let ground: Vec<f64> = along.iter().map(|x| self.offset + self.tilt * x).collect();
+        let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
+        let mut data = PanelDocument::new("", (&x_label, "height"));
+        let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
+        measured.colour = Some(ColourName::Grey);
+        data.curves = vec![
+            measured,
+            CurveDocument::new(StyleName::Dashed, "ground", &along, &ground),
+            CurveDocument::new(StyleName::Line, "fit", &along, &fit),
+        ];
+        let mut rest = PanelDocument::new("", (&x_label, "data − fit"));
+        let mut noise = CurveDocument::new(
+            StyleName::Band,
+            "noise from row to row",
+            &[*first, *last],
+            &[self.noise, self.noise],
+        );
+        noise.low = Some(vec![Some(-self.noise); 2]);
+        noise.colour = Some(ColourName::Silver);
+        rest.curves =
+            vec![noise, CurveDocument::new(StyleName::Points, "", x, &self.profile.residuals())];
+        figure.panels = vec![data, rest];
+        figure.remarks.clone_from(&self.remarks);
+        Ok(figure)
+    }
+}
+
+/// Ground and footprint at a position.
+fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
+    let y = (x - tip.centre) / tip.sigma.value;
+    let term = |g: &GaussianDocument| {
+        let z = (y - g.center) / g.width;
+        g.amplitude * (-0.5 * z * z).exp()
+    };
+    let f: f64 = tip.gaussians.iter().map(term).sum();
+    tip.offset + tip.tilt * x + tip.apex * f
+}
+
+/// Such as "1.88 ± 0.02".
+fn with_error(estimate: &EstimateDocument) -> String {
+    let (Some(low), Some(high)) = (estimate.low, estimate.high) else {
+        return short(estimate.value);
+    };
+    let half = 0.5 * (high - low);
+    if half <= 0.0 {
+        return short(estimate.value);
+    }
+    let places = (1.0 - half.log10().floor()).clamp(0.0, 12.0) as usize;
+    format!("{:.places$} ± {half:.places$}", estimate.value)
+}

@@ -1,0 +1,94 @@
+//! A value with the interval that holds it.
+
+/// Estimated, with its 95 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// As estimated from the data.
+    pub value: f64,
+    /// Lower end; −∞ where nothing is below which the data exclude.
+    pub low: f64,
+    /// Upper end; ∞ where the data exclude nothing above.
+    pub high: f64,
+}
+
+impl Estimate {
+    /// Half the length of the interval over the value.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        0.5 * (self.high - self.low) / self.value.abs()
+    }
+
+    /// Whether a value is within it.
+    #[must_use]
+    pub fn holds(&self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+
+    /// Both ends moved out by a factor that stands for what is independent of all else, its logarithm in quadrature.
+    #[must_use]
+    pub fn wider_by(self, factor: f64) -> Self {
+        let moved = |end: f64| {
+            let length = (end / self.value).ln();
+            self.value * (length.signum() * f64::hypot(length, factor.ln())).exp()
+        };
+        let out = |end: f64, other: f64| if end.is_finite() { end.min(other) } else { end };
+        Self {
+            value: self.value,
+            low: out(self.low, moved(self.low.min(self.value * (1.0 - f64::EPSILON)))),
+            high: if self.high.is_finite() {
+                self.high.max(moved(self.high.max(self.value * (1.0 + f64::EPSILON))))
+            } else {
+                self.high
+            },
+        }
+    }
+
+    /// From values of resampled data, by their percentiles, of several ways to draw them the widest.
+    #[must_use]
+    pub fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
+        let mut found: Option<Self> = None;
+        for resamples in ways {
+            let mut sorted: Vec<f64> =
+                resamples.iter().copied().filter(|v| v.is_finite()).collect();
+            if sorted.is_empty() {
+                continue;
+            }
+            sorted.sort_by(f64::total_cmp);
+            let (low, high) = (quantile(&sorted, 0.5 - HALF), quantile(&sorted, 0.5 + HALF));
+            // An interval without its own estimate would puzzle.
+            let before = found.unwrap_or(Self { value, low: value, high: value });
+            found = Some(Self { value, low: before.low.min(low), high: before.high.max(high) });
+        }
+        found.unwrap_or(Self { value, low: f64::NEG_INFINITY, high: f64::INFINITY })
+    }
+}
+
+/// Of what an interval holds.
+const HALF: f64 = 0.475;
+
+/// Between the sorted values.
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let at = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+    let below = (at as usize).min(sorted.len() - 1);
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_those_of_the_widest_sample() {
+        let sample = |middle: f64| -> Vec<f64> {
+            (0..=1000).map(|i| middle + 0.001 * f64::from(i) - 0.5).collect()
+        };
+        let found = Estimate::of_resamples(5.0, &[sample(5.0)]);
+        assert!((found.low - 4.525).abs() < 1e-9 && (found.high - 5.475).abs() < 1e-9, "{found:?}");
+        let wider = Estimate::of_resamples(5.0, &[sample(5.0), sample(5.2), vec![f64::NAN]]);
+        assert!((wider.low - 4.525).abs() < 1e-9 && (wider.high - 5.675).abs() < 1e-9);
+        assert!(wider.holds(5.6) && !found.holds(5.6));
+        assert!(Estimate::of_resamples(5.0, &[]).relative().is_infinite());
+    }
+}

@@ -1,0 +1,179 @@
+//! What the noise of a raw table does to the answers that are made of it.
+//!
+//! αc feels f'' and with it the noise of neighbouring rows, over their distance squared: 2 % of noise can halve
+//! αc. How large the noise is, is told by sixth differences, in which a smooth f all but vanishes; what it does, by
+//! adding as much again, and by αc of the few Gaussians that follow the rows as far as the noise lets them.
+
+use crate::Profile;
+use crate::tip::{Request, tip};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use std::f64::consts::PI;
+use stickslip_stability::critical;
+use stickslip_tip::TipFunction;
+
+/// What a raw table x, f is good for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// Noise does next to nothing.
+    Sound,
+    /// Too few rows to tell their noise from their shape.
+    Few {
+        /// As given.
+        rows: usize,
+    },
+    /// Noise is felt.
+    Felt {
+        /// By how much αc(1) may be off, relatively.
+        change: f64,
+    },
+    /// Noise, and not the footprint, decides αc.
+    Decided {
+        /// αc(1) of the table as it is.
+        table: f64,
+        /// αc(1) of a sum of few Gaussians through the noise, if there is one.
+        fitted: Option<f64>,
+    },
+}
+
+/// Fewer rows have no sixth differences to speak of.
+const FEWEST_ROWS: usize = 16;
+/// A relative change of αc at r = 1 that is told, and one from which on a table is none of the tip.
+const TOLD: f64 = 0.02;
+const REFUSED: f64 = 0.1;
+/// Where noise can change αc by no more, nobody tries how much it does.
+const NOT_TOLD: f64 = 0.1 * TOLD;
+/// A sum over many random rows is at most so many standard deviations.
+const LARGEST_DRAW: f64 = 5.0;
+/// How often noise is added.
+const DRAWS: u64 = 5;
+/// Binomial coefficients of a sixth difference, and the root of the sum of their squares.
+const SIXTH: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
+const SIXTH_NORM: f64 = 30.397;
+
+/// Judges a table of which `tip` was made.
+#[must_use]
+pub fn judge((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Verdict {
+    let rows = x.len();
+    let Ok(at) = critical(tip, 1.0) else { return Verdict::Sound };
+    if rows < FEWEST_ROWS {
+        return Verdict::Few { rows };
+    }
+    let table = at.alpha;
+    let noise = noise(f);
+    if table * most_felt(x, noise) < NOT_TOLD {
+        return Verdict::Sound;
+    }
+    let again = again((x, f), noise, table);
+    let fitted = fitted((x, f));
+    let off = fitted.map_or(0.0, |fitted| (table / fitted).ln().abs());
+    let change = again.max(off);
+    match change {
+        change if change > REFUSED => Verdict::Decided { table, fitted },
+        change if change > TOLD => Verdict::Felt { change },
+        _ => Verdict::Sound,
+    }
+}
+
+/// αc(1) of a sum of Gaussians through the rows.
+fn fitted((x, f): (&[f64], &[f64])) -> Option<f64> {
+    let profile = Profile::new(x.to_vec(), f.to_vec()).ok()?;
+    let (centre, sigma) = (Some(0.0), Some(1.0));
+    let found =
+        tip(&profile, &Request { centre, sigma, resamples: 0, ..Request::default() }).ok()?;
+    // α is told for f(0) = 1.
+    (found.apex > 0.0).then(|| found.critical_alpha.value / found.apex)
+}
+
+/// Relative change of αc(1), root mean square, with noise like that of the table added.
+fn again((x, f): (&[f64], &[f64]), noise: f64, table: f64) -> f64 {
+    let changes = (0..DRAWS).map(|draw| {
+        let mut random = ChaCha8Rng::seed_from_u64(draw);
+        let last = f.len() - 1;
+        // Variance 1/3 on [-1, 1]; the end where f has faded stays.
+        let amplitude = 3_f64.sqrt() * noise;
+        let mut more =
+            |i: usize| if i < last { amplitude * random.random_range(-1.0..=1.0) } else { 0.0 };
+        let noisy: Vec<f64> = f.iter().enumerate().map(|(i, f)| f + more(i)).collect();
+        let tip = TipFunction::table(x, &noisy).ok();
+        let changed = tip.and_then(|tip| critical(&tip, 1.0).ok());
+        // Noise that leaves no footprint changes all.
+        changed.map_or(1.0, |changed| (changed.alpha / table).ln().abs())
+    });
+    let squares: Vec<f64> = changes.map(|change| change * change).collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+/// A bound of what noise adds to ∫f''(y) e^{-iqy}dy, to which 1/αc(1) is proportional, at any wave number that rows
+/// resolve: q² times its transform, a sum over random rows, and q times its value at 0.
+fn most_felt(x: &[f64], noise: f64) -> f64 {
+    let length = x[x.len() - 1];
+    let spacing = length / (x.len() - 1) as f64;
+    let q = PI / spacing;
+    LARGEST_DRAW * noise * (q * q * (spacing * length).sqrt() + q)
+}
+
+/// Standard deviation of what is not smooth from row to row.
+fn noise(f: &[f64]) -> f64 {
+    let difference = |rows: &[f64]| rows.iter().zip(SIXTH).map(|(f, c)| f * c).sum::<f64>();
+    let squares: Vec<f64> = f.windows(7).map(|rows| difference(rows).powi(2)).collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() / SIXTH_NORM
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A Gaussian in this many rows, each off by up to `noise`, the last one 0.
+    fn table(rows: u32, noise: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
+        let x: Vec<f64> = (0..rows).map(|i| 8.0 * f64::from(i) / f64::from(rows - 1)).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut more = || noise * random.random_range(-1.0..=1.0);
+        let mut f: Vec<f64> = x.iter().map(|x| (-0.5 * x * x).exp() + more()).collect();
+        f[rows as usize - 1] = 0.0;
+        (x, f)
+    }
+
+    /// αc(1) of the Gaussian is 1.879427, DESIGN's reference value to 30 digits.
+    #[test]
+    fn noise_that_decides_is_seen_whenever_it_does() {
+        let (mut decided, mut sound) = (0, 0);
+        for (i, rows) in [20, 40, 60, 120, 200].into_iter().cycle().take(28).enumerate() {
+            let noise = [0.0, 1e-3, 0.02, 0.03][i % 4];
+            let (x, f) = table(rows, noise, i as u64);
+            let tip = TipFunction::table(&x, &f).unwrap();
+            let off = (critical(&tip, 1.0).unwrap().alpha / 1.879_427).ln().abs();
+            let verdict = judge((&x, &f), &tip);
+            match verdict {
+                Verdict::Sound => assert!(off < 2.0 * TOLD, "{rows} {noise}: off by {off}"),
+                Verdict::Felt { .. } => assert!(off < 1.2 * REFUSED, "{rows} {noise}: {off}"),
+                Verdict::Decided { fitted, .. } => {
+                    let fitted = fitted.unwrap();
+                    assert!((fitted / 1.879_427 - 1.0).abs() < REFUSED, "{rows} {noise}: {fitted}");
+                }
+                Verdict::Few { .. } => panic!("{rows} rows"),
+            }
+            decided += usize::from(matches!(verdict, Verdict::Decided { .. }));
+            sound += usize::from(verdict == Verdict::Sound);
+            assert!(noise > 0.0 || verdict == Verdict::Sound, "{rows}: {verdict:?}");
+        }
+        assert!(decided >= 5 && sound >= 10, "{decided} {sound}");
+        let (x, f) = table(12, 0.0, 0);
+        let few = judge((&x, &f), &TipFunction::table(&x, &f).unwrap());
+        assert_eq!(few, Verdict::Few { rows: 12 });
+    }
+
+    /// Where the bound says that it cannot be felt, it is not.
+    #[test]
+    fn noise_that_is_not_tried_changes_nothing() {
+        for (rows, noise) in [(60, 1e-7), (60, 2e-6), (200, 1e-8), (200, 1e-7), (600, 1e-9)] {
+            let ((x, exact), (_, noisy)) = (table(rows, 0.0, 3), table(rows, noise, 3));
+            let alpha =
+                |f: &[f64]| critical(&TipFunction::table(&x, f).unwrap(), 1.0).unwrap().alpha;
+            let change = (alpha(&noisy) / alpha(&exact) - 1.0).abs();
+            let bound = alpha(&exact) * most_felt(&x, noise / 3_f64.sqrt());
+            assert!(change < bound, "{rows} {noise}: {change} above {bound}");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Levenberg and Marquardt's method, of the crate `levenberg-marquardt` (MINPACK's `lmder`).
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::{DMatrix, DVector, Dyn, storage::Owned};
+
+/// Residuals as a function of parameters that are of order 1.
+pub(crate) trait Residuals {
+    /// At these parameters; `None` where there are none, which a search keeps away from.
+    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>>;
+
+    /// Their derivatives by each parameter, a column each; `here` are the residuals.
+    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>>;
+}
+
+/// Where a search ended.
+#[derive(Debug, Clone)]
+pub(crate) struct Minimum {
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
+    /// Σ of their squares.
+    pub(crate) sum: f64,
+}
+
+/// A failed trial is so many times as bad as the start: the search turns back and shortens its step.
+const FAILED: f64 = 10.0;
+/// Relative changes of the sum and of the parameters at which a search ends.
+const ENOUGH: f64 = 1e-9;
+/// Evaluations for each parameter.
+const PATIENCE: usize = 40;
+
+/// The least sum of squares that is downhill from `start`; `None` where there are no residuals.
+pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
+    let residuals = model.at(start)?;
+    let sum = squares(&residuals);
+    let begin = Minimum { parameters: start.to_vec(), residuals, sum };
+    // Nothing to vary, or nothing left.
+    if start.is_empty() || sum <= f64::MIN_POSITIVE {
+        return Some(begin);
+    }
+    let worst = FAILED * (sum / begin.residuals.len() as f64).sqrt();
+    let at = DVector::from_column_slice(start);
+    let here = Some(begin.residuals.clone());
+    let problem = Problem { model, at, here, best: begin, worst };
+    let method = LevenbergMarquardt::new()
+        .with_ftol(ENOUGH)
+        .with_xtol(ENOUGH)
+        .with_gtol(ENOUGH)
+        .with_stepbound(1.0)
+        .with_patience(PATIENCE);
+    // Whatever ended it, the best that it met is no worse than the start.
+    Some(method.minimize(problem).0.best)
+}
+
+pub(crate) fn squares(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|v| v * v).sum()
+}
+
+/// Derivatives by central differences, one-sided where the model ends.
+#[cfg_attr(not(test), expect(dead_code, reason = "soon"))]
+pub(crate) fn differences(
+    model: &(impl Residuals + ?Sized),
+    (here, at): (&[f64], &[f64]),
+    step: f64,
+) -> Option<Vec<Vec<f64>>> {
+    let column = |i: usize| {
+        let beside = |sign: f64| {
+            let mut parameters = at.to_vec();
+            parameters[i] += sign * step;
+            model.at(&parameters)
+        };
+        let difference = |a: &[f64], b: &[f64], length: f64| {
+            a.iter().zip(b).map(|(a, b)| (a - b) / length).collect::<Vec<f64>>()
+        };
+        match (beside(1.0), beside(-1.0)) {
+            (Some(after), Some(before)) => Some(difference(&after, &before, 2.0 * step)),
+            (Some(after), None) => Some(difference(&after, here, step)),
+            (None, Some(before)) => Some(difference(here, &before, step)),
+            (None, None) => None,
+        }
+    };
+    (0..at.len()).map(column).collect()
+}
+
+struct Problem<'a> {
+    model: &'a dyn Residuals,
+    at: DVector<f64>,
+    /// Residuals at `at`, if there are any.
+    here: Option<Vec<f64>>,
+    /// The least of all that were met.
+    best: Minimum,
+    worst: f64,
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+    type ParameterStorage = Owned<f64, Dyn>;
+
+    fn set_params(&mut self, at: &DVector<f64>) {
+        self.at.copy_from(at);
+        let found = self.model.at(at.as_slice());
+        self.here = found.filter(|found| found.iter().all(|v| v.is_finite()));
+        if let Some(here) = &self.here {
+            let sum = squares(here);
+            if sum < self.best.sum {
+                let parameters = at.as_slice().to_vec();
+                self.best = Minimum { parameters, residuals: here.clone(), sum };
+            }
+        }
+    }
+
+    fn params(&self) -> DVector<f64> {
+        self.at.clone()
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let rows = self.best.residuals.len();
+        let none = || DVector::from_element(rows, self.worst);
+        Some(self.here.as_ref().map_or_else(none, |here| DVector::from_column_slice(here)))
+    }
+
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        let columns = self.model.derivatives(self.here.as_ref()?, self.at.as_slice())?;
+        let columns: Vec<DVector<f64>> = columns.into_iter().map(DVector::from_vec).collect();
+        Some(DMatrix::from_columns(&columns))
+    }
+}

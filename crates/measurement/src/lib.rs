@@ -1,0 +1,30 @@
+//! From measured data to the numbers of the model, with intervals.
+//!
+//! [`tip`] makes a footprint of a measured profile: noisy, tilted, off centre, in any unit of length. [`judge`] says
+//! what the noise of a raw table would do to the onset of stick-slip. Knows no files and no units: lengths and heights
+//! are those of the data, whatever they are.
+//!
+//! ```
+//! use stickslip_measurement::{Profile, Request, tip};
+//!
+//! // exp(-x²/2) of width 30 nm, in nm, off centre and on a slope.
+//! let x: Vec<f64> = (0..81).map(|i| 4.0 * f64::from(i) - 150.0).collect();
+//! let height = |x: &f64| 12.0 * (-0.5 * ((x - 5.0) / 30.0_f64).powi(2)).exp() + 0.01 * x;
+//! let profile = Profile::new(x.clone(), x.iter().map(height).collect())?;
+//! let found = tip(&profile, &Request { resamples: 20, ..Request::default() })?;
+//! assert!((found.sigma.value - 30.0).abs() < 1e-6);
+//! assert!((found.critical_alpha.value - 1.879427).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod interval;
+mod judge;
+mod least_squares;
+mod profile;
+mod projection;
+mod tip;
+
+pub use interval::Estimate;
+pub use judge::{Verdict, judge};
+pub use profile::{MOST_ROWS, Profile, ProfileError};
+pub use tip::{Candidate, Fitted, MeasuredTip, Request, TipError, tip};

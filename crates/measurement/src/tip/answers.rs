@@ -1,0 +1,92 @@
+//! What a footprint answers: its width, its onset, its trapping threshold.
+
+use super::search::Candidate;
+use stickslip_stability::{critical, trapping_alpha};
+use stickslip_tip::{Gaussian, TipFunction};
+
+/// Of a footprint with f(0) = 1, in units of σ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Answers {
+    /// In the unit of the positions.
+    pub(super) sigma: f64,
+    /// αc(r), its ω, and the least α of trapping.
+    pub(super) alpha: f64,
+    pub(super) omega: f64,
+    pub(super) trapping: f64,
+}
+
+/// Shares of the largest |f| that f(0) must have to measure f by.
+const LEAST_APEX: f64 = 0.05;
+
+/// The terms over σ and f(0), and σ.
+pub(super) fn normalised(
+    candidate: &Candidate,
+    sigma: Option<f64>,
+) -> Option<(Vec<Gaussian>, f64, f64)> {
+    let terms = candidate.gaussians();
+    let value = |x: f64| sum(&terms, x);
+    let reach = terms.iter().map(|g| g.center.abs() + 5.0 * g.width).fold(0.0, f64::max);
+    let samples = (0..=SAMPLES).map(|i| reach * f64::from(i) / f64::from(SAMPLES));
+    let largest = samples.clone().map(|x| value(x).abs()).fold(0.0, f64::max);
+    let apex = value(0.0);
+    if apex.abs() < LEAST_APEX * largest || !apex.is_finite() {
+        return None;
+    }
+    let sigma = match sigma {
+        Some(sigma) => sigma,
+        None => half_width(&value, apex, samples)? / (2.0 * std::f64::consts::LN_2).sqrt(),
+    };
+    let scaled = terms.iter().map(|g| Gaussian {
+        amplitude: g.amplitude / apex,
+        center: g.center / sigma,
+        width: g.width / sigma,
+    });
+    Some((scaled.collect(), sigma, apex))
+}
+
+/// Samples from the apex outwards.
+const SAMPLES: u32 = 2000;
+
+fn sum(terms: &[Gaussian], x: f64) -> f64 {
+    let term = |g: &Gaussian| {
+        let z = (x - g.center) / g.width;
+        g.amplitude * (-0.5 * z * z).exp()
+    };
+    terms.iter().map(term).sum()
+}
+
+/// Where f first falls to half of f(0).
+fn half_width(
+    value: &impl Fn(f64) -> f64,
+    apex: f64,
+    mut samples: impl Iterator<Item = f64>,
+) -> Option<f64> {
+    let is_above = |x: f64| value(x) / apex > 0.5;
+    let mut last = 0.0;
+    let (mut low, mut high) = samples.find_map(|x| {
+        let found = (!is_above(x)).then_some((last, x));
+        last = x;
+        found
+    })?;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if is_above(middle) { &mut low } else { &mut high }) = middle;
+    }
+    Some(0.5 * (low + high))
+}
+
+impl Answers {
+    /// σ, αc, ω and α of trapping.
+    pub(super) fn each(&self) -> [f64; 4] {
+        [self.sigma, self.alpha, self.omega, self.trapping]
+    }
+
+    /// `None` where the sum is no footprint, or has no onset.
+    pub(super) fn of(candidate: &Candidate, sigma: Option<f64>, r: f64) -> Option<Self> {
+        let (terms, sigma, _) = normalised(candidate, sigma)?;
+        let tip = TipFunction::gaussian_sum(terms).ok()?;
+        let at = critical(&tip, r).ok()?;
+        let trapping = trapping_alpha(&tip, r).unwrap_or(f64::NAN);
+        Some(Self { sigma, alpha: at.alpha, omega: at.omega, trapping })
+    }
+}

@@ -1,0 +1,122 @@
+//! What the noise may hide: a further Gaussian, so weak that the data do not ask for it.
+
+use super::answers::Answers;
+use super::search::Candidate;
+use super::shape::{Shape, pair};
+use crate::Profile;
+use crate::least_squares::{Residuals, squares};
+use crate::projection::project;
+
+/// Where such a Gaussian is tried, in widths of the first, and how wide it is.
+const PLACES: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
+const WIDTHS: [f64; 3] = [0.5, 0.8, 1.3];
+/// Its amplitude, in standard deviations with which the data would tell it.
+const DEVIATIONS: f64 = 2.0;
+/// Where the data would tell less of it than that, it is part of what is there already.
+const TOLD: f64 = 0.15;
+/// What is fitted moves by no more than this; a change by more is told in proportion, up to where what is fitted would
+/// become another sum, which is a matter of the resamples.
+const FAR: f64 = 0.05;
+const TOO_FAR: f64 = 0.6;
+
+/// By how much at most each answer changes, as a factor, if such a Gaussian is there and what is fitted makes way for
+/// it: [σ, αc, ω, α of trapping].
+pub(super) fn factors(
+    profile: &Profile,
+    (centre, sigma, r): (Option<f64>, Option<f64>, f64),
+    found: &Candidate,
+    effective: f64,
+) -> [f64; 4] {
+    let mut factors = [1.0; 4];
+    let shape = Shape::of(profile, centre, (found.terms, found.finest));
+    let searched = shape.searched(&found.places);
+    let Some(derivatives) = shape.derivatives(&found.residuals, &searched) else { return factors };
+    let Some(before) = Answers::of(found, sigma, r) else { return factors };
+    // Rows that hang together tell less.
+    let rows = profile.x().len() as f64;
+    let deviation = found.residual * (rows / effective).sqrt();
+    let width = found.places.terms[0].1;
+    let places = PLACES.iter().flat_map(|d| WIDTHS.iter().map(move |w| (d * width, w * width)));
+    for (d, w) in places {
+        let Some(hidden) = Hidden::at(&shape, (found, &searched, &derivatives), (d, w)) else {
+            continue;
+        };
+        let amplitude = (DEVIATIONS * deviation).min(TOO_FAR / hidden.farthest);
+        let share = (FAR / (amplitude * hidden.farthest)).min(1.0);
+        for sign in [-1.0, 1.0] {
+            let more = hidden.with(&shape, (found, &searched), sign * share * amplitude);
+            let Some(after) = Answers::of(&more, sigma, r) else { continue };
+            let ratios = after.each().into_iter().zip(before.each());
+            for (factor, (after, before)) in factors.iter_mut().zip(ratios) {
+                let change = ((after / before).ln().abs() / share).exp();
+                if change.is_finite() {
+                    *factor = factor.max(change);
+                }
+            }
+        }
+    }
+    factors
+}
+
+/// A Gaussian of unit length beside all that the fit can make up, and what makes way for it.
+struct Hidden {
+    place: (f64, f64),
+    /// Of the Gaussian.
+    amplitude: f64,
+    /// By how much what is fitted makes way: the linear part, and what is searched.
+    linear: Vec<f64>,
+    searched: Vec<f64>,
+    /// The largest of the latter.
+    farthest: f64,
+}
+
+impl Hidden {
+    fn at(
+        shape: &Shape,
+        (found, searched, derivatives): (&Candidate, &[f64], &[Vec<f64>]),
+        (d, w): (f64, f64),
+    ) -> Option<Self> {
+        let x = shape.profile.x();
+        let centre = found.places.centre;
+        let column =
+            |d: f64, w: f64| x.iter().map(|x| pair(x - centre, d, w)).collect::<Vec<f64>>();
+        let new = column(d, w);
+        let slope = x.iter().map(|x| (x - shape.middle) / shape.half).collect();
+        let mut columns = vec![vec![1.0; x.len()], slope];
+        columns.extend(found.places.terms.iter().map(|(d, w)| column(*d, *w)));
+        let linear = columns.len();
+        // The residuals fall where the fit rises.
+        columns.extend(derivatives.iter().map(|column| column.iter().map(|v| -v).collect()));
+        let left = project(&columns, &new)?;
+        let size = squares(&left.residuals).sqrt();
+        if size < TOLD * squares(&new).sqrt() {
+            return None;
+        }
+        let over = |c: &f64| c / size;
+        let moves: Vec<f64> = left.coefficients[linear..].iter().map(over).collect();
+        debug_assert_eq!(moves.len(), searched.len());
+        Some(Self {
+            place: (d, w),
+            amplitude: 1.0 / size,
+            linear: left.coefficients[2..linear].iter().map(over).collect(),
+            farthest: moves.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs())),
+            searched: moves,
+        })
+    }
+
+    /// The sum with so much of it.
+    fn with(
+        &self,
+        shape: &Shape,
+        (found, searched): (&Candidate, &[f64]),
+        amount: f64,
+    ) -> Candidate {
+        let moved: Vec<f64> =
+            searched.iter().zip(&self.searched).map(|(p, c)| p - amount * c).collect();
+        let mut places = shape.places(&moved);
+        places.terms.push(self.place);
+        let kept = found.amplitudes.iter().zip(&self.linear).map(|(b, c)| b - amount * c);
+        let amplitudes = kept.chain([amount * self.amplitude]).collect();
+        Candidate { terms: found.terms + 1, places, amplitudes, ..found.clone() }
+    }
+}

@@ -1,0 +1,74 @@
+//! What the noise of a profile leaves open: fits to profiles made of a fitted one and of its residuals, drawn anew
+//! (Efron's bootstrap), of sums of as many Gaussians as the data may have.
+
+use super::answers::Answers;
+use super::search::Candidate;
+use crate::Profile;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rayon::prelude::*;
+
+/// What profiles are drawn from.
+#[derive(Debug)]
+pub(super) struct Resampling<'a> {
+    pub(super) profile: &'a Profile,
+    pub(super) centre: Option<f64>,
+    pub(super) sigma: Option<f64>,
+    pub(super) r: f64,
+    /// Sums that may be what was measured.
+    pub(super) makers: Vec<&'a Candidate>,
+    /// Rows that are independent.
+    pub(super) effective: f64,
+    pub(super) seed: u64,
+}
+
+impl Resampling<'_> {
+    /// For each of the makers the answers of profiles made of it, each of as many as share `count` evenly; `None` for one
+    /// that has none.
+    pub(super) fn draw(&self, count: usize) -> Vec<Vec<Option<Answers>>> {
+        let each = count.div_ceil(self.makers.len());
+        let of = |(k, maker): (usize, &&Candidate)| {
+            let stream = |i: usize| (k * each + i) as u64;
+            (0..each).into_par_iter().map(|i| self.one(stream(i), maker)).collect()
+        };
+        self.makers.iter().enumerate().map(of).collect()
+    }
+
+    fn one(&self, stream: u64, maker: &Candidate) -> Option<Answers> {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        random.set_stream(stream);
+        let profile = self.drawn(maker, &mut random);
+        let fitted = maker.again(&profile, self.centre, self.effective)?;
+        Answers::of(&fitted, self.sigma, self.r)
+    }
+
+    /// A profile with residuals in blocks as long as they hang together.
+    fn drawn(&self, maker: &Candidate, random: &mut ChaCha8Rng) -> Profile {
+        let rows = self.profile.x().len();
+        let block = block(rows, self.effective);
+        let freedom = (rows - maker.parameters.min(rows - 1)) as f64;
+        let wider = (rows as f64 / freedom).sqrt();
+        let mean = maker.residuals.iter().sum::<f64>() / rows as f64;
+        let mut drawn: Vec<f64> = vec![];
+        while drawn.len() < rows {
+            let start = random.random_range(0..rows);
+            // Upside down as often as not: noise has no preference that a sum of Gaussians had left.
+            let sign = if random.random::<bool>() { wider } else { -wider };
+            let residual = |i: usize| sign * (maker.residuals[(start + i) % rows] - mean);
+            drawn.extend((0..block).map(residual));
+        }
+        let heights = self.profile.x().iter().zip(drawn).map(|(x, e)| maker.height(*x) + e);
+        self.profile.with(heights.collect())
+    }
+}
+
+/// Carlstein's (1986) length of blocks for residuals of which neighbours hang together.
+fn block(rows: usize, effective: f64) -> usize {
+    let share = effective / rows as f64;
+    let rho = (1.0 - share) / (1.0 + share);
+    let length = (2.0 * rho / (1.0 - rho * rho)).powf(2.0 / 3.0) * (rows as f64).cbrt();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let length = length as usize;
+    length.clamp(1, rows.div_ceil(8))
+}

@@ -1,0 +1,217 @@
+//! An even sum of Gaussians on a sloping ground, as a function of what is to be fitted.
+//!
+//! ```text
+//!     y(x) = o + s(x - x̄) + Σ_k a_k G_k(x - c),   G_k(x) = (e^{-(x-d_k)²/2w_k²} + e^{-(x+d_k)²/2w_k²})/2
+//! ```
+//!
+//! o, s and the `a_k` are linear and projected out; c, ln w and d are searched. The first term stands at d = 0.
+
+use crate::Profile;
+use crate::least_squares::Residuals;
+use crate::projection::{Projected, project};
+use stickslip_tip::Gaussian;
+
+/// The widths that data can tell: narrower ones pass between rows, wider ones are part of the ground.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Widths {
+    pub(super) least: f64,
+    pub(super) most: f64,
+}
+
+/// What is fitted to which data.
+#[derive(Debug, Clone)]
+pub(super) struct Shape<'a> {
+    pub(super) profile: &'a Profile,
+    /// Where f is even about, if that is known.
+    pub(super) centre: Option<f64>,
+    pub(super) widths: Widths,
+    /// Middle and half of the extent.
+    pub(super) middle: f64,
+    pub(super) half: f64,
+    pub(super) terms: usize,
+}
+
+/// c, and of each term d and w.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Places {
+    pub(super) centre: f64,
+    pub(super) terms: Vec<(f64, f64)>,
+}
+
+/// Of the mean distance of rows: a Gaussian that is narrower rests on a row or two.
+const LEAST_WIDTH: f64 = 1.5;
+/// Of the way from the centre to the end: where the profile ends, a footprint has faded, or nothing tells it from the
+/// ground.
+const MOST_WIDTH: f64 = 0.4;
+
+impl<'a> Shape<'a> {
+    /// With no width below `finest`, unless rows are too far apart for that.
+    pub(super) fn of(
+        profile: &'a Profile,
+        centre: Option<f64>,
+        (terms, finest): (usize, f64),
+    ) -> Self {
+        let (first, last) = profile.ends();
+        let extent = last - first;
+        let least = (LEAST_WIDTH * profile.spacing()).max(finest).min(0.1 * extent);
+        let way = centre.map_or(0.5 * extent, |c| (first - c).abs().max((last - c).abs()));
+        let most = (MOST_WIDTH * way).max(2.0 * least);
+        let widths = Widths { least, most };
+        let (middle, half) = (0.5 * (first + last), 0.5 * extent);
+        Self { profile, centre, widths, middle, half, terms }
+    }
+
+    /// How many numbers are fitted, the linear ones among them.
+    pub(super) fn count(&self) -> usize {
+        2 + usize::from(self.centre.is_none()) + 3 * self.terms - 1
+    }
+
+    /// What the search sees, of order 1: c and d over half of the extent, widths by how far they are between their
+    /// ends.
+    pub(super) fn searched(&self, places: &Places) -> Vec<f64> {
+        let mut found = vec![];
+        if self.centre.is_none() {
+            found.push((places.centre - self.middle) / self.half);
+        }
+        for (k, (d, w)) in places.terms.iter().enumerate() {
+            if k > 0 {
+                found.push(d / self.half);
+            }
+            let Widths { least, most } = self.widths;
+            let share = ((w / least).ln() / (most / least).ln()).clamp(1e-4, 1.0 - 1e-4);
+            found.push((share / (1.0 - share)).ln());
+        }
+        found
+    }
+
+    /// And back.
+    pub(super) fn places(&self, searched: &[f64]) -> Places {
+        let mut numbers = searched.iter();
+        let mut next = || numbers.next().copied().unwrap_or(0.0);
+        let centre = self.centre.unwrap_or_else(|| self.middle + self.half * next());
+        let terms = (0..self.terms).map(|k| {
+            let d = if k > 0 { (self.half * next()).abs() } else { 0.0 };
+            let share = 1.0 / (1.0 + (-next()).exp());
+            let Widths { least, most } = self.widths;
+            (d, least * (most / least).powf(share))
+        });
+        Places { centre, terms: terms.collect() }
+    }
+
+    /// The linear part there.
+    pub(super) fn projected(&self, places: &Places) -> Option<Projected> {
+        let x = self.profile.x();
+        let slope = x.iter().map(|x| (x - self.middle) / self.half).collect();
+        let mut columns = vec![vec![1.0; x.len()], slope];
+        columns.extend(
+            places.terms.iter().map(|(d, w)| {
+                x.iter().map(|x| pair(x - places.centre, *d, *w)).collect::<Vec<f64>>()
+            }),
+        );
+        project(&columns, self.profile.f())
+    }
+}
+
+/// G.
+pub(super) fn pair(x: f64, d: f64, w: f64) -> f64 {
+    let bell = |z: f64| (-0.5 * z * z).exp();
+    0.5 * (bell((x - d) / w) + bell((x + d) / w))
+}
+
+/// ∂G/∂c, ∂G/∂d and ∂G/∂ln w at distance x from c.
+fn pair_slopes(x: f64, d: f64, w: f64) -> [f64; 3] {
+    let (y, z) = ((x - d) / w, (x + d) / w);
+    let (a, b) = (0.5 * (-0.5 * y * y).exp(), 0.5 * (-0.5 * z * z).exp());
+    [(y * a + z * b) / w, (y * a - z * b) / w, y * y * a + z * z * b]
+}
+
+impl Residuals for Shape<'_> {
+    fn at(&self, searched: &[f64]) -> Option<Vec<f64>> {
+        self.projected(&self.places(searched)).map(|found| found.residuals)
+    }
+
+    fn derivatives(&self, _: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let places = self.places(searched);
+        let found = self.projected(&places)?;
+        let x = self.profile.x();
+        let Widths { least, most } = self.widths;
+        let mut by_centre = vec![0.0; x.len()];
+        let mut columns = vec![];
+        for (k, ((d, w), a)) in places.terms.iter().zip(&found.coefficients[2..]).enumerate() {
+            let share = (w / least).ln() / (most / least).ln();
+            let by_share = a * (most / least).ln() * share * (1.0 - share);
+            // Searched is d with a sign, of which nothing depends.
+            let side = (k > 0).then(|| searched[searched.len() - 2 * (self.terms - k)].signum());
+            let by_place = a * self.half * side.unwrap_or(1.0);
+            let (mut of_place, mut of_width) = (vec![], vec![]);
+            for (x, sum) in x.iter().zip(&mut by_centre) {
+                let [c, d, ln_w] = pair_slopes(x - places.centre, *d, *w);
+                *sum += a * self.half * c;
+                of_place.push(-by_place * d);
+                of_width.push(-by_share * ln_w);
+            }
+            if k > 0 {
+                columns.push(found.beyond(of_place));
+            }
+            columns.push(found.beyond(of_width));
+        }
+        if self.centre.is_none() {
+            let by_centre = by_centre.into_iter().map(|v| -v).collect();
+            columns.insert(0, found.beyond(by_centre));
+        }
+        Some(columns)
+    }
+}
+
+/// The Gaussians of Σ `a_k` `G_k`, twins apart.
+pub(super) fn gaussians(places: &Places, amplitudes: &[f64]) -> Vec<Gaussian> {
+    let terms = places.terms.iter().zip(amplitudes);
+    terms
+        .flat_map(|((d, width), a)| {
+            let at = |amplitude, center| Gaussian { amplitude, center, width: *width };
+            // Twins closer than a thousandth of their width are one.
+            if *d <= 1e-3 * width {
+                vec![at(*a, 0.0)]
+            } else {
+                vec![at(0.5 * a, -d), at(0.5 * a, *d)]
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::least_squares::differences;
+
+    /// Against differences, where the sum follows the data: there Kaufman's derivative is exact.
+    #[test]
+    fn derivatives_are_those_of_the_residuals() {
+        let x: Vec<f64> = (0..80).map(|i| 0.2 * f64::from(i) - 7.0).collect();
+        let places = Places { centre: 0.8, terms: vec![(0.0, 1.1), (2.5, 0.7), (1.0, 2.0)] };
+        let height = |x: &f64| {
+            let g = |k: usize| pair(x - 0.8, places.terms[k].0, places.terms[k].1);
+            3.0 + 0.1 * x + 2.0 * g(0) - 0.8 * g(1) + 0.3 * g(2)
+        };
+        let profile = Profile::new(x.clone(), x.iter().map(height).collect()).unwrap();
+        for centre in [None, Some(0.8)] {
+            let shape = Shape::of(&profile, centre, (3, 0.0));
+            let mut searched = shape.searched(&places);
+            assert_eq!(searched.len() + 5, shape.count());
+            let second = searched.len() - 2;
+            searched[second] = -searched[second];
+            assert_eq!(shape.places(&searched).terms.len(), 3);
+            let here = shape.at(&searched).unwrap();
+            assert!(here.iter().all(|v| v.abs() < 1e-8));
+            let told = shape.derivatives(&here, &searched).unwrap();
+            let seen = differences(&shape, (&here, &searched), 1e-5).unwrap();
+            assert_eq!(told.len(), seen.len());
+            for (told, seen) in told.iter().zip(&seen) {
+                let size = seen.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+                for (told, seen) in told.iter().zip(seen) {
+                    assert!((told - seen).abs() < 1e-6 * size.max(1e-3), "{told} {seen}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The series of a step, from what memory, surface and forces tell where the tip is.
+
+use super::super::Integrator;
+use super::chain::Acting;
+use crate::memory::{Memory, SteadyPast};
+
+impl<M: Memory> Integrator<'_, M> {
+    /// The series from here on; false where there is none.
+    pub(super) fn look_ahead(&mut self) -> bool {
+        let order = self.taylor.order;
+        if self.model.wider().depth_limit.is_some() {
+            return false;
+        }
+        let Some(jet) = self.surface.jet_on(&self.stretch, self.position()) else { return false };
+        let steady = self.steady_past();
+        let told = &mut self.taylor.told;
+        if !self.memory.derivatives(steady.as_ref(), order + 1, told) {
+            return false;
+        }
+        if let Some(steady) = steady {
+            told.farthest = told.farthest.max(-steady.distance);
+        }
+        let age = self.t - self.start;
+        let relief = self.model.wider().left_after(age);
+        let alpha = self.model.alpha();
+        let groove = (&told.past, &told.of_tip);
+        self.taylor.chain.start((order, false), alpha, groove, jet.map(|jet| relief * jet));
+        if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
+            return false;
+        }
+        let wider = self.model.wider();
+        let acting = Acting {
+            spring: if wider.spring { 1.0 } else { 0.0 },
+            support: self.support.velocity(self.t),
+            healing: wider.healing_time.map_or(0.0, |time| 1.0 / time),
+            inertia: wider.inertia.map(|mass| (mass, self.velocity)),
+            extension: self.extension,
+            depth: None,
+        };
+        self.taylor.chain.run(&acting);
+        true
+    }
+
+    /// What is left of the steady past that the run began with, as far as it can be felt.
+    fn steady_past(&self) -> Option<SteadyPast> {
+        if self.stretch.flat {
+            return None;
+        }
+        let distance = self.position() - self.surface.steady_position()?;
+        let wider = self.model.wider();
+        let weight = self.taylor.steady_weight * wider.left_after(self.t - self.start);
+        let healing = wider.healing_time.map_or(0.0, |time| 1.0 / time);
+        Some(SteadyPast { distance, velocity: self.model.r(), healing, weight })
+    }
+}

@@ -1,0 +1,81 @@
+//! How long a step by series is to be.
+
+use super::super::Integrator;
+use super::chain::MOST_ORDER;
+use super::pieces::{self, MOST_PIECES};
+use super::values::{Outlook, Scaled};
+use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
+use crate::memory::Memory;
+use crate::step;
+
+/// A step by series, before it is made.
+pub(super) struct Plan {
+    pub(super) length: f64,
+    pub(super) pieces: usize,
+    /// The displacement over the length `over`.
+    pub(super) scaled: Scaled,
+    pub(super) over: f64,
+    /// Displacement per time at its fastest, about.
+    pub(super) fastest: f64,
+}
+
+/// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
+const SHARE_OF_INTERPOLATION: f64 = 0.1;
+/// A piece leads no farther than this part of what a step of collocation may,
+const REACH_OF_PIECE: f64 = 0.7;
+/// and a step than so many pieces.
+const FARTHEST: f64 = 3.0;
+
+impl<M: Memory> Integrator<'_, M> {
+    /// How long a step, in how many pieces; `None` where collocation gets farther.
+    pub(super) fn plan(&mut self, end: f64) -> Option<Plan> {
+        let displacement = self.taylor.chain.displacement();
+        let error = SHARE_OF_SERIES * self.control.target();
+        let mut over = length::length(displacement, error).min(self.force.longest_step(self.t));
+        if let Some(mass) = self.model.wider().inertia {
+            // An error of the velocity leads so far astray before friction has used it up.
+            let coasting = displacement.iter().zip(0_u32..).map(|(c, k)| mass * f64::from(k) * c);
+            let mut coefficients = [0.0; MOST_ORDER + 1];
+            coefficients.iter_mut().zip(coasting).for_each(|(c, coasting)| *c = coasting);
+            over = over.min(length::length(&coefficients[1..displacement.len()], error));
+        }
+        let limited = self.reach_of_piece();
+        let longest = (FARTHEST * limited).min(self.taylor.visits.farthest());
+        let mut scaled = Scaled::new(displacement, over);
+        let mut outlook = Outlook::of(&scaled);
+        for _ in 0..MOST_SHORTENINGS {
+            let moved = outlook.moved.abs();
+            if moved <= longest {
+                break;
+            }
+            let part = (0.9 * longest / moved).max(0.3);
+            (over, scaled) = (part * over, scaled.over(part));
+            outlook = Outlook::of(&scaled);
+        }
+        let piece = pieces::longest(&outlook, SHARE_OF_INTERPOLATION * self.control.tolerance());
+        let piece = piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
+        let piece = over * piece;
+        let length = over.min(MOST_PIECES as f64 * piece);
+        let stiffness = length * self.fastest(-self.taylor.chain.curvature());
+        if self.taylor.switch.leaves(stiffness, self.taylor.order) {
+            return None;
+        }
+        // As in collocation: the end is met, or enough left for another step.
+        let distance = end - self.t;
+        let length = if length >= distance * (1.0 - 1e-9) {
+            distance
+        } else if 2.0 * length > distance {
+            0.5 * distance
+        } else {
+            length
+        };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
+        Some(Plan { length, pieces, scaled, over, fastest: outlook.fastest / over })
+    }
+
+    /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.
+    fn reach_of_piece(&self) -> f64 {
+        REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
+    }
+}

@@ -1,0 +1,194 @@
+//! A series at fixed parts of a step: a table of powers times its coefficients, side by side, where Horner's rule would
+//! wait for each product.
+
+use super::chain::MOST_ORDER;
+use crate::collocation::STAGES;
+use multiversion::multiversion;
+use std::sync::LazyLock;
+
+/// Points that are summed side by side.
+pub(super) const BLOCK: usize = 8;
+type Block = [f64; BLOCK];
+const LANES: usize = 4;
+/// Coefficients, with room to fill the lanes.
+const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
+
+/// k
+const ORDERS: [f64; WIDTH] = {
+    let mut orders = [0.0; WIDTH];
+    let mut k = 0;
+    while k < WIDTH {
+        orders[k] = k as f64;
+        k += 1;
+    }
+    orders
+};
+
+/// Coefficients of powers of the part of a step: `c_k h^k`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scaled {
+    order: usize,
+    coefficients: [f64; WIDTH],
+}
+
+impl Scaled {
+    /// Of powers of time, over a step of this length.
+    pub(super) fn new(coefficients: &[f64], length: f64) -> Self {
+        let mut scaled = Self { order: coefficients.len() - 1, coefficients: [0.0; WIDTH] };
+        scaled.coefficients[..coefficients.len()].copy_from_slice(coefficients);
+        scaled.over(length)
+    }
+
+    /// The derivative at the end of the step, per step.
+    pub(super) fn slope_at_end(&self) -> f64 {
+        let mut sums = [0.0; LANES];
+        let groups = self.coefficients.as_chunks::<LANES>().0.iter();
+        for (coefficients, orders) in groups.zip(ORDERS.as_chunks::<LANES>().0) {
+            for i in 0..LANES {
+                sums[i] += orders[i] * coefficients[i];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// Over this part of the step, or beyond.
+    pub(super) fn over(mut self, part: f64) -> Self {
+        let square = part * part;
+        let mut power = [1.0, part, square, square * part];
+        let fourth = square * square;
+        for group in self.coefficients.as_chunks_mut::<LANES>().0 {
+            for i in 0..LANES {
+                group[i] *= power[i];
+                power[i] *= fourth;
+            }
+        }
+        self
+    }
+}
+
+/// What each coefficient counts for in sums, `BLOCK` of them side by side.
+#[derive(Debug, Clone)]
+pub(super) struct Table {
+    blocks: Vec<[Block; MOST_ORDER + 1]>,
+}
+
+impl Table {
+    /// Sum n counts the k-th coefficient `of(n, k)` times.
+    pub(super) fn new(sums: usize, of: impl Fn(usize, usize) -> f64) -> Self {
+        let entry = |n: usize, k: usize| if n < sums { of(n, k) } else { 0.0 };
+        let row = |b: usize, k: usize| std::array::from_fn(|i| entry(b * BLOCK + i, k));
+        let block = |b: usize| std::array::from_fn(|k| row(b, k));
+        Self { blocks: (0..sums.div_ceil(BLOCK)).map(block).collect() }
+    }
+
+    /// Values of the polynomial at these parts of the step.
+    pub(super) fn of_parts(parts: &[f64]) -> Self {
+        Self::new(parts.len(), |n, k| parts[n].powi(k as i32))
+    }
+
+    /// The sums, as many as there is room for.
+    pub(super) fn sums(&self, scaled: &Scaled, sums: &mut [f64]) {
+        let rows = scaled.order + 1;
+        for (block, sums) in self.blocks.iter().zip(sums.chunks_mut(BLOCK)) {
+            let found = block_of_sums(&block[..rows], &scaled.coefficients[..rows]);
+            sums.copy_from_slice(&found[..sums.len()]);
+        }
+    }
+}
+
+/// Even and odd rows in sums of their own: in this order on every machine.
+#[multiversion(targets("x86_64+avx2"))]
+fn block_of_sums(rows: &[Block], coefficients: &[f64]) -> Block {
+    let (mut even, mut odd) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let (rows, last) = rows.as_chunks::<2>();
+    let (pairs, rest) = coefficients.as_chunks::<2>();
+    for ([first, second], [a, b]) in rows.iter().zip(pairs) {
+        for i in 0..BLOCK {
+            even[i] += a * first[i];
+            odd[i] += b * second[i];
+        }
+    }
+    for (row, coefficient) in last.iter().zip(rest) {
+        for i in 0..BLOCK {
+            even[i] += coefficient * row[i];
+        }
+    }
+    std::array::from_fn(|i| even[i] + odd[i])
+}
+
+/// What is asked of a series before it is made a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outlook {
+    /// Of x0, over the whole step.
+    pub(super) moved: f64,
+    /// Displacement per step at its fastest: at the start, in the middle, or at the end.
+    pub(super) fastest: f64,
+    /// The largest divided difference of order s + 1, at four points: what interpolation leaves out.
+    pub(super) steepest: f64,
+}
+
+impl Outlook {
+    pub(super) fn of(scaled: &Scaled) -> Self {
+        let mut sums = [0.0; BLOCK];
+        OUTLOOK.sums(scaled, &mut sums);
+        let largest = |sums: &[f64]| sums.iter().fold(0.0, |most: f64, sum| most.max(sum.abs()));
+        let (fastest, steepest) = (largest(&sums[1..4]), largest(&sums[4..]));
+        Self { moved: sums[0], fastest, steepest }
+    }
+}
+
+static OUTLOOK: LazyLock<Table> = LazyLock::new(|| {
+    Table::new(BLOCK, |n, k| match n {
+        0 => 1.0,
+        1..=3 => slope(0.5 * (3 - n) as f64, k),
+        _ => difference((n - 4) as f64 / 3.0, k),
+    })
+});
+
+/// Of τ^k.
+fn slope(tau: f64, k: usize) -> f64 {
+    if k == 0 { 0.0 } else { k as f64 * tau.powi(k as i32 - 1) }
+}
+
+/// The derivative of τ^k of order s + 1, over (s + 1)!.
+fn difference(tau: f64, k: usize) -> f64 {
+    let n = STAGES + 1;
+    let binomial = |k: usize| (1..=n).fold(1.0, |b, i| b * (k - n + i) as f64 / i as f64);
+    if k < n { 0.0 } else { binomial(k) * tau.powi((k - n) as i32) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1/(1 + t) - 1, and its derivatives, in closed form.
+    fn coefficients() -> Vec<f64> {
+        (0..=MOST_ORDER).map(|k| if k == 0 { 0.0 } else { (-1.0_f64).powi(k as i32) }).collect()
+    }
+
+    #[test]
+    fn sums_are_values_of_the_polynomial() {
+        let parts: Vec<f64> = (1..=11).map(|i| f64::from(i) / 11.0).collect();
+        let (table, length) = (Table::of_parts(&parts), 0.2);
+        let scaled = Scaled::new(&coefficients(), 0.1).over(2.0);
+        let mut sums = [0.0; 11];
+        table.sums(&scaled, &mut sums);
+        for (part, sum) in parts.iter().zip(sums) {
+            let exact = 1.0 / (1.0 + part * length) - 1.0;
+            assert!((sum - exact).abs() < 1e-14, "{part}: {sum} {exact}");
+        }
+    }
+
+    #[test]
+    fn an_outlook_is_that_of_the_function() {
+        let length: f64 = 0.2;
+        let scaled = Scaled::new(&coefficients(), length);
+        let Outlook { moved, fastest, steepest } = Outlook::of(&scaled);
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
+        close(moved, 1.0 / (1.0 + length) - 1.0);
+        close(scaled.slope_at_end(), -length / (1.0 + length).powi(2));
+        close(fastest, length);
+        // Derivatives of 1/(1 + t), at the start the largest.
+        close(steepest, length.powi(7));
+    }
+}

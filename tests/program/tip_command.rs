@@ -1,0 +1,113 @@
+//! `stickslip tip`: profiles as instruments write them, in, tip files that every command takes, out.
+
+use crate::folder::{Folder, said};
+
+/// exp(-x²/2) of width 30 nm, 12 nm deep, off centre, tilted, with noise of 1 % made by a fixed rule.
+fn profile(rows: i32, heading: &str) -> String {
+    let mut state = 12_345_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / f64::from(u32::MAX) - 0.5
+    };
+    let mut text = format!("# AFM\n{heading}\n");
+    for i in 0..rows {
+        let x = 300.0 * f64::from(i) / f64::from(rows - 1) - 140.0 + random();
+        let noise = 0.12 * 12_f64.sqrt() * random();
+        let height = 3.0 + 0.01 * x - 12.0 * (-0.5 * ((x - 7.0) / 30.0_f64).powi(2)).exp() + noise;
+        text += &format!("{x}\t{height}\n");
+    }
+    text
+}
+
+#[test]
+fn a_profile_becomes_a_tip_file_that_every_command_takes() {
+    let folder = Folder::new("tip_command");
+    folder.write("pit.txt", profile(150, "x_nm\tz_nm"));
+    let output = folder.stickslip("tip pit.txt --resamples 60 -o tip.json --plot tip.svg");
+    assert!(output.status.success(), "{}", said(&output));
+    let tip = folder.json("tip.json");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    assert!((number(&tip["sigma"]["value"]) - 30.0).abs() < 1.0, "{}", tip["sigma"]);
+    assert!((number(&tip["sigma_metres"]) * 1e9 - number(&tip["sigma"]["value"])).abs() < 1e-9);
+    assert!((number(&tip["centre"]) - 7.0).abs() < 1.0);
+    assert!((number(&tip["apex"]) + 12.0).abs() < 0.5);
+    let alpha = &tip["critical_alpha"];
+    assert!(number(&alpha["low"]) <= 1.879_427 && number(&alpha["high"]) >= 1.879_426, "{alpha}");
+    assert!(String::from_utf8(folder.read("tip.svg")).unwrap().contains("nm"));
+    // f(0) = 1 to the last digits, and the onset said is that of the file.
+    let stability = folder.prints_json("stability --tip-file tip.json --r 1");
+    let at = number(&stability["critical"]["alpha"]);
+    assert!((at / number(&alpha["value"]) - 1.0).abs() < 1e-12, "{at} {alpha}");
+    for line in [
+        "run --tip-file tip.json --alpha-above 0.1 --r 1 --kick 0.1 --until 40",
+        "cycle --tip-file tip.json --alpha-above 0.1 --r 1",
+        "boundary --tip-file tip.json --r-range 0.5:1:3",
+        "sweep --tip-file tip.json --r 1 --alpha 1:2:2",
+        "plot tip.json -o again.svg",
+    ] {
+        let output = folder.stickslip(line);
+        assert!(output.status.success(), "{line}: {}", said(&output));
+    }
+    assert_eq!(folder.read("tip.svg"), folder.read("again.svg"));
+    // The same input, the same bytes.
+    folder.prints("tip pit.txt --resamples 60 -o again.json");
+    assert_eq!(folder.read("tip.json"), folder.read("again.json"));
+}
+
+#[test]
+fn what_is_no_profile_is_refused_with_what_would_do() {
+    let folder = Folder::new("tip_refusals");
+    folder.write("pit.csv", profile(60, "x,z"));
+    folder.write("three.csv", "1,2,3\n4,5,6\n");
+    folder.write("few.csv", "0,1\n1,0.5\n2,0\n");
+    let noise: String = (0..60).map(|i| format!("{i},{}\n", (i * 7919) % 13)).collect();
+    folder.write("noise.csv", noise);
+    for (line, words) in [
+        ("tip three.csv", ["three.csv", "two columns"]),
+        ("tip few.csv", ["3 rows", "12"]),
+        ("tip noise.csv", ["no footprint", "noise.csv"]),
+        ("tip pit.csv --sigma 30nm", ["--sigma 30nm", "--unit"]),
+        ("tip pit.csv --unit apples", ["--unit apples", "nm"]),
+        ("tip pit.csv --r 0", ["--r 0", "above 0"]),
+        ("tip pit.csv --terms 0", ["--terms 0", "1 or more"]),
+        ("tip absent.csv", ["absent.csv", "cannot be read"]),
+    ] {
+        let output = folder.stickslip(line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
+        assert!(output.stdout.is_empty(), "{line}");
+        for word in words {
+            assert!(said(&output).contains(word), "{line}: {}", said(&output));
+        }
+    }
+}
+
+/// A Gaussian with 2 % of noise, its last row 0: as a table it would have αc = 0.5 or so for 1.88.
+#[test]
+fn a_table_that_noise_decides_is_refused_with_the_command_that_helps() {
+    let folder = Folder::new("noisy_table");
+    let mut state = 4_321_u32;
+    let mut table = |noise: f64| {
+        let row = |i: i32| {
+            let x = 0.1 * f64::from(i);
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let off = noise * (2.0 * f64::from(state) / f64::from(u32::MAX) - 1.0);
+            format!("{x},{}\n", if i == 80 { 0.0 } else { (-0.5 * x * x).exp() + off })
+        };
+        (0..=80).map(row).collect::<String>()
+    };
+    folder.write("noisy.csv", table(0.04));
+    folder.write("clean.csv", table(0.0));
+    for line in ["stability --r 1", "run --alpha 1 --r 1 --until 20", "cycle --alpha 2 --r 1"] {
+        let output = folder.stickslip(&format!("{line} --tip-file noisy.csv"));
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
+        for word in ["noise", "stickslip tip noisy.csv"] {
+            assert!(said(&output).contains(word), "{}", said(&output));
+        }
+    }
+    folder.prints("tip noisy.csv --half --resamples 40 -o tip.json");
+    let fitted = folder.prints_json("stability --r 1 --tip-file tip.json");
+    let clean = folder.prints_json("stability --r 1 --tip-file clean.csv");
+    let alpha = |document: &serde_json::Value| document["critical"]["alpha"].as_f64().unwrap();
+    // σ is found from the profile: a Gaussian has the same αc in its own.
+    assert!((alpha(&fitted) / alpha(&clean) - 1.0).abs() < 0.05, "{}", alpha(&fitted));
+}

@@ -28,7 +28,6 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
-<<<<<<< HEAD
 test-python: ## the Python package in a clean environment: the program's numbers, stubs, examples; PYTHONS names interpreters
 	crates/python/test $(PYTHONS)
 
@@ -39,10 +38,7 @@ test-slurm: ## examples/slurm with a controller and a node of Slurm started here
 wheel: ## the Python package for Linux of glibc 2.28 and later, in target/wheels
 	crates/python/wheel
 
-survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals
-=======
 survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles
->>>>>>> main
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
 

@@ -23,11 +23,8 @@ mod stability;
 mod start;
 mod surface;
 mod sweep;
-<<<<<<< HEAD
 mod sweep_start;
-=======
 mod tip;
->>>>>>> main
 mod units;
 mod verify;
 

@@ -25,6 +25,7 @@ from ._commands import (
     sweep,
     sweep_merge,
     sweep_raster,
+    tip,
     units,
     verify,
 )
@@ -78,6 +79,7 @@ __all__ = [
     "sweep",
     "sweep_merge",
     "sweep_raster",
+    "tip",
     "units",
     "verify",
 ]

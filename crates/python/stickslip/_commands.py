@@ -119,6 +119,15 @@ def raster():
     """An area scanned line by line: ``lines`` with their samples, the ``pattern`` of ripples that comes of it."""
 
 
+@command("tip")
+def tip():
+    """A footprint from a measured profile: noisy, tilted, off centre, in nanometres; a file or columns (x, z), of which a
+    DataFrame's names may have units.
+
+    ``gaussians`` is f with f(0) = 1, ``sigma`` its width; what noise leaves open is ``low`` and ``high`` of each estimate. The
+    result is a tip: ``run(tip=stickslip.tip("pit.csv"), ...)``."""
+
+
 @command("compare")
 def compare():
     """The same run on the full PDE, on grids of four kinds: ``max_difference``, times, and both motions."""

@@ -152,7 +152,13 @@ def supplied(name, value):
         return value._document
     if isinstance(value, dict):
         return json.dumps(value, default=plain)
-    return _native.csv(columns(name, value))
+    return heading(value) + _native.csv(columns(name, value))
+
+
+def heading(value):
+    """The names of the columns of a DataFrame, where they are words: some commands read units off them."""
+    names = list(getattr(value, "columns", [])) if hasattr(value, "to_numpy") else []
+    return ",".join(names) + "\n" if names and all(isinstance(name, str) for name in names) else ""
 
 
 def plain(value):

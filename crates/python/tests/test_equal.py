@@ -77,6 +77,21 @@ def test_a_tip_from_a_dict_is_that_of_a_file(shell, tmp_path):
     assert timeless(mine.to_dict()) == timeless(shell("run --tip-file tip.json --alpha 0.5 --r 1 --until 40"))
 
 
+def test_a_measured_tip_is_that_of_its_file_and_is_a_tip(shell, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    x = np.linspace(-120, 120, 161)
+    noise = np.random.default_rng(5).normal(0, 0.02, x.size)
+    pit = pandas.DataFrame({"x_nm": x, "z_nm": -8 * np.exp(-(x**2) / 1800) + noise})
+    pit.to_csv(tmp_path / "pit.csv", index=False)
+    mine = stickslip.tip(pit, resamples=20)
+    program = shell("tip pit.csv --resamples 20")
+    program["parameters"]["source"] = mine.parameters.source = "<measured>"
+    assert timeless({**mine.to_dict(), "parameters": program["parameters"]}) == timeless(program)
+    assert mine.parameters.unit == "nm"
+    run = stickslip.run(tip=mine, alpha=0.5, r=1, until=30)
+    assert run.parameters.tip.gaussians[0].width == mine.gaussians[0].width
+
+
 def test_attributes_are_the_numbers_of_the_document(shell):
     line = "run --alpha 1.2 --r 1 --kick 0.05 --until 400"
     mine, program = stickslip.run(alpha=1.2, r=1, kick=0.05, until=400), shell(line)

@@ -16,7 +16,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 
 .DEFAULT_GOAL := help
 .PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision figures peers fuzz doc \
-	install clean
+	install site test-site clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -87,6 +87,14 @@ doc: ## the libraries' documentation, in target/doc
 
 install: ## put `stickslip` among cargo's binaries
 	$(CARGO) install --locked --path .
+
+site: ## the page to play with, in one file: target/site/play.html (needs node and a standard library for wasm32)
+	.ci/site
+
+test-site: ## the page in a Chromium beside the program: values, speed, keys, a phone; pictures in target/site-shots
+	.ci/site
+	$(CARGO) build --release --locked
+	cd crates/web && node --test test/page.test.mjs
 
 clean: ## remove what building made
 	$(CARGO) clean

@@ -2,13 +2,11 @@
 //!
 //! Judged by `data/stability_reference.json` (mpmath, 40 digits) and by the printed equations.
 
-mod tables;
-
+use crate::tables::records;
 use gauss_quad::GaussLegendre;
 use num_complex::Complex64;
 use stickslip_stability::{certify, critical, leading_roots, roots, unstable_count};
 use stickslip_tip::{Gaussian, Model, TipFunction};
-use tables::records;
 
 fn model(beta: f64, alpha: f64, r: f64) -> Model {
     let tip = TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip");

@@ -3,13 +3,11 @@
 //! Judged by `data/stability_reference.json` (mpmath, 40 digits, f'' integrated numerically), by the
 //! paper's closed forms for J0, and by counting unstable roots, which shares only G with what it judges.
 
-mod tables;
-
+use crate::tables::records;
 use stickslip_stability::{
     Boundary, StabilityError, creep, critical, critical_r, trapping_alpha, unstable_count,
 };
 use stickslip_tip::{Gaussian, Model, TipFunction};
-use tables::records;
 
 const TABLE: &str = "stability_reference.json";
 

@@ -1,8 +1,6 @@
 //! The density that grows, is cut into windows, and changes its origin.
 
-mod common;
-
-use common::{J0, TOLERANCE, TRIPLE_SLOPE, accept, magnitude, peak, uniform, worst};
+use crate::common::{J0, TOLERANCE, TRIPLE_SLOPE, accept, magnitude, peak, uniform, worst};
 use stickslip_convolution::{Convolver, Density, Field, direct_sum};
 
 const MARGIN: f64 = 4.0;

@@ -3,11 +3,9 @@
 //! Judged by `data/onset_reference.json`: limit cycles of (18) solved in full by harmonic balance at
 //! α - αc down to 1e-4 and extrapolated; nothing of the expansion is used there.
 
-mod tables;
-
+use crate::tables::records;
 use stickslip_stability::{Criticality, critical, onset};
 use stickslip_tip::TipFunction;
-use tables::records;
 
 #[test]
 fn amplitude_and_period_grow_with_the_slopes_of_the_limit_cycles() {

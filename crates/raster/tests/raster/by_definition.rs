@@ -12,9 +12,7 @@ use stickslip_tip::{
     Footprint, Gaussian2d, InitialSurface, Model, Relief, Running, TipFunction, Wider,
 };
 
-mod definition;
-
-use definition::{Definition, Formula, given};
+use crate::definition::{Definition, Formula, given};
 
 fn scanned(plan: &Plan) -> Vec<Line> {
     let mut scanning = Scanning::new(plan).unwrap();

@@ -1,10 +1,8 @@
 //! The window's polynomials and transform against its formula.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::accept;
+use crate::common::accept;
 use gauss_quad::GaussLegendre;
 use stickslip_convolution::Window;
 

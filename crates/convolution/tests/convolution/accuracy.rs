@@ -1,8 +1,6 @@
 //! Fast sums against the definition.
 
-mod common;
-
-use common::{
+use crate::common::{
     Case, GAUSS_SLOPE, J0, J1, TOLERANCE, TRIPLE, TRIPLE_SLOPE, accept, magnitude, peak, uniform,
     worst,
 };

@@ -200,7 +200,7 @@ fn without_a_spring_stability_lists_steady_walks() {
     assert_eq!(walks[0]["stable"], false);
     let resting = folder.prints_json(&lorenz.replace("-28", "-0.9"));
     assert!(resting["walks"].as_array().unwrap().is_empty(), "{resting}");
-    let table = folder.prints(&format!("{lorenz} --format csv"));
+    let table = String::from_utf8(folder.prints(&format!("{lorenz} --format csv"))).unwrap();
     assert!(table.starts_with("speed,re,im\n") && table.lines().count() == 5, "{table}");
     folder.refuses(&format!("{lorenz} --pitch 1"), &["--pitch", "--no-spring"]);
     folder.refuses(&format!("{lorenz} --re-above=-3"), &["--re-above -3", "--roots"]);

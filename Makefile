@@ -26,7 +26,7 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
-survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles, 800 fitted ripples
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
 

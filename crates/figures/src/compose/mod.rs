@@ -6,6 +6,7 @@ mod continuation;
 mod cycle;
 mod dense;
 mod drawn;
+mod fit;
 mod labels;
 mod measured_tip;
 mod raster;
@@ -23,7 +24,7 @@ use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
+    FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
     Unusable, read_from, told,
@@ -76,7 +77,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 17] = [
+pub const FORMATS: [&str; 18] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -93,6 +94,7 @@ pub const FORMATS: [&str; 17] = [
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
+    FitDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -154,6 +156,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterStabilityDocument,
         RasterBoundaryDocument,
         MeasuredTipDocument,
+        FitDocument,
         FigureDocument
     )
 }

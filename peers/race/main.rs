@@ -2,10 +2,12 @@
 //! crate differential-equations. `peers/race.py` runs it and the others, and makes the table.
 //!
 //! `race reference` prints the case and its reference solution, `race rows` a row per contestant and
-//! setting: seconds, largest error of l, and the span of time that was run.
+//! setting: seconds, largest error of l, and the span of time that was run. `race embedded` and `race embedded-rows` do the
+//! same for those who know the embedding.
 
 mod case;
 mod delay_crate;
+mod embedded;
 mod grids;
 mod memories;
 
@@ -23,7 +25,9 @@ fn main() {
             rows.extend(grids::rows(&reference));
             Value::Array(rows)
         }
-        _ => panic!("usage: race reference|rows"),
+        Some("embedded") => embedded::document(),
+        Some("embedded-rows") => Value::Array(embedded::rows()),
+        _ => panic!("usage: race reference|rows|embedded|embedded-rows"),
     };
     println!("{document}");
 }

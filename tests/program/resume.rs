@@ -108,7 +108,7 @@ fn every_memory_goes_on_to_the_last_bit() {
 }
 
 /// What a run keeps, in words of its state, is bounded: on slips, on a tip that creeps for ever, and on one
-/// that does nothing at all. (crates/tip/tests/fft_bounded.rs has the same of the density of `fft`.)
+/// that does nothing at all. (crates/tip/tests/tip/fft_bounded.rs has the same of the density of `fft`.)
 #[test]
 fn what_a_run_keeps_does_not_grow() {
     for (alpha, kick) in [(1.2, 0.05), (4.0, 0.01), (0.8, 0.0)] {

@@ -169,8 +169,8 @@ fn kill_all(kills_each: u32, seed: u64) -> u32 {
 
 #[test]
 fn killed_runs_resume_to_the_same_bytes() {
-    let kills = kill_all(4, 1);
-    assert!(kills >= 14, "only {kills} came before the end");
+    let kills = kill_all(2, 1);
+    assert!(kills >= 7, "only {kills} came before the end");
 }
 
 /// As many kills as the project promises to survive: some minutes.

@@ -24,6 +24,7 @@ mod stability;
 mod start;
 mod surface;
 mod sweep;
+mod sweep_start;
 mod tip;
 mod units;
 mod verify;

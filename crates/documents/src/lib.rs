@@ -107,7 +107,11 @@ pub use stability::{
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
 };
-pub use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
+pub use sweep::{
+    AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
+    StatisticsDocument, SweepDocument, SweepParameters, SweepPoint, SweepRunParameters,
+    SweepStartName,
+};
 pub use table::{Array, Column, Named, Tabular};
 pub use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,

@@ -41,7 +41,7 @@ mod wider;
 mod winding;
 
 #[cfg(test)]
-#[path = "../tests/tables/mod.rs"]
+#[path = "../tests/stability/tables/mod.rs"]
 mod tables;
 
 pub use boundary::{Boundary, BoundaryBranch};

@@ -65,6 +65,14 @@ impl Corner {
         Err(Retry::ToKnot(tau * h))
     }
 
+    /// The tip stands at this height, as its memory tells.
+    pub(super) fn stand_at(&mut self, height: f64) {
+        self.height = height;
+        if self.side * height < -self.slack {
+            self.side = -self.side;
+        }
+    }
+
     pub(super) fn save(&self, state: &mut State) {
         state.number(self.height);
         state.number(self.side);

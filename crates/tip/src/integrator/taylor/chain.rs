@@ -95,10 +95,21 @@ impl Chain {
         self.rows[0][self.slope + 1]
     }
 
-    /// Of minus the height under the tip, where there is a depth limit.
-    #[cfg(test)]
-    pub(super) fn depth(&self) -> impl Iterator<Item = f64> + '_ {
-        self.rows[..self.order].iter().map(|row| row[0])
+    /// Minus the height under the tip at the start, where there is a depth limit.
+    pub(super) fn depth_now(&self) -> f64 {
+        self.rows[0][0]
+    }
+
+    /// Of the height; how many there are.
+    pub(super) fn heights(&self, heights: &mut [f64; MOST_ORDER]) -> usize {
+        heights.iter_mut().zip(&self.rows[..self.order]).for_each(|(h, row)| *h = -row[0]);
+        self.order
+    }
+
+    /// Of w, as many.
+    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) {
+        let known = self.weight.iter().rev().take(self.order);
+        weights.iter_mut().zip(known).for_each(|(weight, known)| *weight = *known);
     }
 
     /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
@@ -197,12 +208,12 @@ impl Chain {
         for (row, factor) in last.iter().zip(last_factor) {
             add::<GROUPS>(&mut sums[0], row, *factor);
         }
-        if k == 0 || acting.depth.is_some() {
-            add::<GROUPS>(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
-        }
         // What has only just been found comes last: nothing else waits for it.
         if k > 0 {
             add::<GROUPS>(&mut sums[0], &rows[k], factors[k]);
+        }
+        if k == 0 || acting.depth.is_some() {
+            add::<GROUPS>(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
         }
         add::<GROUPS>(&mut sums[other], &rows[0], factors[0]);
         let (before, next) = (&rows[k], INVERSE[k + 1]);
@@ -216,22 +227,23 @@ impl Chain {
     /// The next coefficient of w, by `w' = rate w g_0'`.
     #[inline(always)]
     fn weigh(&mut self, k: usize, rate: f64) {
-        self.rate[k] = rate * (k + 1) as f64 * self.rows[k + 1][0];
-        let mut sums = [0.0; LANES];
+        let newest = rate * (k + 1) as f64 * self.rows[k + 1][0];
+        self.rate[k] = newest;
         let weights = &self.weight[MOST_ORDER - 1 - k..];
-        let (rates, last) = self.rate[..=k].as_chunks::<LANES>();
-        let (weights, last_weights) = weights[..=k].as_chunks::<LANES>();
-        for (rates, weights) in rates.iter().zip(weights) {
+        let mut sums = [0.0; LANES];
+        let (rates, last) = self.rate[..k].as_chunks::<LANES>();
+        let (known, last_known) = weights[..k].as_chunks::<LANES>();
+        for (rates, weights) in rates.iter().zip(known) {
             for i in 0..LANES {
                 sums[i] += rates[i] * weights[i];
             }
         }
-        for (sum, (rate, weight)) in sums.iter_mut().zip(last.iter().zip(last_weights)) {
+        for (sum, (rate, weight)) in sums.iter_mut().zip(last.iter().zip(last_known)) {
             *sum += rate * weight;
         }
         if k + 1 < MOST_ORDER {
             let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * sum;
+            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * weights[k]);
         }
     }
 }

@@ -8,9 +8,6 @@ impl<M: Memory> Integrator<'_, M> {
     /// The series from here on; false where there is none.
     pub(super) fn look_ahead(&mut self) -> bool {
         let order = self.taylor.order;
-        if self.model.wider().depth_limit.is_some() {
-            return false;
-        }
         let Some(jet) = self.surface.jet_on(&self.stretch, self.position()) else { return false };
         let steady = self.steady_past();
         let told = &mut self.taylor.told;
@@ -24,7 +21,9 @@ impl<M: Memory> Integrator<'_, M> {
         let relief = self.model.wider().left_after(age);
         let alpha = self.model.alpha();
         let groove = (&told.past, &told.of_tip);
-        self.taylor.chain.start((order, false), alpha, groove, jet.map(|jet| relief * jet));
+        let first = (order, self.corner.is_some());
+        self.taylor.chain.start(first, alpha, groove, jet.map(|jet| relief * jet));
+        let depth = self.weight_now();
         if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
             return false;
         }
@@ -35,7 +34,7 @@ impl<M: Memory> Integrator<'_, M> {
             healing: wider.healing_time.map_or(0.0, |time| 1.0 / time),
             inertia: wider.inertia.map(|mass| (mass, self.velocity)),
             extension: self.extension,
-            depth: None,
+            depth,
         };
         self.taylor.chain.run(&acting);
         true

@@ -4,6 +4,7 @@
 
 mod chain;
 mod expansion;
+mod heights;
 mod length;
 mod pieces;
 mod plan;
@@ -13,12 +14,13 @@ mod visits;
 
 use super::Integrator;
 use crate::collocation::STAGES;
-use crate::history::Step;
+use crate::history::{Heights, Step};
 use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
 use chain::Chain;
-use pieces::{MOST_PIECES, Pieces};
+use heights::{AtCorner, Depth};
+use pieces::{MOST_PIECES, NODES, Pieces};
 use plan::Plan;
 use switch::Switch;
 use values::Scaled;
@@ -42,9 +44,18 @@ pub(super) struct Taylor {
 const SHARE_OF_SERIES: f64 = 0.1;
 /// What visits stand for is known to this part of the same.
 const SHARE_OF_VISITS: f64 = 0.0005;
+/// What came of a plan.
+enum Made {
+    Step,
+    /// It is to be made on the other side of the corner of |h|.
+    OtherSide,
+    Nothing,
+}
+
+/// Of the corner.
+const SIDES: usize = 2;
 /// A step is shortened so often to stay where its series holds; collocation goes on from there.
 const MOST_SHORTENINGS: usize = 8;
-const NODES: usize = MOST_PIECES * STAGES;
 
 impl Taylor {
     pub(super) fn new(model: &Model, target: f64) -> Self {
@@ -108,36 +119,49 @@ impl<M: Memory> Integrator<'_, M> {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
         let end = self.next_end(until);
-        if !self.look_ahead() {
-            return false;
-        }
-        let Some(plan) = self.plan(end) else { return false };
-        self.make(&plan, end)
-    }
-
-    /// The pieces of a step, shortened to where its series and the stretch of u0 hold.
-    fn make(&mut self, plan: &Plan, end: f64) -> bool {
-        let Plan { mut length, mut pieces, .. } = *plan;
-        for _ in 0..MOST_SHORTENINGS {
-            let Some(total) = self.landing(length, end) else { return false };
-            let scaled = plan.scaled.over(total / plan.over);
-            let mut positions = [0.0; NODES];
-            let nodes = pieces::nodes(pieces);
-            let positions = &mut positions[..nodes.parts.len()];
-            nodes.table.sums(&scaled, positions);
-            match self.broken(&nodes.parts, positions, total) {
-                None => {
-                    self.accept_series(positions, total);
-                    self.remember_series(&scaled, plan.fastest, total);
-                    return true;
-                }
-                Some(shorter) => {
-                    pieces = ((pieces as f64 * shorter / length).ceil() as usize).clamp(1, pieces);
-                    length = shorter;
-                }
+        for _ in 0..SIDES {
+            if !self.look_ahead() {
+                return false;
+            }
+            let Some(plan) = self.plan(end) else { return false };
+            match self.make(&plan, end) {
+                Made::Step => return true,
+                Made::OtherSide if self.turn() => {}
+                Made::OtherSide | Made::Nothing => return false,
             }
         }
         false
+    }
+
+    /// The pieces of a step, shortened to where its series, the stretch of u0 and the side of the corner hold.
+    fn make(&mut self, plan: &Plan, end: f64) -> Made {
+        let Plan { mut length, mut pieces, .. } = *plan;
+        for _ in 0..MOST_SHORTENINGS {
+            let Some(total) = self.landing(length, end) else { return Made::Nothing };
+            let part = total / plan.over;
+            let scaled = plan.scaled.over(part);
+            let nodes = pieces::nodes(pieces);
+            let mut positions = [0.0; NODES];
+            let positions = &mut positions[..nodes.parts.len()];
+            nodes.table.sums(&scaled, positions);
+            let depth = plan.depth.map(|depth| depth.times(part));
+            let mut heights = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
+            let heights = depth.map(|depth| depth.of_pieces(&nodes.table, &mut heights[..pieces]));
+            let shorter = self.broken(&nodes.parts, positions, total);
+            let shorter = match self.at_corner(heights.unwrap_or_default(), total) {
+                AtCorner::Apart => shorter,
+                AtCorner::Ends(at) => Some(shorter.map_or(at, |shorter| shorter.min(at))),
+                AtCorner::OtherSide => return Made::OtherSide,
+            };
+            let Some(shorter) = shorter else {
+                self.accept_series(positions, heights, total);
+                self.remember_series((&scaled, depth.as_ref()), plan.fastest, total);
+                return Made::Step;
+            };
+            pieces = ((pieces as f64 * shorter / length).ceil() as usize).clamp(1, pieces);
+            length = shorter;
+        }
+        Made::Nothing
     }
 
     /// A shorter length for a step that leaves the stretch, or retreats too far.
@@ -163,7 +187,7 @@ impl<M: Memory> Integrator<'_, M> {
         None
     }
 
-    fn accept_series(&mut self, positions: &[f64], total: f64) {
+    fn accept_series(&mut self, positions: &[f64], heights: Option<&[Heights]>, total: f64) {
         let support = self.support.velocity(self.t);
         let (mut t, mut extension, mut before) = (self.t, self.extension, 0.0);
         let (pieces, _) = positions.as_chunks::<STAGES>();
@@ -173,8 +197,14 @@ impl<M: Memory> Integrator<'_, M> {
             // Ends are representable times.
             let end = if i + 1 < pieces.len() { self.t + part * total } else { self.t + total };
             let displacement = positions.map(|position| position - before);
-            let step = Step { t, h: end - t, extension, displacement, height: None };
+            let height = heights.map(|heights| heights[i]);
+            let step = Step { t, h: end - t, extension, displacement, height };
             self.taylor.pieces.push(step);
+            if i + 1 == pieces.len()
+                && let Some((corner, height)) = self.corner.as_mut().zip(height)
+            {
+                corner.arrive(&height, (t, step.h));
+            }
             before = positions[STAGES - 1];
             (t, extension) = (step.end(), step.extension_at_end(support));
         }
@@ -183,7 +213,12 @@ impl<M: Memory> Integrator<'_, M> {
     }
 
     /// Tells the memory of the whole step.
-    fn remember_series(&mut self, scaled: &Scaled, fastest: f64, total: f64) {
+    fn remember_series(
+        &mut self,
+        (scaled, depth): (&Scaled, Option<&Depth>),
+        fastest: f64,
+        total: f64,
+    ) {
         self.velocity = scaled.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
         let rule = self.taylor.visits.rule(fastest * total).unwrap_or_else(visits::last);
@@ -194,6 +229,9 @@ impl<M: Memory> Integrator<'_, M> {
         for (weight, (node, spent)) in weights.iter_mut().zip(rule.nodes.iter().zip(&rule.weights))
         {
             *weight = spent * total * self.model.wider().left_after((1.0 - node) * total);
+        }
+        if let Some(depth) = depth {
+            depth.weigh(&rule.table, weights);
         }
         if let Some(time) = self.model.wider().healing_time {
             self.memory.fade((-total / time).exp());

@@ -3,12 +3,13 @@
 use super::length;
 use super::values::{Outlook, Table};
 use crate::collocation::{RADAU, STAGES};
-use crate::history::Step;
+use crate::history::{Heights, Step};
 use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
 
 /// Of one series at most.
 pub(super) const MOST_PIECES: usize = 8;
+pub(super) const NODES: usize = MOST_PIECES * STAGES;
 
 /// Steps made: those before `next` have been handed out, those up to `end` are yet to be.
 #[derive(Debug, Clone)]
@@ -86,18 +87,25 @@ impl Pieces {
 /// The same polynomial as two steps.
 fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
     let h = at - step.t;
-    let part = |from: f64, h: f64| {
+    let rest = step.end() - at;
+    let displacement = |from: f64, h: f64| {
         let before = RADAU.value(&step.displacement, from);
         RADAU.c.map(|c| RADAU.value(&step.displacement, from + c * h / step.h) - before)
     };
-    let first = Step { h, displacement: part(0.0, h), ..*step };
-    let rest = step.end() - first.end();
+    let height = |from: f64, h: f64| {
+        let part = |height: Heights| {
+            let nodes = RADAU.c.map(|c| height.at(from + c * h / step.h));
+            Heights { start: height.at(from), nodes }
+        };
+        step.height.map(part)
+    };
+    let first = Step { h, displacement: displacement(0.0, h), height: height(0.0, h), ..*step };
     let second = Step {
         t: first.end(),
         h: rest,
         extension: first.extension_at_end(support),
-        displacement: part(h / step.h, rest),
-        height: None,
+        displacement: displacement(h / step.h, rest),
+        height: height(h / step.h, rest),
     };
     (first, second)
 }
@@ -109,17 +117,18 @@ pub(super) fn longest(outlook: &Outlook, error: f64) -> f64 {
 }
 
 /// The nodes of all pieces of a step, as parts of it.
+#[derive(Debug)]
 pub(super) struct Nodes {
     pub(super) parts: Vec<f64>,
     pub(super) table: Table,
 }
 
-static NODES: LazyLock<[Nodes; MOST_PIECES]> =
+static NODES_OF: LazyLock<[Nodes; MOST_PIECES]> =
     LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
 
 /// Of a step in so many pieces.
 pub(super) fn nodes(pieces: usize) -> &'static Nodes {
-    &NODES[pieces - 1]
+    &NODES_OF[pieces - 1]
 }
 
 impl Nodes {
@@ -177,7 +186,8 @@ mod tests {
     #[test]
     fn a_step_in_two_parts_is_the_same_motion() {
         let displacement = RADAU.c.map(|c| c * (1.0 - 0.3 * c * c));
-        let step = Step { t: 2.0, h: 0.5, extension: 1.1, displacement, height: None };
+        let height = Some(Heights { start: 0.3, nodes: RADAU.c.map(|c| 0.3 - c + 0.1 * c * c) });
+        let step = Step { t: 2.0, h: 0.5, extension: 1.1, displacement, height };
         let mut pieces = Pieces::none();
         pieces.push(step);
         let first = *pieces.take(2.125, 0.9).unwrap();
@@ -188,6 +198,8 @@ mod tests {
             let t = 2.0 + 0.01 * f64::from(i);
             let part = if t < 2.125 { &first } else { &rest };
             assert!((part.l(0.9, t) - step.l(0.9, t)).abs() < 1e-14, "{t}");
+            let heights = part.height(t).zip(step.height(t));
+            assert!(heights.is_some_and(|(part, whole)| (part - whole).abs() < 1e-14), "{t}");
         }
     }
 }

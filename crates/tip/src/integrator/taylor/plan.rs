@@ -2,6 +2,7 @@
 
 use super::super::Integrator;
 use super::chain::MOST_ORDER;
+use super::heights::Depth;
 use super::pieces::{self, MOST_PIECES};
 use super::values::{Outlook, Scaled};
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
@@ -17,6 +18,8 @@ pub(super) struct Plan {
     pub(super) over: f64,
     /// Displacement per time at its fastest, about.
     pub(super) fastest: f64,
+    /// Over the same length, where there is a depth limit.
+    pub(super) depth: Option<Depth>,
 }
 
 /// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
@@ -39,6 +42,7 @@ impl<M: Memory> Integrator<'_, M> {
             coefficients.iter_mut().zip(coasting).for_each(|(c, coasting)| *c = coasting);
             over = over.min(length::length(&coefficients[1..displacement.len()], error));
         }
+        over = over.min(self.length_by_heights(error));
         let limited = self.reach_of_piece();
         let longest = (FARTHEST * limited).min(self.taylor.visits.farthest());
         let mut scaled = Scaled::new(displacement, over);
@@ -52,8 +56,11 @@ impl<M: Memory> Integrator<'_, M> {
             (over, scaled) = (part * over, scaled.over(part));
             outlook = Outlook::of(&scaled);
         }
-        let piece = pieces::longest(&outlook, SHARE_OF_INTERPOLATION * self.control.tolerance());
+        let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
+        let piece = pieces::longest(&outlook, error);
         let piece = piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
+        let (depth, longest) = self.depth_over(over, error).unzip();
+        let piece = longest.map_or(piece, |longest: f64| longest.min(piece));
         let piece = over * piece;
         let length = over.min(MOST_PIECES as f64 * piece);
         let stiffness = length * self.fastest(-self.taylor.chain.curvature());
@@ -71,7 +78,7 @@ impl<M: Memory> Integrator<'_, M> {
         };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
-        Some(Plan { length, pieces, scaled, over, fastest: outlook.fastest / over })
+        Some(Plan { length, pieces, scaled, over, fastest: outlook.fastest / over, depth })
     }
 
     /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.

@@ -39,6 +39,11 @@ impl Scaled {
         scaled.over(length)
     }
 
+    /// Where the step starts.
+    pub(super) fn start(&self) -> f64 {
+        self.coefficients[0]
+    }
+
     /// The derivative at the end of the step, per step.
     pub(super) fn slope_at_end(&self) -> f64 {
         let mut sums = [0.0; LANES];

@@ -1,0 +1,7 @@
+//! What rasters are held to: the full equations (`definition`), and linear theory.
+
+mod against_linear_theory;
+mod by_definition;
+mod definition;
+mod patterns;
+mod wider_linear_theory;

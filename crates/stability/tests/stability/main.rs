@@ -1,0 +1,10 @@
+//! What linear theory is held to: each file says by what. `tables` reads the references in `data`.
+
+mod critical;
+mod onset;
+mod raster;
+mod response;
+mod roots;
+mod tables;
+mod walking;
+mod wider;

@@ -1,0 +1,41 @@
+// One file of everything: `node build.mjs OUT.html`. The module and its JavaScript are those that `wasm-bindgen` has
+// written to target/site-build/web.
+import { build } from 'esbuild';
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const made = join(here, '../../../target/site-build/web');
+const [out] = process.argv.slice(2);
+
+async function script(entry) {
+  const { outputFiles } = await build({
+    entryPoints: [join(here, 'src', entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: 'iife',
+    target: 'es2022',
+    // The module is handed over as bytes, never looked for beside the script.
+    define: { 'import.meta.url': '""' },
+  });
+  return outputFiles[0].text;
+}
+
+/** A text within <script> must not end it. */
+const within = (text) => text.replaceAll('</script', '<\\/script');
+
+const style = await readFile(join(here, '../node_modules/uplot/dist/uPlot.min.css'), 'utf8');
+const parts = {
+  css: style + (await readFile(join(here, 'page.css'), 'utf8')),
+  module: gzipSync(await readFile(join(made, 'stickslip_web_bg.wasm')), { level: 9 }).toString('base64'),
+  worker: within(await script('worker.js')),
+  main: within(await script('main.js')),
+};
+let page = await readFile(join(here, 'index.html'), 'utf8');
+for (const [name, text] of Object.entries(parts)) page = page.replace(`/*{${name}}*/`, () => text);
+await mkdir(dirname(out), { recursive: true });
+await writeFile(out, page);
+console.log(`${out}: ${(page.length / 1e3).toFixed(0)} kB`);

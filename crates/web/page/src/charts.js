@@ -1,0 +1,73 @@
+// l, velocity and lateral force against time.
+import uPlot from 'uplot';
+import { colour } from './theme.js';
+
+const CHARTS = [
+  { id: 'chart-l', column: 1, label: 'l (σ)', says: 'l, the lag beyond steady drag' },
+  { id: 'chart-v', column: 2, label: "x₀′ (kσ/Γ)", says: 'velocity of the tip' },
+  { id: 'chart-f', column: 3, label: 'force (kσ)', says: 'lateral force, the extension of the spring' },
+];
+const HEIGHT = 150;
+
+export function charts(picked) {
+  const sync = uPlot.sync('time');
+  let plots = [];
+  let columns = null;
+
+  function options({ label }, width) {
+    const axis = { stroke: colour('--ink'), grid: { stroke: colour('--grid'), width: 1 }, ticks: { show: false } };
+    return {
+      width,
+      height: HEIGHT,
+      legend: { show: false },
+      cursor: { sync: { key: sync.key }, drag: { x: true, y: false } },
+      scales: { x: { time: false } },
+      axes: [
+        { ...axis, size: 28, font: '12px system-ui' },
+        { ...axis, size: 52, label, labelSize: 18, labelFont: '12px system-ui', font: '12px system-ui' },
+      ],
+      series: [{}, { stroke: colour('--line'), width: 1.5, points: { show: false } }],
+      hooks: { ready: [(u) => u.over.addEventListener('click', () => pick(u))] },
+    };
+  }
+  const pick = (u) => u.cursor.left >= 0 && picked(u.posToVal(u.cursor.left, 'x'));
+  const data = (column) => [columns[0], columns[column]];
+  const host = (chart) => document.getElementById(chart.id);
+
+  function make() {
+    plots.forEach((plot) => plot.destroy());
+    plots = CHARTS.map((chart) => {
+      const plot = new uPlot(options(chart, host(chart).clientWidth), data(chart.column), host(chart));
+      const mark = document.createElement('div');
+      mark.className = 'now';
+      plot.over.append(mark);
+      plot.mark = mark;
+      return plot;
+    });
+  }
+  new ResizeObserver(() => {
+    CHARTS.forEach((chart, n) => plots[n]?.setSize({ width: host(chart).clientWidth, height: HEIGHT }));
+  }).observe(host(CHARTS[0]));
+
+  return {
+    /** Columns of equal length, t first. */
+    draw(found) {
+      columns = found;
+      if (plots.length === 0) make();
+      else CHARTS.forEach((chart, n) => plots[n].setData(data(chart.column)));
+    },
+    now(t) {
+      for (const plot of plots) plot.mark.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;
+    },
+    redress: () => columns && make(),
+    /** In words, for those who do not see them. */
+    describe() {
+      for (const chart of CHARTS) {
+        const column = columns[chart.column];
+        const [low, high] = column.reduce(([a, b], y) => [Math.min(a, y), Math.max(b, y)], [Infinity, -Infinity]);
+        const words = `${chart.says}: from ${low.toPrecision(3)} to ${high.toPrecision(3)}`;
+        host(chart).setAttribute('aria-label', words);
+      }
+    },
+  };
+}

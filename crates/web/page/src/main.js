@@ -1,0 +1,174 @@
+// The page: parameters in, pictures and numbers out.
+import { prepare, hire } from './crew.js';
+import { sliders } from './controls.js';
+import { charts } from './charts.js';
+import { facts } from './facts.js';
+import { phase, unpacked } from './phase.js';
+import { raster } from './raster.js';
+import { scene } from './scene.js';
+import { theme } from './theme.js';
+import { PRESETS } from './presets.js';
+import { SLIDERS, SCAN_SLIDERS, address, fromAddress, usual } from './parameters.js';
+import precomputed from '../map.json';
+
+const at = (id) => document.getElementById(id);
+const kept = (id) => at(id).textContent;
+prepare(kept('worker-script'), kept('module'));
+
+let state = usual();
+let wish = 0; // number of the latest run asked for
+let since = 0; // when it was
+let latest = null; // its columns
+let command = '';
+/** For whoever measures: how long each redraw took, and what is shown. */
+const seen = (window.stickslip = { redraws: [], wish: () => wish, state: () => state, columns: () => latest, map: () => map.seen() });
+
+const table = facts(at('facts'));
+const plots = charts((t) => picture.go(t));
+const live = hire({
+  run: shown,
+  frame: (found) => picture.frame(found),
+  linear: (found) => found.id === wish && table.linear(found),
+  judged: (found) => found.id === wish && table.judged(found),
+  cycle: (found) => found.id === wish && table.cycle(found),
+  settled({ id }) {
+    if (id !== wish) return;
+    at('said').textContent = table.sentence(state.run);
+    plots.describe();
+    document.body.dataset.settled = id;
+  },
+  document: saved,
+  refused({ id, message }) {
+    if (id !== undefined && id !== wish) return;
+    at('error').hidden = false;
+    at('error').textContent = message;
+  },
+});
+const picture = scene(
+  { canvas: at('scene'), time: at('time'), speed: at('speed'), play: at('play'), clock: at('clock') },
+  live.ask,
+  (t) => latest && plots.now(t),
+);
+const map = phase(
+  { canvas: at('map'), told: at('map-told'), legend: at('legend'), zoomIn: at('zoom-in'), zoomOut: at('zoom-out'), whole: at('zoom-whole') },
+  unpacked(precomputed),
+  (message) => mapper.ask({ ...message, asked: JSON.stringify(message.asked) }),
+  ({ r, alpha }) => change({ r, alpha }),
+);
+const mapper = hire({ boundary: map.boundary, column: map.column, mapped: map.mapped, refused: map.refused });
+const rows = sliders(at('sliders'), SLIDERS, (name, value) => set('run', name, value));
+const scanRows = sliders(at('scan-sliders'), SCAN_SLIDERS, (name, value) => set('scan', name, value));
+const scanned = raster({ canvas: at('raster'), button: at('scan'), told: at('raster-told'), scale: at('raster-scale') }, hire, () => state);
+
+function set(part, name, value) {
+  state[part][name] = value;
+  document.querySelectorAll('#presets button').forEach((button) => button.setAttribute('aria-pressed', 'false'));
+  if (part === 'run') ask();
+  else remember();
+}
+function change(values) {
+  Object.assign(state.run, values);
+  rows.show(state.run);
+  ask();
+}
+function showAll() {
+  rows.show(state.run);
+  scanRows.show(state.scan);
+  at('start').value = state.run.start;
+  at('path').value = state.scan.path;
+}
+
+function ask() {
+  since = performance.now();
+  live.ask({ kind: 'run', id: ++wish, asked: JSON.stringify(state.run) });
+  map.point(state.run);
+  remember();
+}
+let due;
+/** Not at every move of a slider: browsers limit how often an address may change. */
+function remember() {
+  clearTimeout(due);
+  due = setTimeout(() => {
+    history.replaceState(null, '', address(state));
+    map.follow(state.run);
+  }, 150);
+}
+
+function shown({ id, samples, command: line }) {
+  if (id !== wish) return;
+  const n = samples.length / 5;
+  latest = [0, 1, 2, 3, 4].map((column) => samples.subarray(column * n, (column + 1) * n));
+  at('error').hidden = true;
+  plots.draw(latest);
+  picture.over([latest[0][0], latest[0][n - 1]]);
+  command = line;
+  at('command').textContent = line;
+  // Charts draw in a microtask: after it, all is there.
+  queueMicrotask(() => {
+    seen.redraws.push(performance.now() - since);
+    document.body.dataset.ready = id;
+  });
+}
+
+let name = 'run.json';
+function saved({ found, why }) {
+  if (why) return (at('error').hidden = false), (at('error').textContent = why);
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([found], { type: 'application/json' }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+function save(kind, as) {
+  name = as;
+  live.ask({ kind, asked: JSON.stringify(state.run) });
+}
+async function copy(text, button) {
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = 'Copied';
+  } catch {
+    button.textContent = 'Not allowed here';
+  }
+  setTimeout(() => (button.textContent = button.dataset.says), 1500);
+}
+
+for (const preset of PRESETS) {
+  const button = document.createElement('button');
+  button.textContent = preset.name;
+  button.setAttribute('aria-pressed', 'false');
+  button.addEventListener('click', () => {
+    state = { run: { ...preset.run }, scan: { ...state.scan, ...preset.scan } };
+    showAll();
+    ask();
+    document.querySelectorAll('#presets button').forEach((other) => other.setAttribute('aria-pressed', String(other === button)));
+    if (preset.scan) {
+      if (at('scan').textContent === 'Scan') at('scan').click();
+      at('raster').scrollIntoView({ block: 'center' });
+    }
+  });
+  at('presets').append(button);
+}
+at('start').addEventListener('change', () => set('run', 'start', at('start').value));
+at('path').addEventListener('change', () => set('scan', 'path', at('path').value));
+at('save-run').addEventListener('click', () => save('document', 'run.json'));
+at('save-cycle').addEventListener('click', () => save('cycle-document', 'cycle.json'));
+at('copy-command').addEventListener('click', () => copy(command, at('copy-command')));
+at('copy-link').addEventListener('click', () => copy(location.href, at('copy-link')));
+theme(at('theme'), () => {
+  plots.redress();
+  picture.draw();
+  map.draw();
+  scanned.draw();
+});
+
+function arrive() {
+  const { strange, ...found } = fromAddress(location.hash);
+  state = found;
+  showAll();
+  ask();
+  at('strange').hidden = strange.length === 0;
+  at('strange').textContent = strange.length ? `The address says ${strange.join(', ')}, which is not understood.` : '';
+}
+addEventListener('hashchange', arrive);
+arrive();

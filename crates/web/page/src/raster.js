@@ -1,0 +1,91 @@
+// A raster, growing line by line.
+import { colour, sharp } from './theme.js';
+
+/** Dark below, light above. */
+const SHADES = [[24, 20, 64], [62, 73, 137], [38, 130, 142], [53, 183, 121], [181, 222, 43], [253, 231, 150]];
+
+function shade(part) {
+  const place = Math.min(Math.max(part, 0), 1) * (SHADES.length - 1);
+  const n = Math.min(Math.floor(place), SHADES.length - 2);
+  return SHADES[n].map((from, c) => from + (SHADES[n + 1][c] - from) * (place - n));
+}
+
+export function raster({ canvas, button, told, scale }, crew, wish) {
+  let rows = [];
+  let columns = 0;
+  let running = false;
+  let total = 1;
+  const sheet = document.createElement('canvas');
+  let late = false;
+
+  function draw() {
+    late = false;
+    const { pen, width, height } = sharp(canvas);
+    if (!rows.length) return hint(pen, width, height);
+    const [low, high] = rows.reduce((ends, row) => row.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], ends), [Infinity, -Infinity]);
+    const image = new ImageData(columns, rows.length);
+    rows.forEach((row, n) => row.forEach((v, i) => {
+      const place = 4 * ((rows.length - 1 - n) * columns + i);
+      const [red, green, blue] = shade((v - low) / (high - low || 1));
+      image.data.set([red, green, blue, 255], place);
+    }));
+    Object.assign(sheet, { width: columns, height: rows.length });
+    sheet.getContext('2d').putImageData(image, 0, 0);
+    const tall = Math.min(1, rows.length / (2 * total - 1)) * height;
+    pen.drawImage(sheet, 0, height - tall, width, tall);
+    scale.textContent = `u from ${low.toPrecision(3)} (dark) to ${high.toPrecision(3)} kσ²/a (light); lines from below`;
+  }
+  function hint(pen, width, height) {
+    pen.fillStyle = colour('--faint');
+    pen.font = '14px system-ui';
+    pen.textAlign = 'center';
+    pen.fillText('The surface will grow here, line by line.', width / 2, height / 2);
+  }
+  /** Once a frame is enough. */
+  const soon = () => {
+    if (!late) requestAnimationFrame(draw);
+    late = true;
+  };
+  function stop(words) {
+    running = false;
+    button.textContent = 'Scan';
+    told.textContent = words;
+  }
+  const hands = crew({
+    line({ line, row, columns: wide, heights }) {
+      columns = wide;
+      for (let n = 0; n * wide < heights.length; n++) rows[row + n] = heights.subarray(n * wide, (n + 1) * wide);
+      told.textContent = `Line ${line} of ${total}`;
+      soon();
+    },
+    scanned({ found, why }) {
+      if (why) return stop(why);
+      const { regime, pattern: p, command } = found;
+      const words = p
+        ? `${regime}: wavelength ${p.wavelength.toPrecision(4)} σ, crests at ${p.crest_angle.toPrecision(3)}° to the lines, coherence ${p.coherence.toPrecision(3)}`
+        : regime;
+      told.dataset.found = JSON.stringify(found);
+      stop(`${total} lines. ${words}. `);
+      const code = document.createElement('code');
+      code.textContent = command;
+      told.append(code);
+      canvas.setAttribute('aria-label', `Surface after ${total} lines: ${words}`);
+    },
+    refused: ({ message }) => stop(message),
+  });
+  button.addEventListener('click', () => {
+    if (running) {
+      hands.end();
+      return stop('Stopped.');
+    }
+    const { run, scan } = wish();
+    [rows, running, total] = [[], true, scan.lines];
+    delete told.dataset.found;
+    button.textContent = 'Stop';
+    told.textContent = 'Line 1 …';
+    draw();
+    hands.ask({ kind: 'scan', asked: JSON.stringify(run), scan: JSON.stringify(scan) });
+  });
+  new ResizeObserver(draw).observe(canvas);
+  return { draw };
+}

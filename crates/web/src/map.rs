@@ -1,0 +1,47 @@
+//! The phase map: what the tip settles into at points of the plane of r and α.
+
+use crate::asked::Asked;
+use crate::linear::onset;
+use crate::refusal::Refusal;
+use stickslip_cycles::CycleError;
+use stickslip_outcome::{Motion, Regime, motion};
+use stickslip_tip::Model;
+
+/// Residual asked of cycles, as in a sweep.
+const TOLERANCE: f64 = 1e-6;
+
+/// Classes: 0 steady, 1 one slip in a period, 2 two, 3 more, 4 trapped, 5 none of these within thousands of time
+/// units, 6 not to be had.
+const STEADY: u8 = 0;
+const MOST_SLIPS: u8 = 3;
+const TRAPPED: u8 = 4;
+const TRANSIENT: u8 = 5;
+const FAILED: u8 = 6;
+
+pub(crate) fn row(asked: &Asked, r: f64, alphas: &[f64]) -> Result<Vec<u8>, Refusal> {
+    let (tip, wider) = (asked.tip()?, asked.wider());
+    let model = |alpha: &f64| Model::under(wider, tip.clone(), *alpha, r);
+    let models = alphas.iter().map(model).collect::<Result<Vec<_>, _>>()?;
+    Ok(models.iter().map(|model| motion(model, TOLERANCE)).map(class).collect())
+}
+
+fn class(found: Result<Motion, CycleError>) -> u8 {
+    let of_slips = |slips: usize| u8::try_from(slips).unwrap_or(MOST_SLIPS).clamp(1, MOST_SLIPS);
+    match found {
+        Ok(Motion::Steady) => STEADY,
+        Ok(Motion::Cycle(cycle)) => of_slips(cycle.slips()),
+        Ok(Motion::Run(outcome)) => match (outcome.regime, outcome.oscillation) {
+            (Regime::Steady, _) => STEADY,
+            (Regime::StickSlip, Some(motion)) => of_slips(motion.slips),
+            (Regime::Trapped, _) => TRAPPED,
+            _ => TRANSIENT,
+        },
+        Err(_) => FAILED,
+    }
+}
+
+pub(crate) fn boundary(asked: &Asked, velocities: &[f64]) -> Result<Vec<f64>, Refusal> {
+    let (tip, wider) = (asked.tip()?, asked.wider());
+    let at = |r: &f64| onset(&wider, &tip, *r).map_or(f64::NAN, |(at, _)| at.alpha);
+    Ok(velocities.iter().map(at).collect())
+}

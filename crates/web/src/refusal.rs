@@ -1,0 +1,38 @@
+//! Why there is no result, in words for the page.
+
+use stickslip_cycles::CycleError;
+use stickslip_documents::Unusable;
+use stickslip_raster::RasterError;
+use stickslip_stability::StabilityError;
+use stickslip_surface::SurfaceError;
+use stickslip_tip::{ModelError, RunError, TipFunctionError};
+use thiserror::Error;
+
+/// Whose words they are.
+#[derive(Debug, Error)]
+pub(crate) enum Refusal {
+    #[error("these are no parameters: {0}")]
+    Json(serde_json::Error),
+    #[error("the page runs up to t = {most}, not to {0}: the program goes on from there", most = crate::motion::MOST_TIME)]
+    TooLong(f64),
+    #[error("the page scans up to {most} lines, not {0}: the program scans more", most = crate::scan::MOST_LINES)]
+    TooManyLines(usize),
+    #[error("the run has no steps")]
+    NoSteps,
+    #[error(transparent)]
+    Unusable(#[from] Unusable),
+    #[error(transparent)]
+    Tip(#[from] TipFunctionError),
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    #[error(transparent)]
+    Stability(#[from] StabilityError),
+    #[error(transparent)]
+    Cycle(#[from] CycleError),
+    #[error(transparent)]
+    Raster(#[from] RasterError),
+}

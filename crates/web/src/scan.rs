@@ -1,0 +1,104 @@
+//! A raster, line by line.
+
+use crate::asked::Asked;
+use crate::refusal::Refusal;
+use serde::{Deserialize, Serialize};
+use stickslip_documents::{PathName, PatternDocument, RasterRegimeName};
+use stickslip_raster::{Path, Plan, Scanned, Scanning, pattern};
+use stickslip_tip::{Footprint, Scenario};
+
+/// Lines that a page has the patience for.
+pub(crate) const MOST_LINES: usize = 400;
+/// Error of each line: a picture, and a pattern, need no more.
+pub(crate) const TOLERANCE: f64 = 1e-6;
+/// Heights in a width of the tip along a line; two rows to a pitch.
+const COLUMNS: f64 = 4.0;
+const ROWS: usize = 2;
+/// A line changes rows within so many widths across: e^{-18} of its depth is left there.
+const REACH: f64 = 6.0;
+
+/// Lengths in σ.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Scan {
+    pub(crate) pitch: f64,
+    pub(crate) lines: usize,
+    pub(crate) length: f64,
+    pub(crate) path: PathName,
+}
+
+impl Scan {
+    pub(crate) fn read(text: &str) -> Result<Self, Refusal> {
+        serde_json::from_str(text).map_err(Refusal::Json)
+    }
+
+    pub(crate) fn path_option(&self) -> &'static str {
+        match self.path {
+            PathName::OneWay => "",
+            PathName::Zigzag => " --path zigzag",
+            PathName::Repeat => " --path repeat",
+        }
+    }
+}
+
+/// What the lines have written.
+#[derive(Debug, Serialize)]
+pub(crate) struct Written {
+    regime: RasterRegimeName,
+    pattern: Option<PatternDocument>,
+}
+
+fn plan(asked: &Asked, scan: &Scan) -> Result<Plan, Refusal> {
+    if scan.lines > MOST_LINES {
+        return Err(Refusal::TooManyLines(scan.lines));
+    }
+    let footprint = Footprint::separable(asked.tip()?, asked.width)?;
+    let (path, model) = (Path::from(scan.path), asked.model()?);
+    let mut plan = Plan::new(footprint, model, path, scan.pitch, scan.lines, scan.length);
+    plan.law = Scenario { tolerance: TOLERANCE, ..plan.law };
+    Ok(plan)
+}
+
+/// Scans; hands over, after each line, its number from 1, the first row that it changed, the columns and the heights.
+pub(crate) fn raster(
+    asked: &Asked,
+    scan: &Scan,
+    mut on_line: impl FnMut(usize, usize, usize, &[f64]),
+) -> Result<Written, Refusal> {
+    let plan = plan(asked, scan)?;
+    let mut scanning = Scanning::new(&plan)?;
+    let view = View::new(asked, scan);
+    while scanning.next_line()?.is_some() {
+        let lines = scanning.lines();
+        // Of these alone anything is to be seen in the rows that the last has changed.
+        let near = &lines[lines.len().saturating_sub(2 * view.lines_within_reach)..];
+        let (first, y) = view.rows(lines.len());
+        let heights = Scanned::new(&plan, near).heights(&view.x, &y);
+        on_line(lines.len(), first, view.x.len(), heights.as_slice().unwrap_or_default());
+    }
+    let (regime, pattern) = pattern(&plan, scanning.lines());
+    Ok(Written { regime: regime.into(), pattern: pattern.map(Into::into) })
+}
+
+/// What is shown of the surface.
+struct View {
+    x: Vec<f64>,
+    row: f64,
+    lines_within_reach: usize,
+}
+
+impl View {
+    fn new(asked: &Asked, scan: &Scan) -> Self {
+        let columns = (COLUMNS * scan.length / asked.width).ceil().clamp(2.0, 600.0);
+        let x = (0..=columns as usize).map(|i| scan.length * i as f64 / columns).collect();
+        let within = (REACH * asked.width / scan.pitch).ceil().clamp(1.0, MOST_LINES as f64);
+        Self { x, row: scan.pitch / ROWS as f64, lines_within_reach: within as usize }
+    }
+
+    /// Those that a line, counted from 1, changes behind it: number of the first, and where they lie.
+    fn rows(&self, line: usize) -> (usize, Vec<f64>) {
+        let end = ROWS * (line - 1) + 1;
+        let first = end.saturating_sub(ROWS * self.lines_within_reach + 1);
+        (first, (first..end).map(|n| self.row * n as f64).collect())
+    }
+}

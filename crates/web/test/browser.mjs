@@ -1,0 +1,38 @@
+// A real browser with the page in it.
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+import { root } from './program.mjs';
+
+export const file = join(root, 'target/site/play.html');
+const executablePath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
+  .find((path) => path && existsSync(path));
+
+/** Why nothing can be tried here; false if it can. */
+export const missing = !executablePath && 'no Chromium here: apt-get install chromium, or CHROMIUM=path';
+
+export const launch = () => chromium.launch({ executablePath, args: ['--no-sandbox'] });
+
+/** The page at an address of its own; whatever it complains of, or asks of others, is noted. */
+export async function open(browser, options = {}, hash = '') {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  const noted = [];
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && noted.push(message.text()));
+  page.on('pageerror', (error) => noted.push(error.stack));
+  page.on('request', (request) => /^(file|blob|data):/.test(request.url()) || noted.push(request.url()));
+  const began = Date.now();
+  await page.goto(`file://${file}${hash}`);
+  await page.waitForFunction(() => document.body.dataset.ready);
+  const took = Date.now() - began;
+  await settled(page);
+  return { page, noted, took };
+}
+
+/** Until all numbers are those of the parameters asked for last. */
+export async function settled(page) {
+  await page.waitForFunction(() => window.stickslip.wish() === Number(document.body.dataset.settled), null, { timeout: 120_000 });
+}
+
+export const fact = (page, name) => page.locator(`#fact-${name}`).evaluate((cell) => JSON.parse(cell.dataset.value ?? 'null'));
+export const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];

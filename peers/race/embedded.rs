@@ -1,0 +1,99 @@
+//! The same equation as those see it who know its embedding: with the past as a sum of exponentials it is a system of
+//! ordinary differential equations, z' = 1 + s x0' z, which any solver of such takes.
+//!
+//! Two motions, set off by a kick from steady motion, and an ensemble of the second over α.
+
+use crate::{case, timed};
+use serde_json::{Value, json};
+use stickslip_tip::memory::{Fit, accuracy_needed};
+use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, Trajectory, run};
+
+/// (name, α, kick)
+const MOTIONS: [(&str, f64, f64); 2] = [("onset", case::ALPHA, 0.01), ("stick-slip", 1.2, 0.05)];
+/// Of an ensemble: so many values of α, from and to these.
+const ENSEMBLE: (usize, f64, f64) = (256, 1.1, 1.3);
+/// Fits of the modes are those of runs to these tolerances, and a tenth of a decade is no matter.
+const FITS: std::ops::RangeInclusive<i32> = 5..=12;
+
+fn scenario((_, alpha, kick): (&str, f64, f64), memory: MemoryChoice, tolerance: f64) -> Scenario {
+    let tip = TipFunction::triple_gaussian(1.0, 1.0).expect("a valid tip");
+    let model = Model::new(tip, alpha, case::R).expect("a valid model");
+    Scenario { kick, memory, tolerance, ..Scenario::new(model, case::UNTIL) }
+}
+
+/// l at times about a half apart.
+fn sampled(trajectory: &Trajectory) -> Vec<(f64, f64)> {
+    let (start, end) = (trajectory.start(), trajectory.end());
+    let count = (2.0 * (end - start)) as u32;
+    let at = |i: u32| (start + (end - start) * f64::from(i) / f64::from(count)).min(end);
+    (0..=count).map(|i| (at(i), trajectory.l(at(i)))).collect()
+}
+
+/// For solvers in other languages: motions with their references, and the exponentials.
+pub(crate) fn document() -> Value {
+    let motion = |motion: (&'static str, f64, f64)| {
+        let reference = |memory| {
+            sampled(&run(&scenario(motion, memory, 1e-13)).expect("a run that ends").trajectory)
+        };
+        let [points, others] = [MemoryChoice::Direct, MemoryChoice::Fft].map(reference);
+        let differences = points.iter().zip(&others).map(|(a, b)| (a.1 - b.1).abs());
+        let scenario = scenario(motion, MemoryChoice::Modes, 1e-9);
+        let (t, l): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+        json!({
+            "name": motion.0, "alpha": motion.1, "kick": motion.2, "r": case::R,
+            "start": t[0], "until": case::UNTIL, "l0": scenario.model.steady_l(),
+            "checked_to": differences.fold(0.0, f64::max), "t": t, "l": l,
+        })
+    };
+    let fit = |digits: i32| {
+        let model = scenario(MOTIONS[1], MemoryChoice::Modes, 1e-9).model;
+        let accuracy = accuracy_needed(&model, 10.0_f64.powi(-digits));
+        let fit = Fit::cached(model.tip(), accuracy).expect("a footprint that modes fit");
+        let term = |t: &stickslip_tip::memory::Term| {
+            [t.exponent.re, t.exponent.im, t.weight.re, t.weight.im]
+        };
+        let terms: Vec<_> = fit.terms().iter().map(term).collect();
+        json!({"digits": digits, "error": fit.certificate().slope, "terms": terms})
+    };
+    let (count, from, to) = ENSEMBLE;
+    json!({
+        "motions": MOTIONS.map(motion), "fits": FITS.map(fit).collect::<Vec<_>>(),
+        "ensemble": {"motion": MOTIONS[1].0, "count": count, "from": from, "to": to},
+    })
+}
+
+/// Time and error of ours: each motion to a ladder of tolerances, and the ensemble one after the other.
+pub(crate) fn rows() -> Vec<Value> {
+    let mut rows = vec![];
+    for motion in MOTIONS {
+        let reference = run(&scenario(motion, MemoryChoice::Direct, 1e-13)).expect("a run");
+        let points = sampled(&reference.trajectory);
+        for i in 0..=16 {
+            let digits = 4.0 + 0.5 * f64::from(i);
+            let scenario = scenario(motion, MemoryChoice::Modes, 10.0_f64.powf(-digits));
+            let (found, seconds) = timed(|| run(&scenario).expect("a run that ends"));
+            let misses = points.iter().map(|(t, l)| (found.trajectory.l(*t) - l).abs());
+            let error = misses.fold(0.0, f64::max);
+            eprintln!("{}, 1e-{digits}: {seconds:.3e} s, error {error:.1e}", motion.0);
+            rows.push(json!({
+                "contestant": "stickslip", "motion": motion.0, "setting": format!("tolerance 1e-{digits}"),
+                "seconds": seconds, "error": error,
+            }));
+        }
+    }
+    let (count, from, to) = ENSEMBLE;
+    let part = |i: usize| i as f64 / (count - 1) as f64;
+    for digits in [6, 9] {
+        let tolerance = 10.0_f64.powi(-digits);
+        let one = |i: usize| (MOTIONS[1].0, from + (to - from) * part(i), MOTIONS[1].2);
+        let all: Vec<_> =
+            (0..count).map(|i| scenario(one(i), MemoryChoice::Modes, tolerance)).collect();
+        let ((), seconds) =
+            timed(|| all.iter().for_each(|one| drop(run(one).expect("a run that ends"))));
+        rows.push(json!({
+            "contestant": "stickslip", "motion": "ensemble", "setting": format!("tolerance 1e-{digits}"),
+            "seconds": seconds, "error": tolerance,
+        }));
+    }
+    rows
+}

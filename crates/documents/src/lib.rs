@@ -28,6 +28,7 @@ mod compare;
 mod continuation;
 mod cycle;
 mod figure;
+mod fit;
 mod history;
 mod measured_tip;
 mod model;
@@ -68,6 +69,7 @@ pub use figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
+pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
 pub use history::{FARTHEST, History};
 pub use measured_tip::{
     CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,

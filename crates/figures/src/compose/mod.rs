@@ -6,6 +6,7 @@ mod continuation;
 mod cycle;
 mod dense;
 mod drawn;
+mod fit;
 mod labels;
 mod measured_tip;
 mod raster;
@@ -24,7 +25,7 @@ use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
+    FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
     Unusable, WalkingDocument, read_from, told,
@@ -77,7 +78,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 18] = [
+pub const FORMATS: [&str; 19] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -95,6 +96,7 @@ pub const FORMATS: [&str; 18] = [
     RasterBoundaryDocument::FORMAT,
     WalkingDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
+    FitDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -157,6 +159,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterBoundaryDocument,
         WalkingDocument,
         MeasuredTipDocument,
+        FitDocument,
         FigureDocument
     )
 }

@@ -2,6 +2,7 @@
 
 CARGO ?= cargo
 PLOT ?= run.svg
+PYTHONS ?= python3
 # Cases of each of six parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
@@ -14,7 +15,8 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test survive judge check wasm outputs bench work-precision figures peers fuzz doc install site test-site dist clean
+.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision figures peers fuzz doc \
+	install site test-site dist clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -26,7 +28,17 @@ run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a pict
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked
 
-survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles
+test-python: ## the Python package in a clean environment: the program's numbers, stubs, examples; PYTHONS names interpreters
+	crates/python/test $(PYTHONS)
+
+test-slurm: ## examples/slurm with a controller and a node of Slurm started here; skipped with a word where it is not installed
+	$(CARGO) build --release --locked
+	tests/slurm/run.py target/release/stickslip
+
+wheel: ## the Python package for Linux of glibc 2.28 and later, in target/wheels
+	crates/python/wheel
+
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 3,000 extreme lines, signals; 400 measured profiles, 800 fitted ripples
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
 

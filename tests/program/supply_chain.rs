@@ -200,3 +200,50 @@ fn every_verb_builds_what_the_lock_file_says() {
         assert!(line.contains("--locked"), "{line}");
     }
 }
+
+/// Name, version and what it depends on, of each package in a lock file.
+fn locked(file: &Path) -> Vec<(String, String, Vec<String>)> {
+    let text = fs::read_to_string(file).unwrap();
+    let word = |entry: &str, key: &str| {
+        let line = entry.lines().find_map(|line| line.strip_prefix(&format!("{key} = ")));
+        line.unwrap_or_default().trim_matches('"').to_owned()
+    };
+    let needs = |entry: &str| {
+        let lines = entry.lines().filter_map(|line| line.strip_prefix(" \"")?.strip_suffix("\","));
+        lines.map(|line| line.split(' ').next().unwrap().to_owned()).collect()
+    };
+    let packages = text.split("[[package]]").skip(1);
+    packages.map(|entry| (word(entry, "name"), word(entry, "version"), needs(entry))).collect()
+}
+
+/// The crates below `[dependencies]` in a manifest.
+fn needed(manifest: &Path) -> Vec<String> {
+    let text = fs::read_to_string(manifest).unwrap();
+    let lines = text.lines().skip_while(|line| *line != "[dependencies]").skip(1);
+    let lines = lines.take_while(|line| !line.starts_with('['));
+    let names = lines.filter_map(|line| line.split_once(['=', '.'])).map(|(name, _)| name.trim());
+    names.filter(|name| !name.starts_with('#')).map(str::to_owned).collect()
+}
+
+/// Its lock file is its own: it must not fall behind, nor compute with other versions than the program.
+#[test]
+fn the_python_package_is_built_from_the_programs_own_crates() {
+    let (ours, its) = (root().join("Cargo.lock"), root().join("crates/python/Cargo.lock"));
+    let (ours, its) = (locked(&ours), locked(&its));
+    assert!(its.len() > 100, "{} packages", its.len());
+    for (name, version, needs) in &its {
+        let mut here = ours.iter().filter(|(other, _, _)| other == name).peekable();
+        let is_shared = here.peek().is_some();
+        let same = here.any(|(_, other, _)| other == version);
+        assert!(!is_shared || same, "{name} {version}: copy Cargo.lock to crates/python and build");
+        if let Some(folder) = name.strip_prefix("stickslip").filter(|rest| *rest != "-python") {
+            let folder = folder.strip_prefix('-').map(|folder| root().join("crates").join(folder));
+            let manifest = folder.unwrap_or(root().into()).join("Cargo.toml");
+            for wanted in needed(&manifest) {
+                assert!(needs.contains(&wanted), "crates/python/Cargo.lock: {name} lacks {wanted}");
+            }
+        }
+    }
+    let manifest = fs::read_to_string(root().join("crates/python/Cargo.toml")).unwrap();
+    assert!(manifest.contains("unsafe_code = \"forbid\""));
+}

@@ -2,12 +2,11 @@
 
 use std::str::FromStr;
 
-/// Values of a parameter: one, or N evenly from LO to HI.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Range {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-    pub(crate) points: usize,
+/// Values of a parameter: one, N evenly from LO to HI, or a list.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Range {
+    Even { low: f64, high: f64, points: usize },
+    Listed(Vec<f64>),
 }
 
 impl FromStr for Range {
@@ -17,24 +16,46 @@ impl FromStr for Range {
         let number = |part: &str| part.trim().parse::<f64>().ok().filter(|v| v.is_finite());
         let parts: Vec<&str> = text.split(':').collect();
         let parsed = match parts.as_slice() {
-            [value] => number(value).map(|v| Self { low: v, high: v, points: 1 }),
+            [list] => list.split(',').map(number).collect::<Option<_>>().map(Self::Listed),
             [low, high, points] => number(low).zip(number(high)).and_then(|(low, high)| {
                 let points = points.trim().parse().ok().filter(|n| *n >= 2 && low < high)?;
-                Some(Self { low, high, points })
+                Some(Self::Even { low, high, points })
             }),
             _ => None,
         };
-        parsed.ok_or_else(|| "a number, or LO:HI:N with LO below HI and N of 2 or more".into())
+        parsed.ok_or_else(|| {
+            "a number, LO:HI:N with LO below HI and N of 2 or more, or V1,V2,…".into()
+        })
     }
 }
 
 impl Range {
     /// The values, both ends exactly.
-    pub(crate) fn values(self) -> Vec<f64> {
-        let last = self.points - 1;
-        let step = (self.high - self.low) / last.max(1) as f64;
-        let value = |i: usize| if i == last { self.high } else { self.low + step * i as f64 };
-        (0..self.points).map(value).collect()
+    pub(crate) fn values(&self) -> Vec<f64> {
+        let (low, high, points) = match self {
+            Self::Even { low, high, points } => (*low, *high, *points),
+            Self::Listed(values) => return values.clone(),
+        };
+        let last = points - 1;
+        let step = (high - low) / last.max(1) as f64;
+        let value = |i: usize| if i == last { high } else { low + step * i as f64 };
+        (0..points).map(value).collect()
+    }
+
+    /// How many there are.
+    pub(crate) fn points(&self) -> usize {
+        match self {
+            Self::Even { points, .. } => *points,
+            Self::Listed(values) => values.len(),
+        }
+    }
+
+    /// The lowest.
+    pub(crate) fn low(&self) -> f64 {
+        match self {
+            Self::Even { low, .. } => *low,
+            Self::Listed(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
+        }
     }
 }
 
@@ -48,7 +69,11 @@ mod tests {
         assert_eq!(values.len(), 4);
         assert!((values[0] - 0.1).abs() < 1e-300 && (values[3] - 0.4).abs() < 1e-300);
         assert_eq!("-2".parse::<Range>().unwrap().values().len(), 1);
-        for bad in ["", "1:2", "1:2:1", "2:1:5", "1:2:3:4", "nan", "1:inf:3", "a:b:c"] {
+        assert_eq!("3,-1e2".parse(), Ok(Range::Listed(vec![3.0, -100.0])));
+        for bad in [
+            "", "1,", "1,x", "1:2,3:4", "1:2", "1:2:1", "2:1:5", "1:2:3:4", "nan", "1:inf:3",
+            "a:b:c",
+        ] {
             assert!(bad.parse::<Range>().is_err(), "{bad}");
         }
     }

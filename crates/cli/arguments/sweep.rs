@@ -3,7 +3,8 @@
 use super::examples::examples;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
-use super::{OutletArguments, TipName, WiderArguments};
+use super::sweep_start::SweepRunArguments;
+use super::{OutletArguments, TipName};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -20,18 +21,52 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(of) = text.strip_prefix("slurm") {
+            return Self::of_task(of, |name| std::env::var(name).ok());
+        }
         let parts = text.split_once('/').and_then(|(i, n)| i.parse().ok().zip(n.parse().ok()));
         parts
             .filter(|(index, of)| (1..=*of).contains(index))
             .map(|(index, of)| Self { index, of })
-            .ok_or_else(|| "I/N with I from 1 to N, such as 2/8".into())
+            .ok_or_else(|| "I/N with I from 1 to N, such as 2/8, or slurm, or slurm/N".into())
     }
 }
 
-/// What the tip settles into, over a grid of α, r and β.
+impl Shard {
+    /// That of a task of an array job, by its environment; `of` is empty, or `/N`.
+    fn of_task(of: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
+        let number = |name: &str| {
+            let set = variable(name).and_then(|text| text.parse::<usize>().ok());
+            set.ok_or_else(|| {
+                format!(
+                    "{name} is not set to a number: slurm is for the tasks of sbatch --array=1-N"
+                )
+            })
+        };
+        let index = number(TASK)?;
+        let of = match of.strip_prefix('/').map(str::parse) {
+            None if of.is_empty() => number(COUNT)?,
+            Some(Ok(of)) => of,
+            _ => return Err("slurm, or slurm/N with the number of all parts".into()),
+        };
+        if (1..=of).contains(&index) {
+            return Ok(Self { index, of });
+        }
+        Err(format!(
+            "task {index} of an array of {of}: number the tasks from 1, as --array=1-{of}, or where they are some of N \
+             parts give slurm/N"
+        ))
+    }
+}
+
+const TASK: &str = "SLURM_ARRAY_TASK_ID";
+const COUNT: &str = "SLURM_ARRAY_TASK_COUNT";
+
+/// What the tip settles into, over a grid of α, r and any other number of the model or of the start.
 ///
 /// Each point is found by itself, whatever the others are: below αc the steady motion, above it the stable
-/// cycle, and where none is found what a run comes to. Finished points are kept beside the output at once
+/// cycle, and where none is found what a run comes to. With --until each point is a run from the start given; where
+/// seeds vary, the document has the statistics of each ensemble. Finished points are kept beside the output at once
 /// (FILE.partial): after an interrupt the same command goes on from there.
 #[derive(Debug, Args)]
 #[command(
@@ -47,35 +82,38 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_enum, value_name = "NAME", help_heading = "Model")]
     pub(crate) tip: Option<TipName>,
 
-    /// Side lobes of the triple Gaussian, V or LO:HI:N [default: 1].
+    /// Side lobes of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) beta: Option<Range>,
 
     /// Width of either Gaussian: f(x/W) [default: 1].
-    #[arg(long, value_name = "W", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) width: Option<f64>,
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
+    pub(crate) width: Option<Range>,
 
     /// Footprint from a file, as for `stickslip run`.
     #[arg(long, value_name = "FILE", help_heading = "Model")]
     pub(crate) tip_file: Option<PathBuf>,
 
-    /// Support velocities, V or LO:HI:N.
+    /// Support velocities.
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) r: Option<Range>,
 
-    /// Indentation rates, V or LO:HI:N.
+    /// Indentation rates.
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) alpha: Option<Range>,
 
-    /// Indentation rates as αc(r) + D, D as V or LO:HI:N.
+    /// Indentation rates as αc(r) + D.
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) alpha_above: Option<Range>,
 
     #[command(flatten)]
-    pub(crate) wider: WiderArguments,
+    pub(crate) wider: WiderRanges,
 
-    /// Largest residual that the equation of motion (18) may have on a cycle, in units of kσ/Γ; from
-    /// 1e-11 to 1e-4.
+    #[command(flatten)]
+    pub(crate) run: SweepRunArguments,
+
+    /// Largest residual that the equation of motion (18) may have on a cycle, in units of kσ/Γ; or error of a run,
+    /// in σ; from 1e-11 to 1e-4.
     #[arg(
         long,
         value_name = "E",
@@ -89,7 +127,9 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
-    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together.
+    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together. `slurm`: the part of
+    /// this task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N
+    /// where some of N parts alone are in the array.
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
@@ -100,6 +140,27 @@ pub(crate) struct SweepArguments {
     /// .svg or .png. What has neither, such as steady and trapped tips, is marked at the foot.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
+}
+
+/// The wider law, as that of a run.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Wider law")]
+pub(crate) struct WiderRanges {
+    /// Depth limit b of (61), in kσ²/a; above 0 [default: none].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(crate) depth_limit: Option<Range>,
+
+    /// Time in which the surface heals, in Γ/k; above 0 [default: never].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(crate) healing_time: Option<Range>,
+
+    /// Inertia of the tip, in Γ²/k; above 0 [default: none].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
+    pub(crate) inertia: Option<Range>,
+
+    /// Refused here: what has no support settles into no motion.
+    #[arg(long)]
+    pub(crate) no_spring: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -136,6 +197,8 @@ const EXAMPLES: &str = "Examples:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json --plot map.png
   With a depth limit no tip is held for ever:
     stickslip sweep --beta 0 --r 1 --alpha 2:12:51 --depth-limit 5 -o limited.json --plot limited.svg
+  A hundred runs from noise of their own, and what they have in common:
+    stickslip sweep --alpha 1.2 --r 1 --noise 1e-3 --seed 1:100:100 --until 200 -o ensemble.json
   A phase diagram on four machines:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 -o part-1.json
     stickslip sweep merge part-1.json part-2.json part-3.json part-4.json -o map.json";
@@ -150,5 +213,22 @@ mod tests {
         for bad in ["0/8", "9/8", "1", "1/0", "-1/2", "1/2/3"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn a_task_of_an_array_job_has_its_shard_from_its_environment() {
+        let of = |typed: &str, set: &[(&str, &str)]| {
+            let variable = |name: &str| set.iter().find(|s| s.0 == name).map(|s| s.1.to_owned());
+            Shard::of_task(typed, variable)
+        };
+        assert_eq!(of("", &[(TASK, "3"), (COUNT, "8")]), Ok(Shard { index: 3, of: 8 }));
+        // Tasks 3 and 7 of 8 again: Slurm counts two.
+        let again = [(TASK, "7"), (COUNT, "2")];
+        assert_eq!(of("/8", &again), Ok(Shard { index: 7, of: 8 }));
+        assert!(of("", &again).unwrap_err().contains("slurm/N"));
+        for bad in [&[][..], &[(TASK, "3")], &[(TASK, "0"), (COUNT, "8")], &[(TASK, "x")]] {
+            assert!(of("", bad).is_err(), "{bad:?}");
+        }
+        assert!(of("/x", &again).is_err() && of("8", &again).is_err());
     }
 }

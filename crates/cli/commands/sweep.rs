@@ -1,9 +1,11 @@
 //! `stickslip sweep`.
 
+mod axes;
 mod grid;
 pub(crate) mod merge;
 mod point;
 mod raster;
+mod started;
 mod work;
 
 use super::finished::Finished;
@@ -15,7 +17,9 @@ use crate::interrupt::Interrupt;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint};
+use stickslip_documents::{
+    EnsembleDocument, FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint,
+};
 use stickslip_figures::judge_sweep;
 use work::compute;
 
@@ -66,6 +70,7 @@ fn sealed(
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        ensembles: EnsembleDocument::all(&parameters, &points),
         parameters,
         points,
         arithmetic,
@@ -97,11 +102,12 @@ fn threads(asked: Option<usize>) -> Result<usize, Failure> {
 /// A point; where a library panics, one that failed.
 fn judged(index: usize, grid: &Grid) -> SweepPoint {
     let place = grid.place(index);
+    let empty = place.empty(index, None);
     let point = AssertUnwindSafe(|| point::point(index, place, grid.parameters.tolerance));
     catch_unwind(point).unwrap_or_else(|_| SweepPoint {
         error: Some(
             "the computation failed for a reason that it cannot tell: please report it".into(),
         ),
-        ..SweepPoint::at(index, place.beta, place.r, None)
+        ..empty
     })
 }

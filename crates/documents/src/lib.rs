@@ -28,6 +28,7 @@ mod compare;
 mod continuation;
 mod cycle;
 mod figure;
+mod fit;
 mod history;
 mod measured_tip;
 mod model;
@@ -48,6 +49,7 @@ mod sweep;
 mod table;
 mod units;
 mod verification;
+mod walking;
 mod work;
 
 pub use boundary::{
@@ -67,6 +69,7 @@ pub use figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
+pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
 pub use history::{FARTHEST, History};
 pub use measured_tip::{
     CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,
@@ -105,7 +108,11 @@ pub use stability::{
 pub use surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
 };
-pub use sweep::{ShardDocument, SourceName, SweepDocument, SweepParameters, SweepPoint};
+pub use sweep::{
+    AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
+    StatisticsDocument, SweepDocument, SweepParameters, SweepPoint, SweepRunParameters,
+    SweepStartName,
+};
 pub use table::{Array, Column, Named, Tabular};
 pub use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
@@ -113,4 +120,5 @@ pub use units::{
 pub use verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
 };
+pub use walking::{WalkDocument, WalkingDocument, WalkingParameters};
 pub use work::{SteadyState, WorkDocument};

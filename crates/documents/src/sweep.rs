@@ -1,5 +1,13 @@
 //! The document of `stickslip sweep`.
 
+mod axis;
+mod ensemble;
+mod start;
+
+pub use axis::{AxisDocument, AxisName};
+pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
+pub use start::{SweepRunParameters, SweepStartName};
+
 use crate::table::{Column, Named, Tabular};
 use crate::{RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
@@ -22,6 +30,10 @@ pub struct SweepDocument {
     pub parameters: SweepParameters,
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
+    /// Points that differ in the seed of their noise alone, taken together, in the order of the points; where seeds vary and
+    /// all parts are here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ensembles: Option<Vec<EnsembleDocument>>,
     /// How the machine that computed the points rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": one that rounds otherwise
     /// gives other last digits. Null where parts came from machines that do not agree.
     #[serde(default)]
@@ -37,13 +49,16 @@ impl SweepDocument {
     pub const FORMAT: &'static str = "stickslip/sweep";
 }
 
-/// The grid: footprints times r times α, the last varying fastest.
+/// The grid: footprints times r times α times further axes, the last varying fastest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepParameters {
-    /// Footprints f.
+    /// Footprints f: widths times β, where they vary.
     pub tips: Vec<TipDocument>,
-    /// Side lobes of each footprint, where they were given.
+    /// Widths of the footprints, where several were given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<Vec<f64>>,
+    /// Side lobes of the footprints, where they were given.
     pub beta: Option<Vec<f64>>,
     /// Dimensionless support velocities r (12).
     pub r: Vec<f64>,
@@ -64,6 +79,12 @@ pub struct SweepParameters {
     /// M, in Γ²/k, where the tip has inertia.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
+    /// What else varies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub axes: Vec<AxisDocument>,
+    /// The run that each point is, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<SweepRunParameters>,
 }
 
 /// Part `index` of `of`: the points whose index is `index` - 1 modulo `of`.
@@ -84,7 +105,7 @@ pub enum SourceName {
     Stability,
     /// The stable periodic solution of (18).
     Cycle,
-    /// The end of a run from a disturbed steady state.
+    /// The end of a run, from a disturbed steady state unless the sweep says otherwise.
     Run,
 }
 
@@ -104,12 +125,18 @@ impl std::fmt::Display for SourceName {
 pub struct SweepPoint {
     /// Its place in the grid.
     pub index: usize,
+    /// Width of the footprint, where it varies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
     /// Side lobes, where they were given.
     pub beta: Option<f64>,
     /// r, dimensionless.
     pub r: f64,
     /// α, dimensionless; null where αc(r) + D could not be found.
     pub alpha: Option<f64>,
+    /// Values of the further axes, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
     /// αc(r), if there is one.
     pub critical_alpha: Option<f64>,
     /// What the tip settles into; "transient" where a run of thousands of time units did not settle. Null
@@ -132,11 +159,17 @@ pub struct SweepPoint {
     /// Error of `amplitude_x0`, σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles only.
+    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles, and of runs that were asked for.
     pub amplitude_u: Option<f64>,
     /// Error of `amplitude_u`, kσ²/a.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
+    /// Mean of l at 2,001 times evenly from the middle of the run to its end, σ; of runs that were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_l: Option<f64>,
+    /// Standard deviation of l at these times, σ: how far the tip swings, be it in stick-slip or on noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deviation_l: Option<f64>,
     /// Maxima of l in one period.
     pub slips: Option<usize>,
     /// Largest modulus of the Floquet multipliers but that of a shift in time; of cycles only.
@@ -167,7 +200,27 @@ impl SweepParameters {
     /// Points of the whole grid.
     pub fn points(&self) -> usize {
         let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
-        self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas)
+        let points = self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas);
+        points.saturating_mul(self.inner())
+    }
+
+    /// Points of one footprint, r and α.
+    pub fn inner(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
+    }
+
+    /// Values of the further axes at a point, by its index.
+    pub fn at(&self, index: usize) -> Vec<f64> {
+        let mut rest = index;
+        let last_first = self.axes.iter().rev().map(|axis| {
+            let count = axis.values.len().max(1);
+            let at = rest % count;
+            rest /= count;
+            axis.values.get(at).copied().unwrap_or(f64::NAN)
+        });
+        let mut values: Vec<f64> = last_first.collect();
+        values.reverse();
+        values
     }
 }
 
@@ -176,9 +229,11 @@ impl SweepPoint {
     pub fn at(index: usize, beta: Option<f64>, r: f64, alpha: Option<f64>) -> Self {
         Self {
             index,
+            width: None,
             beta,
             r,
             alpha,
+            at: vec![],
             critical_alpha: None,
             regime: None,
             source: None,
@@ -190,6 +245,8 @@ impl SweepPoint {
             amplitude_x0_error: None,
             amplitude_u: None,
             amplitude_u_error: None,
+            mean_l: None,
+            deviation_l: None,
             slips: None,
             multiplier: None,
             error: None,
@@ -251,10 +308,18 @@ impl Tabular for SweepDocument {
             words(|p| p.regime.map(|regime| regime.to_string())),
             Some(regimes.collect()),
         );
-        vec![
+        let widths = self.parameters.width.as_ref().map(|_| ("width", number(|p| p.width)));
+        let place = vec![
             ("beta", number(|p| p.beta)),
             ("r", number(|p| Some(p.r))),
             ("alpha", number(|p| p.alpha)),
+        ];
+        let axis = |(i, axis): (usize, &AxisDocument)| {
+            let values = self.points.iter().map(|point| point.at.get(i).copied());
+            (axis.name.column(), values.collect::<Vec<_>>().into())
+        };
+        let axes = self.parameters.axes.iter().enumerate().map(axis);
+        let found = vec![
             ("critical_alpha", number(|p| p.critical_alpha)),
             ("period", number(|p| p.period)),
             ("wavelength", number(|p| p.wavelength)),
@@ -264,6 +329,10 @@ impl Tabular for SweepDocument {
             ("multiplier", number(|p| p.multiplier)),
             ("regime", regimes),
             ("source", Column::Words(words(|p| p.source.map(|source| source.to_string())), None)),
-        ]
+        ];
+        let of_runs = self.parameters.run.iter().flat_map(|_| {
+            [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
+        });
+        widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
     }
 }

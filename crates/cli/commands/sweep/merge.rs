@@ -7,8 +7,9 @@ use crate::failure::Failure;
 use crate::files::distinct::Named;
 use crate::files::input::read_document;
 use crate::message::say;
+use std::collections::HashSet;
 use std::path::Path;
-use stickslip_documents::{SweepDocument, SweepParameters, SweepPoint};
+use stickslip_documents::{ShardDocument, SweepDocument, SweepParameters, SweepPoint};
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
@@ -19,10 +20,10 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
         Failure::input("PART.json", "no part was given: name the documents of all of them")
     })?;
-    whole.parameters.shard = None;
+    let mut shards: Vec<ShardDocument> = whole.parameters.shard.take().into_iter().collect();
     for part in parts {
         let (path, mut part) = part?;
-        part.parameters.shard = None;
+        shards.extend(part.parameters.shard.take());
         if part.parameters != whole.parameters || part.software != whole.software {
             return Err(Failure::input(
                 format!("PART.json {}", path.display()),
@@ -39,9 +40,39 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
         whole.points.append(&mut part.points);
     }
     whole.points.sort_by_key(|point| point.index);
+    judge_parts(&shards)?;
     complete(&whole.parameters, &whole.points)?;
     let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
     job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(whole)
+}
+
+/// Names the parts that are missing, as an array job of Slurm takes them.
+fn judge_parts(shards: &[ShardDocument]) -> Result<(), Failure> {
+    let Some(of) = shards.first().map(|shard| shard.of) else { return Ok(()) };
+    let there: HashSet<usize> = shards.iter().map(|shard| shard.index).collect();
+    // What is there twice, or of another division, is told point by point.
+    let is_odd = there.len() < shards.len() || shards.iter().any(|shard| shard.of != of);
+    if is_odd || there.len() >= of {
+        return Ok(());
+    }
+    let missing: Vec<usize> = (1..=of).filter(|index| !there.contains(index)).collect();
+    let array = runs(&missing);
+    let message = format!(
+        "of {of} parts {} are missing: --shard {}/{of} and so on, or an array job with --array={array} and --shard slurm/{of}, computes \
+         them; then name the documents of all parts",
+        missing.len(),
+        missing[0]
+    );
+    Err(Failure::input("PART.json", message))
+}
+
+/// Rising numbers as `1,4-6`.
+fn runs(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        run => run.iter().map(usize::to_string).collect(),
+    });
+    runs.collect::<Vec<_>>().join(",")
 }
 
 fn read(path: &Path) -> Result<SweepDocument, Failure> {
@@ -73,4 +104,26 @@ pub(crate) fn complete(parameters: &SweepParameters, points: &[SweepPoint]) -> R
         return refused(format!("there are {} points, the grid has {count}", points.len()));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_parts_are_named_as_an_array_job_takes_them() {
+        let refused = |there: &[usize], of| {
+            let shards: Vec<_> = there.iter().map(|i| ShardDocument { index: *i, of }).collect();
+            judge_parts(&shards).err().map(|failure| failure.to_string()).unwrap_or_default()
+        };
+        assert!(
+            refused(&[1, 3, 8], 8).contains("--array=2,4-7 and --shard slurm/8,"),
+            "{}",
+            refused(&[1, 3, 8], 8)
+        );
+        assert!(refused(&[1, 2], 3).contains("of 3 parts 1 are missing: --shard 3/3"));
+        assert_eq!(refused(&[3, 1, 2], 3), "");
+        assert_eq!(refused(&[], 3), "");
+        assert_eq!(runs(&[1, 2, 3, 7, 9, 10]), "1-3,7,9-10");
+    }
 }

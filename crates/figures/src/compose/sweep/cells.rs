@@ -1,7 +1,7 @@
 //! The phase diagram: what the motion comes to, over two parameters.
 
 use super::varied::{Phase, Varied};
-use crate::compose::labels::ALPHA;
+use crate::compose::labels::{ALPHA, R};
 use stickslip_documents::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
     TipDocument,
@@ -49,6 +49,10 @@ fn ends(values: &[f64]) -> Option<[f64; 2]> {
 fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocument> {
     let parameters = &document.parameters;
     let is_above = fast.label != ALPHA;
+    // Theory is about α: over another axis it has no line here.
+    if parameters.axes.iter().any(|axis| axis.name.label() == fast.label) {
+        return vec![];
+    }
     if parameters.alpha.as_ref().or(parameters.alpha_above.as_ref()).is_none_or(|a| a.len() < 2) {
         return vec![];
     }
@@ -72,7 +76,7 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
 /// The slow parameter, αc and the trapping threshold there; NaN where there is none.
 fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64) {
     let parameters = &document.parameters;
-    let of_r = slow.values.len() == parameters.r.len() && slow.label != "β";
+    let of_r = slow.label == R;
     let r = if of_r { slow.values[i] } else { parameters.r.first().copied().unwrap_or(f64::NAN) };
     let tip: Option<&TipDocument> =
         if of_r { parameters.tips.first() } else { parameters.tips.get(i) };

@@ -1,7 +1,7 @@
 //! What a sweep varies, and what its points come to.
 
 use crate::compose::labels::{ALPHA, R};
-use stickslip_documents::{ColourName, RegimeName, SweepParameters, SweepPoint};
+use stickslip_documents::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
 
 /// A parameter that varies.
 #[derive(Debug, Clone, Copy)]
@@ -18,23 +18,34 @@ impl Varied<'_> {
     }
 }
 
-/// Those that vary, the slowest first.
+/// Those that vary, the slowest first; seeds only where nothing else does: their points share a place.
 pub(super) fn varied(parameters: &SweepParameters) -> Vec<Varied<'_>> {
-    let SweepParameters { beta, r, alpha, alpha_above, .. } = parameters;
+    let mut all = all(parameters);
+    all.retain(|axis| axis.values.len() > 1);
+    if all.len() > 1 {
+        all.retain(|axis| axis.label != AxisName::Seed.label());
+    }
+    all
+}
+
+fn all(parameters: &SweepParameters) -> Vec<Varied<'_>> {
+    let SweepParameters { width, beta, r, alpha, alpha_above, axes, .. } = parameters;
     let above = alpha_above.as_deref().map(|values| (values, "α − α_c"));
     let (alphas, label) =
         alpha.as_deref().map(|values| (values, ALPHA)).or(above).unwrap_or((&[], ALPHA));
-    let stride = alphas.len().max(1);
-    let all = [
-        Varied {
-            values: beta.as_deref().unwrap_or(&[]),
-            label: "β",
-            stride: stride * r.len().max(1),
-        },
-        Varied { values: r, label: R, stride },
-        Varied { values: alphas, label, stride: 1 },
-    ];
-    all.into_iter().filter(|axis| axis.values.len() > 1).collect()
+    let further = axes.iter().map(|axis| (axis.values.as_slice(), axis.name.label()));
+    let of_tip = [(width, "width (σ)"), (beta, "β")];
+    let of_tip = of_tip.map(|(values, label)| (values.as_deref().unwrap_or(&[]), label));
+    let named = of_tip.into_iter().chain([(r.as_slice(), R), (alphas, label)]).chain(further);
+    // From the last, which varies fastest.
+    let mut stride = 1;
+    let mut all: Vec<Varied> = vec![];
+    for (values, label) in named.collect::<Vec<_>>().into_iter().rev() {
+        all.push(Varied { values, label, stride });
+        stride *= values.len().max(1);
+    }
+    all.reverse();
+    all
 }
 
 /// Kinds of motion.

@@ -1,0 +1,42 @@
+//! Points of `stickslip sweep` that are runs: how they begin, each option a range.
+
+use super::range::Range;
+use super::start::StartChoice;
+use clap::Args;
+
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Runs")]
+pub(crate) struct SweepRunArguments {
+    /// Each point is a run to this time, in Γ/k, as `stickslip run` makes it, and not what the tip settles into at last.
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) until: Option<f64>,
+
+    /// What the tip finds at the start [default: steady].
+    #[arg(long, value_enum, value_name = "START", requires = "until")]
+    pub(crate) start: Option<StartChoice>,
+
+    /// Position of the tip at the start, in σ [default: 14].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
+    pub(crate) start_position: Option<Range>,
+
+    /// The tip starts at X - D [default: 0].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
+    pub(crate) kick: Option<Range>,
+
+    /// Velocity of a tip with inertia at the start, in kσ/Γ [default: r with --start steady, else 0].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
+    pub(crate) start_velocity: Option<Range>,
+
+    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them [default: none;
+    /// 1e-4 with --start paper].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
+    pub(crate) noise: Option<Range>,
+
+    /// Spacing of the noise grid, in σ [default: 0.1].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "noise")]
+    pub(crate) noise_spacing: Option<Range>,
+
+    /// Seeds of the noise, whole numbers: 1:100:100 makes an ensemble of a hundred [default: 1].
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "noise")]
+    pub(crate) seed: Option<Range>,
+}

@@ -1,0 +1,85 @@
+"""Stick-slip of an AFM tip on a soft surface: one closed delay equation instead of a PDE.
+
+The program's commands as functions: keyword arguments are its options, with underscores for hyphens, and what they
+give is what the program gives, to the last bit. All quantities are dimensionless: lengths in tip widths sigma, times
+in Gamma/k, forces in k sigma, heights in k sigma^2/a.
+
+>>> import stickslip
+>>> run = stickslip.run(alpha=1.2, r=1, kick=0.05, until=400)
+>>> run.regime, round(run.period, 6)
+('stick-slip', 7.06736)
+>>> run.sol(100.0).l.shape, run.surface([60, 61]).shape
+((), (2,))
+"""
+
+from ._commands import (
+    boundary,
+    compare,
+    continue_branch,
+    cycle,
+    raster,
+    response,
+    run,
+    stability,
+    surface,
+    sweep,
+    sweep_merge,
+    sweep_raster,
+    tip,
+    units,
+    verify,
+)
+from ._picture import Picture
+from ._records import Record
+from ._results import (
+    BoundaryResult,
+    ContinueResult,
+    CycleResult,
+    Motion,
+    RasterResult,
+    ResponseResult,
+    Result,
+    RunResult,
+    StabilityResult,
+    SurfaceResult,
+    SweepResult,
+    load,
+    loads,
+)
+from ._warning import StickslipWarning
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BoundaryResult",
+    "ContinueResult",
+    "CycleResult",
+    "Motion",
+    "Picture",
+    "RasterResult",
+    "Record",
+    "ResponseResult",
+    "Result",
+    "RunResult",
+    "StabilityResult",
+    "StickslipWarning",
+    "SurfaceResult",
+    "SweepResult",
+    "boundary",
+    "compare",
+    "continue_branch",
+    "cycle",
+    "load",
+    "loads",
+    "raster",
+    "response",
+    "run",
+    "stability",
+    "surface",
+    "sweep",
+    "sweep_merge",
+    "sweep_raster",
+    "tip",
+    "units",
+    "verify",
+]

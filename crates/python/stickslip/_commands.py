@@ -1,0 +1,145 @@
+"""The functions: each is a command of the program, its keyword arguments the options of that."""
+
+from ._call import call
+from ._options import options, signature
+from ._results import (
+    BoundaryResult,
+    ContinueResult,
+    CycleResult,
+    RasterResult,
+    ResponseResult,
+    Result,
+    RunResult,
+    StabilityResult,
+    SurfaceResult,
+    SweepResult,
+)
+
+
+def command(*path, returns=Result):
+    """A function of a command, from one that has only its words for it."""
+
+    def made(described):
+        taken = signature(path, returns)
+
+        def function(*args, progress=None, **given):
+            if args:
+                bound = taken.bind(*args)
+                given = {**bound.arguments, **given}
+            return call(path, given, progress)
+
+        function.__name__ = function.__qualname__ = described.__name__
+        function.__module__ = "stickslip"
+        function.__doc__ = f"{described.__doc__.rstrip()}\n\n{listed(path)}"
+        function.__signature__ = taken
+        return function
+
+    return made
+
+
+def listed(path):
+    """The options of a command for its help."""
+    lines = ["Options, as `stickslip " + " ".join(path) + " --help` has them:", ""]
+    for name, option in options(path).items():
+        lines.append(f"{name}: {option.value or 'True or False'}")
+        lines.append(f"    {option.help}")
+    lines.append("progress: True, or a function of the part done (None where the end is not known) and words")
+    lines.append("    Shows a bar of tqdm, or calls the function.")
+    return "\n".join(lines)
+
+
+@command("run", returns=RunResult)
+def run():
+    """Integrates l'(t) = -alpha int_0^inf f'(r tau + l(t-tau) - l(t)) dtau - l(t) - F_ext(t), and says what becomes of it.
+
+    Gives a :class:`RunResult`: t, l, x0, velocity of shape (samples,), the dense solution ``sol(t)``, ``surface(x, t)``,
+    regime, period, amplitudes. Ctrl-C stops it; what was computed until then is the ``result`` of the KeyboardInterrupt.
+    tip is a name, or a footprint of your own: columns (x, f), a table of rows, a pandas Series or DataFrame, or
+    {"gaussians": [{"amplitude": 1, "center": 0, "width": 1}]}."""
+
+
+@command("surface", returns=SurfaceResult)
+def surface():
+    """Reconstructs the surface u(x,t), in k sigma^2/a, from a run, or u(x,y) from a raster; results or .json files.
+
+    ``surfaces`` has t, x and u of shape (len(x),) for each time, ``images`` u of shape (len(y), len(x)).
+    :meth:`RunResult.surface` gives the array alone."""
+
+
+@command("stability", returns=StabilityResult)
+def stability():
+    """Linear theory: the critical point, all growth exponents lambda of r Lambda + 1 = -(alpha/r) int f'' exp(-Lambda y) dy,
+    Lambda = lambda/r, with a certificate that none is missing, trapping, onset."""
+
+
+@command("boundary", returns=BoundaryResult)
+def boundary():
+    """The curve alpha_c(r) between steady motion and stick-slip."""
+
+
+@command("response", returns=ResponseResult)
+def response():
+    """The linear answer to weak pulses as a sum of modes: ``samples.t``, ``samples.l`` of shape (samples,)."""
+
+
+@command("cycle", returns=CycleResult)
+def cycle():
+    """The periodic motion at given alpha and r, stable or not, with its Floquet multipliers, without waiting for it.
+
+    ``profile.t``, ``profile.l`` of shape (points,); period in Gamma/k, wavelength and amplitudes in sigma."""
+
+
+@command("continue", returns=ContinueResult)
+def continue_branch():
+    """A branch of cycles in alpha or r, through folds, with period doublings located and followed.
+
+    ``branches`` have alpha, r, period, amplitude_x0 and stable of shape (points,); ``special`` the special points."""
+
+
+@command("sweep", returns=SweepResult)
+def sweep():
+    """What the tip settles into over a grid: a tuple (low, high, n) is that many values evenly, a list or array its own.
+
+    ``to_xarray()`` is a Dataset over the axes; with output=FILE finished points are kept as they come, and the same
+    call goes on after an interrupt."""
+
+
+@command("sweep", "merge", returns=SweepResult)
+def sweep_merge():
+    """Puts the parts of a sweep together, results or .json files in any order: what one sweep would have given."""
+
+
+@command("sweep", "raster")
+def sweep_raster():
+    """The pattern of a raster over pitch and alpha."""
+
+
+@command("raster", returns=RasterResult)
+def raster():
+    """An area scanned line by line: ``lines`` with their samples, the ``pattern`` of ripples that comes of it."""
+
+
+@command("tip")
+def tip():
+    """A footprint from a measured profile: noisy, tilted, off centre, in nanometres; a file or columns (x, z), of which a
+    DataFrame's names may have units.
+
+    ``gaussians`` is f with f(0) = 1, ``sigma`` its width; what noise leaves open is ``low`` and ``high`` of each estimate. The
+    result is a tip: ``run(tip=stickslip.tip("pit.csv"), ...)``."""
+
+
+@command("compare")
+def compare():
+    """The same run on the full PDE, on grids of four kinds: ``max_difference``, times, and both motions."""
+
+
+@command("units")
+def units():
+    """From damping, stiffness, tip width, indentation rate, velocity, with their units as text such as "20nm", to alpha and
+    r, and back."""
+
+
+@command("verify")
+def verify():
+    """Whether a saved run keeps its promise, by another memory and a tighter tolerance; RuntimeError if it does not, with
+    what was found as its ``result``."""

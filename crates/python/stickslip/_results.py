@@ -1,0 +1,296 @@
+"""What the commands give: documents of the program, their fields as attributes, their numbers as arrays."""
+
+import json
+import os
+from collections import namedtuple
+
+from . import _native
+from ._picture import Picture
+from ._records import recorded
+
+Motion = namedtuple("Motion", "l x0 velocity lag")
+Motion.__doc__ = """The motion at some times, arrays of the shape of these: l = rt - r - x0, x0 and the lag R - x0 in
+sigma, the velocity in k sigma/Gamma; NaN where the support has none of them."""
+
+
+class Result:
+    """A document of the program. Its fields, named as in its JSON Schema (``stickslip schema``), are attributes:
+    structs are dicts with attributes, sequences of numbers are arrays of float64 that cannot be written to, with NaN
+    for null."""
+
+    def __init__(self, document):
+        self._document = document
+        self._fields = {}
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name not in self._fields:
+            if name not in self._document.names():
+                raise AttributeError(f"there is no {name}: there are {', '.join(self._document.names())}")
+            self._fields[name] = recorded(self._document.field(name))
+        return self._fields[name]
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._document.names()]
+
+    @property
+    def success(self):
+        """Whether all that was asked for was done."""
+        return not ("interrupted" in self._document.names() and self.interrupted)
+
+    @property
+    def message(self):
+        """What was found, in a line."""
+        return self._document.headline
+
+    def to_json(self):
+        """The document as the program writes it."""
+        return self._document.json()
+
+    def to_dict(self):
+        """The document as dicts, lists and numbers."""
+        return json.loads(self.to_json())
+
+    def save(self, path):
+        """Writes the document to a .json file, as the program does."""
+        with open(os.fspath(path), "w", encoding="utf-8") as file:
+            file.write(self.to_json() + "\n")
+
+    def columns(self):
+        """Its table: arrays by name, NaN where there is no value; words are lists."""
+        return self._document.columns()
+
+    def plot(self, *, width=None, dpi=None, x_range=None, y_range=None):
+        """The picture that ``stickslip plot`` draws: width such as "85mm", dots per inch, first and last abscissa and
+        ordinate."""
+        view = {"width": width, "dpi": dpi, "x_range": x_range, "y_range": y_range}
+        return Picture(self._document, **view)
+
+    def to_xarray(self):
+        """Its table as an xarray Dataset over its first column, and what defines it as attributes."""
+        columns = self.columns()
+        return dataset(self, columns, next(iter(columns), None))
+
+    def __repr__(self):
+        text = self._document.text.rstrip("\n")
+        return text or f"{type(self).__name__} {self.format}"
+
+    def __reduce__(self):
+        return loads, (self.to_json(),)
+
+
+class RunResult(Result):
+    """A run. t, l, x0, velocity and lag are arrays of the samples, without copies; l or lag is None where the support
+    has none."""
+
+    @property
+    def regime(self):
+        """"steady", "stick-slip", "trapped", "drifting" or "transient"."""
+        return self.__getattr__("regime")
+
+    @property
+    def t(self):
+        """Times of the samples, in Gamma/k."""
+        return self.samples["t"]
+
+    @property
+    def l(self):  # noqa: E743
+        """l = rt - r - x0 at the samples, in sigma."""
+        return self.samples.get("l")
+
+    @property
+    def lag(self):
+        """R - x0 at the samples, in sigma: the lateral force, in k sigma."""
+        return self.samples.get("lag")
+
+    @property
+    def x0(self):
+        """Position of the tip at the samples, in sigma."""
+        return self.samples["x0"]
+
+    @property
+    def velocity(self):
+        """x0' at the samples, in k sigma/Gamma."""
+        return self.samples["velocity"]
+
+    def _of_oscillation(self, name):
+        return None if self.oscillation is None else self.oscillation[name]
+
+    @property
+    def period(self):
+        """Of stick-slip, in Gamma/k; None of other regimes."""
+        return self._of_oscillation("period")
+
+    @property
+    def wavelength(self):
+        """Of the ripples, in sigma; None of other regimes."""
+        return self._of_oscillation("wavelength")
+
+    @property
+    def amplitude_x0(self):
+        """Half of what x0 swings about even motion, in sigma; None of other regimes."""
+        return self._of_oscillation("amplitude_x0")
+
+    @property
+    def amplitude_u(self):
+        """Half of the height of the ripples, in k sigma^2/a; None of other regimes."""
+        return self._of_oscillation("amplitude_u")
+
+    def sol(self, t):
+        """The dense solution at times t within the run, scalar or of any shape: a :class:`Motion`.
+
+        Accurate to the tolerance of the run everywhere, not only at its samples. ValueError outside of the run, or
+        where the history was left out."""
+        import numpy as np
+
+        times = np.asarray(t, dtype=float)
+        rows = self._document.motion(np.ascontiguousarray(times).reshape(-1))
+        return Motion(*(row.reshape(times.shape)[()] for row in rows))
+
+    @property
+    def span(self):
+        """First and last time of the dense solution, in Gamma/k."""
+        return self._document.span()
+
+    def surface(self, x, t=None):
+        """The surface u(x,t), in k sigma^2/a, at positions x, in sigma, and times t within the run [default: its end]:
+        an array of the shape of t followed by that of x."""
+        import numpy as np
+
+        x = np.asarray(x, dtype=float)
+        t = np.asarray(self.span[1] if t is None else t, dtype=float)
+        places = [np.ascontiguousarray(of).reshape(-1) for of in (x, t)]
+        return self._document.heights(*places).reshape(t.shape + x.shape)[()]
+
+    def to_xarray(self):
+        """The samples as an xarray Dataset over t."""
+        return dataset(self, self.samples, "t")
+
+
+class CycleResult(Result):
+    """A cycle: period, wavelength, amplitudes, profile, floquet multipliers, stable."""
+
+
+class ContinueResult(Result):
+    """Branches of cycles, and the special points on them."""
+
+    def to_xarray(self):
+        """A list of Datasets, a branch each, over the point's place on it."""
+        return [dataset(self, branch, None) for branch in self.branches]
+
+
+class StabilityResult(Result):
+    """Linear theory at a point: critical, stable, roots with their certificate, trapping, onset."""
+
+
+class BoundaryResult(Result):
+    """Where steady motion ends: alpha over r."""
+
+
+class ResponseResult(Result):
+    """The linear answer to pulses, as a sum of modes."""
+
+    def to_xarray(self):
+        """The samples as an xarray Dataset over t."""
+        return dataset(self, self.samples, "t")
+
+
+class RasterResult(Result):
+    """Lines scanned over one surface, and the pattern that comes of it."""
+
+
+class SurfaceResult(Result):
+    """Surfaces u(x,t) of a run, or u(x,y)."""
+
+    def to_xarray(self):
+        """u as an xarray DataArray over t and x, or t, y and x."""
+        import xarray
+
+        if self.surfaces:
+            first = self.surfaces[0]
+            u = [surface["u"] for surface in self.surfaces]
+            over = {"t": [surface["t"] for surface in self.surfaces], "x": first["x"]}
+        else:
+            first = self.images[0]
+            u = [image["u"] for image in self.images]
+            over = {"t": [image["t"] for image in self.images], "y": first["y"], "x": first["x"]}
+        return xarray.DataArray(u, coords=over, dims=tuple(over), name="u", attrs=attributes(self))
+
+
+class SweepResult(Result):
+    """What the tip settles into over a grid: ``columns()`` has a row for each point."""
+
+    def to_xarray(self):
+        """An xarray Dataset over the axes of the grid; points of other parts are NaN."""
+        return grid(self)
+
+
+KINDS = {
+    "stickslip/run": RunResult,
+    "stickslip/cycle": CycleResult,
+    "stickslip/continue": ContinueResult,
+    "stickslip/stability": StabilityResult,
+    "stickslip/boundary": BoundaryResult,
+    "stickslip/response": ResponseResult,
+    "stickslip/raster": RasterResult,
+    "stickslip/surface": SurfaceResult,
+    "stickslip/sweep": SweepResult,
+}
+
+
+def result_of(document):
+    """The result that a document is."""
+    return KINDS.get(document.field("format"), Result)(document)
+
+
+def load(path):
+    """The document of any kind that a .json file holds, be it the program that wrote it or :meth:`Result.save`.
+
+    ValueError where it cannot be read or is no such document."""
+    return result_of(_native.load(os.fspath(path)))
+
+
+def loads(text):
+    """The document of any kind that a text holds."""
+    return result_of(_native.read(text))
+
+
+def dataset(result, columns, over):
+    """Columns of equal length as a Dataset over one of them, or over their rows."""
+    import numpy as np
+    import xarray
+
+    there = {name: np.asarray(column) for name, column in columns.items() if column is not None}
+    there = {name: column for name, column in there.items() if column.ndim == 1}
+    dim = over or "point"
+    data = {name: (dim, column) for name, column in there.items()}
+    return xarray.Dataset(data, attrs=attributes(result)).set_coords([over] if over else [])
+
+
+def attributes(result):
+    """What defines a result, where it is a number or a word."""
+    parameters = result.parameters.items()
+    return {name: value for name, value in parameters if isinstance(value, (int, float, str))}
+
+
+def grid(result):
+    """The points of a sweep over its axes."""
+    import numpy as np
+    import xarray
+
+    parameters = result.parameters
+    alphas = "alpha" if parameters.get("alpha") is not None else "alpha_above"
+    axes = {name: parameters.get(name) for name in ("beta", "r", alphas)}
+    axes = {name: values for name, values in axes.items() if values is not None}
+    shape = tuple(len(values) for values in axes.values())
+    places = np.array([point["index"] for point in result.points])
+    data = {}
+    for name, column in result.columns().items():
+        if name in axes:
+            continue
+        column = np.asarray(column)
+        empty = np.full(shape, "" if column.dtype.kind == "U" else np.nan, dtype=column.dtype)
+        empty.reshape(-1)[places] = column
+        data[name] = (tuple(axes), empty)
+    return xarray.Dataset(data, coords=axes, attrs=attributes(result))

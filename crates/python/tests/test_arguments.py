@@ -1,0 +1,108 @@
+"""What is taken: arrays of any kind, and what is refused, in the program's words."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import stickslip
+
+X = np.linspace(0, 5, 41)
+F = np.exp(-(X**2) / 2)
+
+
+def motion(tip):
+    return stickslip.run(tip=tip, alpha=0.6, r=1, until=30).to_dict()["samples"]
+
+
+@pytest.fixture(scope="module")
+def usual():
+    return motion((X, F))
+
+
+def test_columns_of_any_kind_are_the_same_numbers(usual):
+    pandas = pytest.importorskip("pandas")
+    wide = np.zeros((41, 6))
+    wide[:, 1], wide[:, 4] = X, F
+    kinds = {
+        "lists": (X.tolist(), F.tolist()),
+        "strided": (wide[:, 1], wide[:, 4]),
+        "backwards": (X[::-1][::-1], F),
+        "a table of rows": np.column_stack([X, F]),
+        "fortran": np.asfortranarray(np.column_stack([X, F])),
+        "pandas Series": pandas.Series(F, index=X),
+        "pandas columns": (pandas.Series(X), pandas.Series(F)),
+        "pandas DataFrame": pandas.DataFrame({"x": X, "f": F}),
+        "big-endian": (X.astype(">f8"), F.astype(">f8")),
+    }
+    for kind, tip in kinds.items():
+        assert motion(tip) == usual, kind
+
+
+def test_float32_is_taken_as_the_numbers_that_it_holds(usual):
+    narrow = (X.astype(np.float32), F.astype(np.float32))
+    assert motion(narrow) == motion(tuple(column.astype(float) for column in narrow))
+    assert motion(narrow) != usual
+
+
+def test_integers_and_numpy_scalars_are_numbers():
+    usual = stickslip.stability(r=1.0, alpha=1.5).to_json()
+    for one in (1, np.float64(1), np.float32(1), np.int32(1), "1", np.array(1.0)):
+        assert stickslip.stability(r=one, alpha=1.5).to_json() == usual, repr(one)
+
+
+def test_ranges_and_lists_of_values_are_told_apart():
+    even = stickslip.sweep(r=1, alpha=(1, 2, 3)).parameters.alpha
+    assert even.tolist() == [1.0, 1.5, 2.0]
+
+
+def test_what_is_unusable_is_refused_in_the_programs_words():
+    cases = [
+        (dict(r=-1, alpha=1, until=20), "--r -1: "),
+        (dict(r=1, alpha=1, until=3), "--until 3: "),
+        (dict(r=1, alpha="much", until=20), "invalid value 'much' for '--alpha <A>'"),
+        (dict(r=1, until=20), "--alpha"),
+        (dict(r=1, alpha=1, until=20, tip_file="nowhere.csv"), "--tip-file nowhere.csv: cannot be read"),
+        (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "--tip-file <tip>: "),
+        (dict(r=1, alpha=1, until=20, memory="none"), "invalid value 'none' for '--memory <MEMORY>'"),
+        (dict(r=float("nan"), alpha=1, until=20), "--r NaN: "),
+    ]
+    for given, said in cases:
+        with pytest.raises(ValueError) as refused:
+            stickslip.run(**given)
+        assert said in str(refused.value), given
+
+
+def test_what_is_no_option_or_no_value_is_a_type_error():
+    with pytest.raises(TypeError, match="run.. has no option 'alfa': there are .*alpha"):
+        stickslip.run(alfa=1, r=1, until=20)
+    with pytest.raises(TypeError, match="no_spring is True or False"):
+        stickslip.run(alpha=1, no_spring=1, until=20)
+    with pytest.raises(TypeError, match="r has a value"):
+        stickslip.run(alpha=1, r=True, until=20)
+    with pytest.raises(TypeError, match="tip is a file, columns"):
+        stickslip.run(tip=3, alpha=1, r=1, until=20)
+    with pytest.raises(ValueError, match=r"columns have \[3, 2\] rows"):
+        stickslip.run(tip=([0, 1, 2], [1, 0]), alpha=1, r=1, until=20)
+
+
+def test_what_fails_at_run_time_is_a_runtime_error():
+    with pytest.raises(RuntimeError, match="no stick-slip|no cycle|cycle"):
+        stickslip.cycle(alpha=0.5, r=1)
+
+
+def test_what_may_have_been_overlooked_is_a_warning():
+    with pytest.warns(stickslip.StickslipWarning, match="--pulse 1,500,1") as caught:
+        stickslip.run(alpha=1, r=1, until=20, pulse=(1, 500, 1))
+    assert caught[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        stickslip.run(alpha=1, r=1, until=20)
+
+
+def test_files_are_written_where_asked(tmp_path):
+    made = stickslip.cycle(alpha=1.2, r=1, output=tmp_path / "cycle.json", plot=tmp_path / "cycle.svg")
+    assert (tmp_path / "cycle.json").read_text() == made.to_json() + "\n"
+    assert (tmp_path / "cycle.svg").read_text().startswith("<svg")
+    assert stickslip.run(alpha=1.2, r=1, until=40, output=tmp_path / "run.jsonl") is None
+    assert len((tmp_path / "run.jsonl").read_text().splitlines()) == 2003

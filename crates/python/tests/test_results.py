@@ -1,0 +1,96 @@
+"""Results: their shapes, what they share with SciPy's, and what they keep from being changed."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import stickslip
+
+
+@pytest.fixture(scope="module")
+def run():
+    return stickslip.run(alpha=1.2, r=1, kick=0.05, until=200, sample_every=0.5)
+
+
+def test_samples_have_no_copies_and_cannot_be_written_to(run):
+    assert run.t is run.t and run.t.dtype == np.float64
+    # The memory is that in which Rust recorded the run.
+    assert not run.t.flags.owndata and type(run.t.base).__name__ == "PySliceContainer"
+    with pytest.raises(ValueError, match="read-only"):
+        run.x0[0] = 0.0
+
+
+def test_the_dense_solution_goes_through_the_samples(run):
+    # The ends of steps are rounded to a document once: 16 roundings of numbers of the size of x0.
+    slack = 16 * np.finfo(float).eps * np.abs(run.x0).max()
+    found = run.sol(run.t)
+    for name in ("l", "x0", "velocity", "lag"):
+        sizes = np.abs(getattr(found, name) - getattr(run, name))
+        assert sizes.max() <= slack * (50 if name == "velocity" else 1), name
+    assert run.sol(100.0).l.shape == () and run.sol([[100.0], [101.0]]).x0.shape == (2, 1)
+    with pytest.raises(ValueError, match="outside of the run"):
+        run.sol(1e6)
+
+
+def test_a_run_without_history_has_no_dense_solution():
+    with pytest.raises(ValueError, match="history: it was left out"):
+        stickslip.run(alpha=1.2, r=1, until=40, history="none").sol(30)
+
+
+def test_success_and_message_are_there_as_in_scipy(run):
+    assert run.success is True
+    assert run.message.startswith("stick-slip, period 7.0673")
+    assert "amplitude of x0" in repr(run)
+
+
+def test_what_has_no_value_is_nan_or_none():
+    path = ([0, 20, 40], [0, 20, 0])
+    loop = stickslip.run(alpha=0.8, r=1, support_path=path, until=40)
+    assert loop.l is None and loop.lag is not None
+    assert np.isnan(loop.sol(10.0).l) and np.isfinite(loop.sol(10.0).lag)
+    assert loop.period is None
+
+
+def test_results_are_pickled_and_copied_whole(run):
+    again = pickle.loads(pickle.dumps(run))
+    assert again.to_json() == run.to_json() and np.array_equal(again.l, run.l)
+
+
+def test_pictures_are_those_of_the_program(run, tmp_path):
+    picture = run.plot(x_range=(100, 150))
+    assert picture.svg.startswith("<svg") and picture._repr_svg_() == picture.svg
+    for ending, beginning in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
+        picture.save(tmp_path / f"run.{ending}")
+        assert (tmp_path / f"run.{ending}").read_bytes().startswith(beginning)
+    with pytest.raises(ValueError, match="there is no picture of it"):
+        stickslip.units(alpha=1, r=1, damping="1mNs/m", stiffness="0.05N/m", tip_width="20nm", slope_force="5nN").plot().svg
+
+
+def test_datasets_hold_axes_and_parameters(run):
+    xarray = pytest.importorskip("xarray")
+    samples = run.to_xarray()
+    assert np.array_equal(samples["l"].values, run.l) and samples["t"].dims == ("t",)
+    assert samples.attrs["alpha"] == 1.2
+    surface = stickslip.surface(run, at=[150, 200], range=(140, 160, 11)).to_xarray()
+    assert isinstance(surface, xarray.DataArray) and surface.dims == ("t", "x") and surface.shape == (2, 11)
+    swept = stickslip.sweep(r=(0.8, 1.2, 3), alpha=(0.5, 4, 8)).to_xarray()
+    assert dict(swept.sizes) == {"r": 3, "alpha": 8}
+    place = swept.sel(r=1.0, alpha=0.5)
+    assert place["regime"].item() == "steady" and np.isnan(place["period"].item())
+    part = stickslip.sweep(r=(0.8, 1.2, 3), alpha=(0.5, 4, 8), shard=(1, 5)).to_xarray()
+    assert (part["regime"].values != "").sum() == 5
+
+
+def test_parts_of_a_sweep_merge_to_the_whole():
+    parts = [stickslip.sweep(r=1, alpha=(1, 2, 5), shard=(i, 2)) for i in (2, 1)]
+    assert stickslip.sweep_merge(*parts).to_json() == stickslip.sweep(r=1, alpha=(1, 2, 5)).to_json()
+
+
+def test_units_and_stability_have_their_fields():
+    found = stickslip.stability(r=1)
+    assert abs(found.critical.alpha - 1.0690361749) < 1e-10 and found.critical["omega"] == found.critical.omega
+    with pytest.raises(AttributeError, match="there is no critcal: there are .*critical"):
+        found.critcal
+    with pytest.raises(AttributeError, match="there is no alfa"):
+        found.critical.alfa

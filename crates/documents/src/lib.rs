@@ -49,6 +49,7 @@ mod sweep;
 mod table;
 mod units;
 mod verification;
+mod walking;
 mod work;
 
 pub use boundary::{
@@ -119,4 +120,5 @@ pub use units::{
 pub use verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
 };
+pub use walking::{WalkDocument, WalkingDocument, WalkingParameters};
 pub use work::{SteadyState, WorkDocument};

@@ -6,6 +6,7 @@ use crate::{
     RasterCompareDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
     RasterSweepDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
     StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    WalkingDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -13,13 +14,14 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 23] = [
+pub const SCHEMAS: [NamedSchema; 24] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
     ("verify", || schema_for!(VerifyDocument)),
     ("surface", || schema_for!(SurfaceDocument)),
     ("stability", || schema_for!(StabilityDocument)),
+    ("walking", || schema_for!(WalkingDocument)),
     ("boundary", || schema_for!(BoundaryDocument)),
     ("compare", || schema_for!(CompareDocument)),
     ("response", || schema_for!(ResponseDocument)),

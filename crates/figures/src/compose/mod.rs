@@ -18,6 +18,7 @@ mod stability;
 mod surface;
 mod sweep;
 mod tip;
+mod walking;
 
 use crate::error::FigureError;
 use serde::Serialize;
@@ -27,7 +28,7 @@ use stickslip_documents::{
     FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
-    Unusable, read_from, told,
+    Unusable, WalkingDocument, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -77,7 +78,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 18] = [
+pub const FORMATS: [&str; 19] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -93,6 +94,7 @@ pub const FORMATS: [&str; 18] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    WalkingDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
     FitDocument::FORMAT,
     FigureDocument::FORMAT,
@@ -155,6 +157,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterSurfaceDocument,
         RasterStabilityDocument,
         RasterBoundaryDocument,
+        WalkingDocument,
         MeasuredTipDocument,
         FitDocument,
         FigureDocument

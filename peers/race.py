@@ -103,6 +103,38 @@ def at_matched_error(rows):
     return [{**{c: row[c] for c in columns}, "ratio": row["seconds"] / best} for row in kept]
 
 
+def embedded(ours, theirs):
+    """Of each motion and error asked: the fastest of ours that errs no more, beside the fastest of theirs."""
+    found = []
+    for row in theirs:
+        able = [our for our in ours if our["motion"] == row["motion"] and our["error"] <= row["target"]]
+        our = min(able, key=lambda our: our["seconds"])
+        found.append({**row, "ours": our, "ratio": row["seconds"] / our["seconds"]})
+    return found
+
+
+def embedded_table(rows):
+    """Those who know the embedding."""
+    lines = [
+        "## With the embedding known",
+        "",
+        "heyoka gets the exponentials that we fit, as the system z' = 1 + s x0' z: the fastest setting of each that errs no",
+        "more than asked, by our fits about that error and tolerances of a decade; set off by a kick, to the same end. Of the",
+        "ensemble, 256 values of alpha from 1.1 to 1.3, the tolerances are ours as asked and a tenth of that for heyoka, whose",
+        "lanes take eight at a time; ours go one after the other.",
+        "",
+        "| motion | error | heyoka | time (s) | compiling (s) | ours | time (s) | ratio |",
+        "|---|---:|---|---:|---:|---|---:|---:|",
+    ]
+    for row in rows:
+        ours = row["ours"]
+        lines.append(
+            f"| {row['motion']} | {row['target']:.0e} | {row['setting']} | {row['seconds']:.2e} | {row['compiling']:.2f} "
+            f"| {ours['setting']} | {ours['seconds']:.2e} | {row['ratio']:.2f} |"
+        )
+    return lines + [""]
+
+
 def table(document):
     """Of each contestant the settings that no other of its own beats in both time and error."""
     rows = document["rows"]
@@ -143,6 +175,7 @@ def table(document):
         "|---|---|---:|---:|---:|",
         *matched,
         "",
+        *embedded_table(document.get("embedded", [])),
         "## All",
         "",
         "Ratio: to the fastest run of the closed equation that errs no more, named before it. Settings "
@@ -173,6 +206,10 @@ def main():
         for script in ("jitcdde_race.py", "scipy_race.py"):
             rows += json.loads(printed(interpreter, HERE / script, case))
         given = json.loads(case.read_text())
+        motions = Path(scratch) / "motions.json"
+        motions.write_text(printed(race, "embedded"))
+        theirs = json.loads(printed(interpreter, HERE / "heyoka_race.py", motions))
+        known = embedded(json.loads(printed(race, "embedded-rows")), theirs)
     rows = with_ratios(rows)
     document = {
         "date": datetime.date.today().isoformat(),
@@ -181,6 +218,7 @@ def main():
         "case": given["case"],
         "checked_to": given["reference"]["checked_to"],
         "at_matched_error": at_matched_error(rows),
+        "embedded": known,
         "rows": rows,
     }
     (folder / "peers.json").write_text(json.dumps(document, indent=1) + "\n")

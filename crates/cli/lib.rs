@@ -72,6 +72,7 @@ fn done(command: &Command) -> Result<(), Failure> {
         Command::Sweep(arguments) => commands::sweep::sweep(arguments),
         Command::Raster(arguments) => commands::raster::raster(arguments),
         Command::Tip(arguments) => commands::tip::measured_tip(arguments),
+        Command::Fit(arguments) => commands::fit::fit(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),

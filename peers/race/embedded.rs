@@ -12,8 +12,8 @@ use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, Trajectory, run}
 const MOTIONS: [(&str, f64, f64); 2] = [("onset", case::ALPHA, 0.01), ("stick-slip", 1.2, 0.05)];
 /// Of an ensemble: so many values of α, from and to these.
 const ENSEMBLE: (usize, f64, f64) = (256, 1.1, 1.3);
-/// Fits of the modes are those of runs to these tolerances, and a tenth of a decade is no matter.
-const FITS: std::ops::RangeInclusive<i32> = 5..=12;
+/// Fits of the modes are those of runs to these tolerances, in digits.
+const FITS: std::ops::RangeInclusive<i32> = 5..=11;
 
 fn scenario((_, alpha, kick): (&str, f64, f64), memory: MemoryChoice, tolerance: f64) -> Scenario {
     let tip = TipFunction::triple_gaussian(1.0, 1.0).expect("a valid tip");
@@ -68,8 +68,8 @@ pub(crate) fn rows() -> Vec<Value> {
     for motion in MOTIONS {
         let reference = run(&scenario(motion, MemoryChoice::Direct, 1e-13)).expect("a run");
         let points = sampled(&reference.trajectory);
-        for i in 0..=16 {
-            let digits = 4.0 + 0.5 * f64::from(i);
+        for i in 0..=30 {
+            let digits = 4.0 + 0.25 * f64::from(i);
             let scenario = scenario(motion, MemoryChoice::Modes, 10.0_f64.powf(-digits));
             let (found, seconds) = timed(|| run(&scenario).expect("a run that ends"));
             let misses = points.iter().map(|(t, l)| (found.trajectory.l(*t) - l).abs());

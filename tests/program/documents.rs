@@ -63,13 +63,14 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 14] = [
+const OTHERS: [(&str, &str); 15] = [
     ("stability", "stability --r 1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
     ("response", "response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60"),
     ("cycle", "cycle --alpha 1.2 --r 1"),
     ("tip", "tip pit.csv --resamples 20"),
+    ("fit", "fit --onsets onsets.csv --tip gaussian"),
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
     ("raster", "raster --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
@@ -90,6 +91,7 @@ const OTHERS: [(&str, &str); 14] = [
 fn every_schema_that_is_offered_is_that_of_some_document() {
     let folder = Folder::new("schemas");
     let pit = (-40..=40).map(|i: i32| format!("{i},{}\n", (-f64::from(i * i) / 72.0).exp()));
+    folder.write("onsets.csv", "1,1.02\n2,2.5\n3,4.2\n4,6.5\n");
     folder.write("pit.csv", pit.collect::<String>());
     for (name, line) in OTHERS {
         let document = folder.prints_json(line);

@@ -20,6 +20,7 @@ mod documents;
 mod experiment;
 mod extreme_numbers;
 mod figures;
+mod fit_command;
 mod image_files;
 mod interrupts;
 mod outcomes;

@@ -49,6 +49,13 @@ fn a_profile_becomes_a_tip_file_that_every_command_takes() {
         assert!(output.status.success(), "{line}: {}", said(&output));
     }
     assert_eq!(folder.read("tip.svg"), folder.read("again.svg"));
+    // The file's σ is that of `units`, unless another is given.
+    let quantities = "--damping 1mNs/m --stiffness 0.05N/m --slope-force 5nN \
+                      --indentation-rate 200nm/s --velocity 1um/s --tip-file tip.json";
+    let units = folder.prints_json(&format!("units {quantities}"));
+    assert_eq!(units["physical"]["tip_width"], tip["sigma_metres"]);
+    let other = folder.prints_json(&format!("units {quantities} --tip-width 20nm"));
+    assert!((number(&other["physical"]["tip_width"]) - 20e-9).abs() < 1e-22);
     // The same input, the same bytes.
     folder.prints("tip pit.txt --resamples 60 -o again.json");
     assert_eq!(folder.read("tip.json"), folder.read("again.json"));

@@ -177,3 +177,36 @@ fn commands_of_cycles_refuse_what_nothing_drags() {
     let over = "continue --over r --alpha 1 --depth-limit 5";
     folder.refuses(over, &["--alpha 1", "paper's law"]);
 }
+
+/// Oza, Rosales and Bush (2013) for J0: v² = (2B - 1 - √(1+4B))/2, B = -α; the fixed points of the Lorenz system for cos.
+#[test]
+fn without_a_spring_stability_lists_steady_walks() {
+    let folder = Folder::new("walks");
+    let walking = schema(&folder, "walking");
+    folder.prints(
+        "stability --no-spring --tip bessel --alpha -3 --healing-time 1 -o w.json --plot w.svg",
+    );
+    let droplet = folder.json("w.json");
+    validate(&walking, &droplet);
+    let speed = droplet["walks"][0]["speed"].as_f64().unwrap();
+    assert!((speed - (2.5 - f64::sqrt(13.0) / 2.0).sqrt()).abs() < 1e-12, "{speed}");
+    assert_eq!(droplet["walks"][0]["stable"], true);
+    assert!((droplet["walking_alpha"].as_f64().unwrap() + 2.0).abs() < 1e-12);
+    let lorenz = "stability --no-spring --tip cosine --alpha -28 --inertia 0.1 --healing-time 1";
+    let unstable = folder.prints_json(lorenz);
+    let walks = unstable["walks"].as_array().unwrap();
+    assert_eq!(walks.len(), 1);
+    assert!((walks[0]["speed"].as_f64().unwrap() - f64::sqrt(27.0)).abs() < 1e-11);
+    assert_eq!(walks[0]["stable"], false);
+    let resting = folder.prints_json(&lorenz.replace("-28", "-0.9"));
+    assert!(resting["walks"].as_array().unwrap().is_empty(), "{resting}");
+    let table = String::from_utf8(folder.prints(&format!("{lorenz} --format csv"))).unwrap();
+    assert!(table.starts_with("speed,re,im\n") && table.lines().count() == 5, "{table}");
+    folder.refuses(&format!("{lorenz} --pitch 1"), &["--pitch", "--no-spring"]);
+    folder.refuses(&format!("{lorenz} --re-above=-3"), &["--re-above -3", "--roots"]);
+    folder.refuses(&format!("{lorenz} --r 1"), &["--r 1", "leave it out"]);
+    folder.refuses(
+        "stability --no-spring --tip cosine --alpha -2",
+        &["--tip cosine", "--healing-time"],
+    );
+}

@@ -153,7 +153,7 @@ fn linear_theory_knows_the_wider_law() {
         assert_eq!(found.1, kind, "{line}");
     }
     folder.refuses("stability --r 1 --beta 0 --depth-limit 1.6", &["--r 1"]);
-    folder.refuses("stability --alpha -1 --no-spring", &["--no-spring"]);
+    folder.refuses("boundary --no-spring --r-range 1:2:3", &["--no-spring"]);
     // --alpha-above counts from the onset of the law asked for.
     let run = folder.prints_json(
         "run --r 1 --beta 0 --depth-limit 20 --alpha-above 0.3 --kick 0.05 --until 600",

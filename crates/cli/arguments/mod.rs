@@ -7,6 +7,7 @@ mod cycle;
 mod disturbance;
 mod examples;
 mod figures;
+mod fit;
 mod interval;
 mod model;
 mod named;
@@ -34,6 +35,7 @@ pub(crate) use continuation::ContinueArguments;
 pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
+pub(crate) use fit::FitArguments;
 pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, TipName, WiderArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
@@ -87,6 +89,7 @@ const EXAMPLES: &str = "Examples:
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
   stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
   stickslip tip measured.csv -o tip.json --plot tip.svg
+  stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
@@ -108,6 +111,7 @@ pub(crate) enum Command {
     Sweep(SweepArguments),
     Raster(RasterArguments),
     Tip(MeasuredTipArguments),
+    Fit(Box<FitArguments>),
     Units(UnitsArguments),
     Plot(PlotArguments),
     Figures(FiguresArguments),

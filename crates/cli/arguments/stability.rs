@@ -10,7 +10,7 @@ use stickslip_documents::{PathName, SolveFor};
 /// Where steady motion loses its stability, and all growth exponents.
 ///
 /// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical
-/// point.
+/// point. With --no-spring: the speeds of steady walks, and their growth exponents.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct StabilityArguments {
@@ -75,7 +75,8 @@ pub(crate) struct StabilityArguments {
 
 const USAGE: &str = "stickslip stability --r <R> [OPTIONS]
        stickslip stability --alpha <A> --solve-for r [OPTIONS]
-       stickslip stability --r <R> --pitch <D> [OPTIONS]";
+       stickslip stability --r <R> --pitch <D> [OPTIONS]
+       stickslip stability --alpha <A> --no-spring [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The critical α at r = 1, with the oscillation that is born there:
@@ -92,4 +93,6 @@ const EXAMPLES: &str = "Examples:
   The same where the tip has inertia and grooves are limited in depth:
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 --inertia 0.3
   Another pass over the same line:
-    stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv";
+    stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv
+  A tip that walks by itself, over waves of its own that fade: its speed, and whether it keeps it:
+    stickslip stability --no-spring --tip bessel --alpha=-3 --healing-time 1";

@@ -32,7 +32,7 @@ pub(crate) struct UnitsArguments {
     )]
     pub(crate) stiffness: Option<String>,
 
-    /// Width σ of the tip (m), (7).
+    /// Width σ of the tip (m), (7); left out, that of a --tip-file which `stickslip tip` wrote.
     #[arg(
         long,
         value_name = "σ",

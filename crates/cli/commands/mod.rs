@@ -5,6 +5,7 @@ pub(crate) mod compare;
 pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;
+pub(crate) mod fit;
 pub(crate) mod model;
 pub(crate) mod plot;
 pub(crate) mod raster;

@@ -48,7 +48,8 @@ pub(super) fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> 
     let few = asked.filter(|asked| found < *asked).map(|asked| {
         format!("{name}: {found} of {asked}, there are no more, or they lie too far left to be told from round-off")
     });
-    let smallest = roots.iter().map(|z| z.norm()).fold(f64::INFINITY, f64::min);
+    let sizes = roots.iter().map(|z| z.norm()).filter(|size| *size > 0.0);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
     let inexact = (*largest_error > EXACT * smallest)
         .then(|| format!("{name}: their errors may reach {largest_error:.0e}"));
     few.into_iter().chain(inexact).collect()

@@ -1,6 +1,7 @@
 //! `stickslip stability`.
 
 mod raster;
+mod walking;
 mod wider;
 
 use super::job::{Job, judge_places};
@@ -23,6 +24,9 @@ const DEFAULT_ROOTS: usize = 10;
 pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    if arguments.model.wider.no_spring {
+        return walking::stability(arguments);
+    }
     if arguments.pitch.is_some() || arguments.path.is_some() {
         return raster::stability(arguments);
     }

@@ -28,6 +28,7 @@ mod compare;
 mod continuation;
 mod cycle;
 mod figure;
+mod fit;
 mod history;
 mod measured_tip;
 mod model;
@@ -48,6 +49,7 @@ mod sweep;
 mod table;
 mod units;
 mod verification;
+mod walking;
 mod work;
 
 pub use boundary::{
@@ -67,6 +69,7 @@ pub use figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
+pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
 pub use history::{FARTHEST, History};
 pub use measured_tip::{
     CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,
@@ -117,4 +120,5 @@ pub use units::{
 pub use verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
 };
+pub use walking::{WalkDocument, WalkingDocument, WalkingParameters};
 pub use work::{SteadyState, WorkDocument};

@@ -2,10 +2,11 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, MeasuredTipDocument, RasterBoundaryDocument, RasterCompareDocument,
-    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
-    ReproductionDocument, ResponseDocument, RunDocument, RunLine, StabilityDocument,
-    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    FigureDocument, FitDocument, MeasuredTipDocument, RasterBoundaryDocument,
+    RasterCompareDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
+    RasterSweepDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
+    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
+    WalkingDocument,
 };
 use schemars::{Schema, schema_for};
 
@@ -13,13 +14,14 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// Every document that has a schema.
-pub const SCHEMAS: [NamedSchema; 22] = [
+pub const SCHEMAS: [NamedSchema; 24] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
     ("verify", || schema_for!(VerifyDocument)),
     ("surface", || schema_for!(SurfaceDocument)),
     ("stability", || schema_for!(StabilityDocument)),
+    ("walking", || schema_for!(WalkingDocument)),
     ("boundary", || schema_for!(BoundaryDocument)),
     ("compare", || schema_for!(CompareDocument)),
     ("response", || schema_for!(ResponseDocument)),
@@ -33,6 +35,7 @@ pub const SCHEMAS: [NamedSchema; 22] = [
     ("raster-boundary", || schema_for!(RasterBoundaryDocument)),
     ("sweep", || schema_for!(SweepDocument)),
     ("tip", || schema_for!(MeasuredTipDocument)),
+    ("fit", || schema_for!(FitDocument)),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),
     ("reproduction", || schema_for!(ReproductionDocument)),

@@ -10,6 +10,29 @@ pub(crate) trait Residuals {
 
     /// Their derivatives by each parameter, a column each; `here` are the residuals.
     fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>>;
+
+    /// Relative changes of the sum and of the parameters at which a search ends.
+    fn enough(&self) -> f64 {
+        1e-9
+    }
+}
+
+/// Derivatives by differences to one side, to the other where the model ends.
+pub(crate) fn forward(
+    model: &(impl Residuals + ?Sized),
+    (here, at): (&[f64], &[f64]),
+    step: f64,
+) -> Option<Vec<Vec<f64>>> {
+    let column = |i: usize| {
+        let beside = |step: f64| {
+            let mut parameters = at.to_vec();
+            parameters[i] += step;
+            let there = model.at(&parameters)?;
+            Some(there.iter().zip(here).map(|(a, b)| (a - b) / step).collect::<Vec<f64>>())
+        };
+        beside(step).or_else(|| beside(-step))
+    };
+    (0..at.len()).map(column).collect()
 }
 
 /// Where a search ended.
@@ -23,8 +46,6 @@ pub(crate) struct Minimum {
 
 /// A failed trial is so many times as bad as the start: the search turns back and shortens its step.
 const FAILED: f64 = 10.0;
-/// Relative changes of the sum and of the parameters at which a search ends.
-const ENOUGH: f64 = 1e-9;
 /// Evaluations for each parameter.
 const PATIENCE: usize = 40;
 
@@ -42,10 +63,10 @@ pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
     let here = Some(begin.residuals.clone());
     let problem = Problem { model, at, here, best: begin, worst };
     let method = LevenbergMarquardt::new()
-        .with_ftol(ENOUGH)
-        .with_xtol(ENOUGH)
-        .with_gtol(ENOUGH)
-        .with_stepbound(1.0)
+        .with_ftol(model.enough())
+        .with_xtol(model.enough())
+        .with_gtol(model.enough())
+        .with_stepbound(0.3)
         .with_patience(PATIENCE);
     // Whatever ended it, the best that it met is no worse than the start.
     Some(method.minimize(problem).0.best)
@@ -56,7 +77,6 @@ pub(crate) fn squares(residuals: &[f64]) -> f64 {
 }
 
 /// Derivatives by central differences, one-sided where the model ends.
-#[cfg_attr(not(test), expect(dead_code, reason = "soon"))]
 pub(crate) fn differences(
     model: &(impl Residuals + ?Sized),
     (here, at): (&[f64], &[f64]),

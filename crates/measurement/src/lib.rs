@@ -1,7 +1,8 @@
 //! From measured data to the numbers of the model, with intervals.
 //!
 //! [`tip`] makes a footprint of a measured profile: noisy, tilted, off centre, in any unit of length. [`judge`] says
-//! what the noise of a raw table would do to the onset of stick-slip. Knows no files and no units: lengths and heights
+//! what the noise of a raw table would do to the onset of stick-slip. [`fit`] finds α, r, the width
+//! and more from ripples, lateral forces, onsets and wavelengths. Knows no files and no units: lengths and heights
 //! are those of the data, whatever they are.
 //!
 //! ```
@@ -17,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod fit;
 mod interval;
 mod judge;
 mod least_squares;
@@ -24,6 +26,9 @@ mod profile;
 mod projection;
 mod tip;
 
+pub use fit::{
+    Data, DataError, Fit, FitError, FitRequest, FittedNumber, Name, Part, Shape, Track, Values, fit,
+};
 pub use interval::Estimate;
 pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};

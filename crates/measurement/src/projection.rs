@@ -15,6 +15,11 @@ pub(crate) struct Projected {
 }
 
 impl Projected {
+    /// Of no columns.
+    pub(crate) fn nothing(residuals: Vec<f64>) -> Self {
+        Self { coefficients: vec![], residuals, basis: DMatrix::zeros(0, 0) }
+    }
+
     /// What of these values no sum of the columns makes up. Of c_k ∂columns_k it is Kaufman's (1975) derivative of the
     /// residuals, but for its sign.
     pub(crate) fn beyond(&self, mut values: Vec<f64>) -> Vec<f64> {

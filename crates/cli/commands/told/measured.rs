@@ -2,7 +2,7 @@
 
 use super::{Told, digits};
 use crate::commands::job::Product;
-use stickslip_documents::{EstimateDocument, MeasuredTipDocument};
+use stickslip_documents::{EstimateDocument, FitDocument, MeasuredTipDocument, NumberFitted};
 
 impl Product for MeasuredTipDocument {
     fn told(&self) -> Told {
@@ -28,6 +28,37 @@ impl Product for MeasuredTipDocument {
             .maybe("trapped for ever from α", trapping)
             .remarks(&self.remarks)
             .next(format!("stickslip stability --tip-file tip.json --r {r}"))
+    }
+}
+
+impl Product for FitDocument {
+    fn told(&self) -> Told {
+        let unit = |n: &NumberFitted| match &self.parameters.unit {
+            Some(unit) if n.name == "width" => format!(" {unit}"),
+            _ => String::new(),
+        };
+        let said = |n: &NumberFitted| format!("{}{}", with_interval(&n.estimate), unit(n));
+        let short = self.numbers.iter().map(|n| format!("{} = {}", n.name, said(n)));
+        let mut told = Told::new(short.collect::<Vec<String>>().join(", "));
+        for number in &self.numbers {
+            told = told.row(&number.name.replace('_', " "), said(number));
+        }
+        for (i, row) in self.correlations.iter().enumerate() {
+            for (j, correlation) in row.iter().enumerate().skip(i + 1) {
+                let name = format!("{}, {}", self.numbers[i].name, self.numbers[j].name);
+                told = told.row(&name, format!("correlation {correlation:.3}"));
+            }
+        }
+        for data in &self.data {
+            told = told
+                .row(
+                    &data.source,
+                    format!("{} rows, residual {}", data.y.len(), digits(data.residual, 3)),
+                )
+                .maybe("gain", data.gain.map(|gain| digits(gain, 5)));
+        }
+        let at = self.critical_alpha.map(|alpha| digits(alpha, 6));
+        told.maybe("critical α at this r", at).remarks(&self.remarks)
     }
 }
 

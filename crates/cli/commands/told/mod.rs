@@ -7,6 +7,7 @@ mod others;
 mod raster;
 mod run;
 mod verify;
+mod walking;
 
 pub(in crate::commands) use run::{of_lines, of_run};
 

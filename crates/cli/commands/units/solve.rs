@@ -2,6 +2,7 @@
 
 use crate::arguments::{ModelArguments, UnitsArguments};
 use crate::failure::{Failure, Typed};
+use crate::files::input::{TipFile, read_tip};
 use stickslip_documents::UnitsParameters;
 use stickslip_stability as stability;
 use stickslip_tip::TipFunction;
@@ -34,6 +35,7 @@ const QUANTITIES: [Quantity; 6] = [
     quantity("--slope-force", "a", Unit::Force, (0, 1)),
     quantity("--velocity", "v0", Unit::Velocity, (1, 0)),
 ];
+const TIP_WIDTH: usize = 2;
 const INDENTATION_RATE: usize = 3;
 
 /// What the options say, in SI units.
@@ -58,6 +60,13 @@ impl Given {
         for (i, (quantity, text)) in QUANTITIES.iter().zip(texts).enumerate() {
             values[i] = text.as_deref().map(|text| read(quantity, text, i)).transpose()?;
         }
+        // A measured tip brings its σ along, unless α and r are to tell another.
+        let alone = arguments.tip_width.is_none() && arguments.model.tip.tip_file.is_some();
+        let missing = values.iter().filter(|value| value.is_none()).count();
+        let numbers = usize::from(arguments.model.r.is_some())
+            + usize::from(arguments.model.alpha.or(arguments.model.alpha_above).is_some());
+        let of_file = if alone && missing > numbers { sigma_of(arguments)? } else { None };
+        values[TIP_WIDTH] = values[TIP_WIDTH].or(of_file);
         let r = arguments.model.r;
         if let Some(r) = r.filter(|r| !(r.is_finite() && *r > 0.0)) {
             let message = "the dimensionless support velocity must be a finite number above 0";
@@ -175,6 +184,15 @@ impl Given {
 /// of 0.
 fn power(base: f64, denominator: i32, numerator: i32) -> Option<f64> {
     (denominator != 0).then(|| base.powf(f64::from(numerator) / f64::from(denominator)))
+}
+
+/// σ in m of a tip file that `stickslip tip` wrote of a profile with a unit.
+fn sigma_of(arguments: &UnitsArguments) -> Result<Option<f64>, Failure> {
+    let Some(path) = &arguments.model.tip.tip_file else { return Ok(None) };
+    match read_tip(path)? {
+        TipFile::Measured(measured) => Ok(measured.sigma_metres),
+        _ => Ok(None),
+    }
 }
 
 fn read(quantity: &Quantity, text: &str, index: usize) -> Result<f64, Failure> {

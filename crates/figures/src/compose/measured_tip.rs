@@ -72,7 +72,7 @@ fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
 }
 
 /// Such as "1.88 ± 0.02".
-fn with_error(estimate: &EstimateDocument) -> String {
+pub(super) fn with_error(estimate: &EstimateDocument) -> String {
     let (Some(low), Some(high)) = (estimate.low, estimate.high) else {
         return short(estimate.value);
     };

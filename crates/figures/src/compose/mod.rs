@@ -6,6 +6,7 @@ mod continuation;
 mod cycle;
 mod dense;
 mod drawn;
+mod fit;
 mod labels;
 mod measured_tip;
 mod raster;
@@ -17,16 +18,17 @@ mod stability;
 mod surface;
 mod sweep;
 mod tip;
+mod walking;
 
 use crate::error::FigureError;
 use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
+    FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
-    Unusable, read_from, told,
+    Unusable, WalkingDocument, read_from, told,
 };
 
 pub use boundary::onset_of;
@@ -76,7 +78,7 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 }
 
 /// Formats of the documents that have a figure.
-pub const FORMATS: [&str; 17] = [
+pub const FORMATS: [&str; 19] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -92,7 +94,9 @@ pub const FORMATS: [&str; 17] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    WalkingDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
+    FitDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -153,7 +157,9 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterSurfaceDocument,
         RasterStabilityDocument,
         RasterBoundaryDocument,
+        WalkingDocument,
         MeasuredTipDocument,
+        FitDocument,
         FigureDocument
     )
 }

@@ -24,23 +24,27 @@ impl Drawn for StabilityDocument {
         };
         let title = format!("{}: {what}", model_name(model));
         let mut figure = FigureDocument::new("stability", &title, vec![model.clone()]);
-        let mut panel = PanelDocument::new("", ("Re λ (k/Γ)", "Im λ (k/Γ)"));
-        let (x, y) = axes(&self.roots);
-        panel.x_range = Some(x);
-        panel.y_range = Some(y);
-        panel.shades = vec![[0.0, x[1]]];
-        let error = self.certificate.largest_error;
-        let zero = [0.0; 2];
-        panel.curves = vec![
-            CurveDocument::new(StyleName::Thin, "", &zero, &y),
-            CurveDocument::new(StyleName::Thin, "", &x, &zero),
-            dots(&self.roots, "decaying", ColourName::Blue, |re| re < -error),
-            dots(&self.roots, "growing", ColourName::Vermillion, |re| re > error),
-            dots(&self.roots, "neither", ColourName::Black, |re| re.abs() <= error),
-        ];
-        figure.panels = vec![panel];
+        figure.panels = vec![exponents("", &self.roots, self.certificate.largest_error)];
         Ok(figure)
     }
+}
+
+/// Growth exponents known to this error, in a panel.
+pub(super) fn exponents(name: &str, roots: &[ComplexDocument], error: f64) -> PanelDocument {
+    let mut panel = PanelDocument::new(name, ("Re λ (k/Γ)", "Im λ (k/Γ)"));
+    let (x, y) = axes(roots);
+    panel.x_range = Some(x);
+    panel.y_range = Some(y);
+    panel.shades = vec![[0.0, x[1]]];
+    let zero = [0.0; 2];
+    panel.curves = vec![
+        CurveDocument::new(StyleName::Thin, "", &zero, &y),
+        CurveDocument::new(StyleName::Thin, "", &x, &zero),
+        dots(roots, "decaying", ColourName::Blue, |re| re < -error),
+        dots(roots, "growing", ColourName::Vermillion, |re| re > error),
+        dots(roots, "neither", ColourName::Black, |re| re.abs() <= error),
+    ];
+    panel
 }
 
 /// The roots in a part of the plane, with those below the real axis.

@@ -108,15 +108,26 @@ impl Bank {
     /// Remembers visits that end at the last of their positions: `z_j ← e^{s_j Δ} z_j + Σ_k weight_k
     /// e^{s_j (Δ - position_k)}`, the sum expanded about Δ/2 in powers of `s_j`.
     pub(super) fn advance(&mut self, position: &[f64], weight: &[f64]) {
-        let Some(&moved) = position.last() else { return };
-        let half = 0.5 * moved;
-        let radius = position.iter().fold(0.0, |m: f64, p| m.max((half - p).abs()));
-        let Some(degree) = self.degree(radius) else {
-            self.displace(moved);
-            position.iter().zip(weight).for_each(|(p, w)| self.add(p - moved, *w));
-            return;
-        };
-        powers::carry(&mut self.groups, &self.tables.powers, (position, weight), half, degree);
+        self.advance_from(0.0, position, weight);
+    }
+
+    /// The same for a tip that stands at `start`: in parts where no expansion reaches so far.
+    fn advance_from(&mut self, start: f64, position: &[f64], weight: &[f64]) {
+        let Some(&end) = position.last() else { return };
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
+        if let Some(degree) = self.degree(radius) {
+            let visits = (position, weight);
+            powers::carry(&mut self.groups, &self.tables.powers, visits, (middle, half), degree);
+        } else if position.len() > 1 {
+            let (first, rest) = position.split_at(position.len() / 2);
+            let (first_weight, rest_weight) = weight.split_at(first.len());
+            self.advance_from(start, first, first_weight);
+            self.advance_from(first[first.len() - 1], rest, rest_weight);
+        } else {
+            self.displace(end - start);
+            weight.iter().for_each(|weight| self.add(0.0, *weight));
+        }
     }
 
     /// Moves the tip: `z_j ← e^{s_j Δ} z_j`.

@@ -52,7 +52,7 @@ fn moments<const GROUPS: usize>(position: &[f64], weight: &[f64], from: f64) -> 
     moments
 }
 
-/// The state after visits: with E = e^{s half} it is `E (E z + Σ_k weight_k e^{s (half - position_k)})`.
+/// The state after visits: with E = e^{s half} it is `E (E z + Σ_k weight_k e^{s (middle - position_k)})`.
 ///
 /// Compiled for wider vectors too: lanes and the order of sums are the same.
 #[multiversion(targets("x86_64+avx2"))]
@@ -60,18 +60,18 @@ pub(super) fn carry(
     groups: &mut [Group],
     powers: &[Powers],
     (position, weight): (&[f64], &[f64]),
-    half: f64,
+    about: (f64, f64),
     degree: usize,
 ) {
     let visits = (position, weight);
     match degree / LANES + 1 {
-        0..=3 => carry_by::<3>(groups, powers, visits, half, degree),
-        4 => carry_by::<4>(groups, powers, visits, half, degree),
-        5 => carry_by::<5>(groups, powers, visits, half, degree),
-        6 => carry_by::<6>(groups, powers, visits, half, degree),
-        7 => carry_by::<7>(groups, powers, visits, half, degree),
-        8 => carry_by::<8>(groups, powers, visits, half, degree),
-        _ => carry_by::<11>(groups, powers, visits, half, degree),
+        0..=3 => carry_by::<3>(groups, powers, visits, about, degree),
+        4 => carry_by::<4>(groups, powers, visits, about, degree),
+        5 => carry_by::<5>(groups, powers, visits, about, degree),
+        6 => carry_by::<6>(groups, powers, visits, about, degree),
+        7 => carry_by::<7>(groups, powers, visits, about, degree),
+        8 => carry_by::<8>(groups, powers, visits, about, degree),
+        _ => carry_by::<11>(groups, powers, visits, about, degree),
     }
 }
 
@@ -80,10 +80,10 @@ fn carry_by<const GROUPS: usize>(
     groups: &mut [Group],
     powers: &[Powers],
     (position, weight): (&[f64], &[f64]),
-    half: f64,
+    (middle, half): (f64, f64),
     degree: usize,
 ) {
-    let moments = moments::<GROUPS>(position, weight, half);
+    let moments = moments::<GROUPS>(position, weight, middle);
     // Of e^{s half}: as of one visit.
     let carried = self::moments::<GROUPS>(&[0.0], &[1.0], half);
     for (group, powers) in groups.iter_mut().zip(powers) {

@@ -4,8 +4,6 @@
 //! 401 rows. Noise of 0.5 to 5 % of the apex, a tilt of up to 30 % over the profile and in one of four a curved drift, rows
 //! at uneven distances, off centre, one side or both.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

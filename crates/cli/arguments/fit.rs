@@ -1,0 +1,98 @@
+//! `stickslip fit`.
+
+use super::examples::examples;
+use super::{OutletArguments, TipArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+/// α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals.
+///
+/// Compares settled motion, the limit cycle at α and r, with what was measured: what it leaves and what it feels.
+/// Offsets, slopes, phases and unknown gains are fitted along; starting values are found from the data. Several data
+/// of one motion may be given at once. Intervals are those of the profile likelihood; what the data cannot tell apart
+/// is said.
+#[derive(Debug, Args)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+pub(crate) struct FitArguments {
+    /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
+    /// writes it.
+    #[arg(long, value_name = "FILE", help_heading = "Data")]
+    pub(crate) ripple: Vec<PathBuf>,
+
+    /// Lateral force over the way of the support, two columns; three are a loop: forwards, then backwards, over the same
+    /// positions.
+    #[arg(long, value_name = "FILE", help_heading = "Data")]
+    pub(crate) friction: Vec<PathBuf>,
+
+    /// Velocities, and the loads at which stick-slip sets in, two columns.
+    #[arg(long, value_name = "FILE", help_heading = "Data")]
+    pub(crate) onsets: Option<PathBuf>,
+
+    /// Velocities, loads, and wavelengths of ripples, three columns.
+    #[arg(long, value_name = "FILE", help_heading = "Data")]
+    pub(crate) wavelengths: Option<PathBuf>,
+
+    /// k/a, if it is known: heights are this times σ² those of the model, in the units of the data.
+    #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Data")]
+    pub(crate) height_gain: Option<f64>,
+
+    /// k, if it is known: forces are this times σ those of the model, in the units of the data.
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Data")]
+    pub(crate) force_gain: Option<f64>,
+
+    /// Unit of lengths, in place of that of the first heading.
+    #[arg(long, value_name = "UNIT", help_heading = "Data")]
+    pub(crate) unit: Option<String>,
+
+    /// Rows far off count less: Huber's weights.
+    #[arg(long, help_heading = "Data")]
+    pub(crate) robust: bool,
+
+    /// --width is σ in the unit of the data, if it is known.
+    #[command(flatten)]
+    pub(crate) tip: TipArguments,
+
+    /// r, if it is known.
+    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Known")]
+    pub(crate) r: Option<f64>,
+
+    /// α, if it is known.
+    #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Known")]
+    pub(crate) alpha: Option<f64>,
+
+    /// Depth limit b of (61), in kσ²/a, if it is known.
+    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Known")]
+    pub(crate) depth_limit: Option<f64>,
+
+    /// Time in which the surface heals, in Γ/k, if it is known.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Known")]
+    pub(crate) healing_time: Option<f64>,
+
+    /// Inertia of the tip, in Γ²/k, if it is known.
+    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Known")]
+    pub(crate) inertia: Option<f64>,
+
+    /// What else is to be fitted: beta, depth-limit, healing-time, inertia.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', help_heading = "Fitted")]
+    pub(crate) free: Vec<String>,
+
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
+
+    /// Draw data, model, what is left and the profiles of the likelihood to this .svg, .png or .pdf.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]
+       stickslip fit --onsets <FILE> [--wavelengths <FILE>] [OPTIONS]";
+
+const EXAMPLES: &str = "Examples:
+  α, r and σ from ripples in nm, by the tip measured before, drawn:
+    stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
+  The same with σ known, and with the lateral force of the same scan:
+    stickslip fit --ripple ripples.csv --friction trace.csv --tip-file tip.json --width 30
+  A depth limit too, of rows some of which are dust:
+    stickslip fit --ripple ripples.csv --free depth-limit --robust
+  α per load and r per velocity from onsets:
+    stickslip fit --onsets onsets.csv --tip-file tip.json";

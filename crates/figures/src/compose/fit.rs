@@ -1,0 +1,123 @@
+//! A fit: data, model, what is left, and the profiles of the likelihood.
+
+use super::drawn::{Drawn, View};
+use super::measured_tip::with_error;
+use crate::error::FigureError;
+use stickslip_documents::{
+    ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, ModelParameters,
+    NumberFitted, PanelDocument, StyleName,
+};
+
+/// 95 % of the likelihood are within this root.
+const END: f64 = 1.96;
+
+impl Drawn for FitDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        if self.data.is_empty() {
+            return Err(FigureError::Nothing("there are no data".into()));
+        }
+        let words = self.numbers.iter().map(|n| {
+            let unit = self.parameters.unit.as_deref().filter(|_| n.name == "width");
+            let unit = unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+            format!("{} = {}{unit}", symbol(&n.name), with_error(&n.estimate))
+        });
+        let title = words.collect::<Vec<String>>().join(", ");
+        let mut figure = FigureDocument::new("fit", &title, models(self));
+        let count = self.numbers.len().max(1);
+        figure.columns = count;
+        let length = self.parameters.unit.as_deref();
+        for data in &self.data {
+            for mut panel in panels(data, length) {
+                panel.span = count;
+                figure.panels.push(panel);
+            }
+        }
+        figure.panels.extend(self.numbers.iter().map(|n| profile(n, length)));
+        figure.remarks.clone_from(&self.remarks);
+        Ok(figure)
+    }
+}
+
+/// Where α and r are known or fitted.
+fn models(fit: &FitDocument) -> Vec<ModelParameters> {
+    let value = |name: &str| {
+        let fitted = fit.numbers.iter().find(|n| n.name == name).map(|n| n.estimate.value);
+        let held = fit.parameters.known.iter().find(|n| n.name == name).map(|n| n.value);
+        fitted.or(held)
+    };
+    let model = value("alpha").zip(value("r")).map(|(alpha, r)| ModelParameters {
+        depth_limit: value("depth_limit"),
+        healing_time: value("healing_time"),
+        inertia: value("inertia"),
+        ..ModelParameters::papers(fit.parameters.tip.clone(), alpha, None, r)
+    });
+    model.into_iter().collect()
+}
+
+fn symbol(name: &str) -> &str {
+    match name {
+        "alpha" => "α",
+        "width" => "σ",
+        "beta" => "β",
+        "depth_limit" => "b",
+        "healing_time" => "T",
+        "inertia" => "M",
+        "alpha_per_load" => "α/load",
+        "r_per_velocity" => "r/velocity",
+        other => other,
+    }
+}
+
+/// Data and model, and what is left.
+fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
+    let is_series = matches!(data.kind.as_str(), "onsets" | "wavelengths");
+    let (x, y) = match data.kind.as_str() {
+        "ripple" => ("x", "height"),
+        "friction" | "loop" => ("way of the support", "lateral force"),
+        "onsets" => ("velocity", "load at onset"),
+        _ => ("velocity", "wavelength"),
+    };
+    let x = match unit {
+        Some(unit) if !is_series => format!("{x} ({unit})"),
+        _ => x.into(),
+    };
+    let mut above = PanelDocument::new(&data.source, (&x, y));
+    let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
+    let mut measured = CurveDocument::new(style, "as measured", &data.x, &data.y);
+    measured.colour = Some(ColourName::Grey);
+    above.curves = vec![measured];
+    // A loop goes there and back: two lines.
+    let half = if data.kind == "loop" { data.x.len() / 2 } else { data.x.len() }.max(1);
+    let style = if is_series { StyleName::Dots } else { StyleName::Line };
+    let lines = data.x.chunks(half).zip(data.model.chunks(half)).enumerate();
+    above.curves.extend(lines.map(|(i, (x, model))| {
+        let mut rows: Vec<(f64, f64)> = x.iter().copied().zip(model.iter().copied()).collect();
+        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (x, model): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
+        CurveDocument::new(style, if i == 0 { "model" } else { "" }, &x, &model)
+    }));
+    let left: Vec<f64> = data.y.iter().zip(&data.model).map(|(y, model)| y - model).collect();
+    let mut below = PanelDocument::new("", (&x, "data − model"));
+    below.curves = vec![CurveDocument::new(StyleName::Points, "", &data.x, &left)];
+    [above, below]
+}
+
+/// The signed root of the likelihood over the number.
+fn profile(number: &NumberFitted, unit: Option<&str>) -> PanelDocument {
+    let unit = unit.filter(|_| number.name == "width").map(|unit| format!(" ({unit})"));
+    let label = format!("{}{}", symbol(&number.name), unit.unwrap_or_default());
+    let mut panel = PanelDocument::new("", (&label, "root of likelihood"));
+    let (x, y) = (&number.profile_values, &number.profile_roots);
+    panel.curves = vec![CurveDocument::new(StyleName::Line, "", x, y)];
+    if let (Some(first), Some(last)) = (x.first(), x.last()) {
+        for end in [-END, END] {
+            panel.curves.push(CurveDocument::new(
+                StyleName::Dashed,
+                "",
+                &[*first, *last],
+                &[end, end],
+            ));
+        }
+    }
+    panel
+}

@@ -1,0 +1,105 @@
+//! What is fitted of the law, and what is known of it.
+
+use stickslip_tip::{Model, TipFunction, Wider};
+
+/// A number of the law. All are above 0 and searched by their logarithms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Name {
+    /// α.
+    Alpha,
+    /// r.
+    R,
+    /// σ, in the unit of the positions.
+    Width,
+    /// β of the triple Gaussian.
+    Beta,
+    /// b, in kσ²/a.
+    DepthLimit,
+    /// T, in Γ/k.
+    HealingTime,
+    /// M, in Γ²/k.
+    Inertia,
+    /// α per load, in a series at several loads.
+    AlphaPerLoad,
+    /// r per velocity, in a series at several velocities.
+    RPerVelocity,
+}
+
+impl Name {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Alpha,
+        Self::R,
+        Self::Width,
+        Self::Beta,
+        Self::DepthLimit,
+        Self::HealingTime,
+        Self::Inertia,
+        Self::AlphaPerLoad,
+        Self::RPerVelocity,
+    ];
+
+    /// As in documents.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Alpha => "alpha",
+            Self::R => "r",
+            Self::Width => "width",
+            Self::Beta => "beta",
+            Self::DepthLimit => "depth_limit",
+            Self::HealingTime => "healing_time",
+            Self::Inertia => "inertia",
+            Self::AlphaPerLoad => "alpha_per_load",
+            Self::RPerVelocity => "r_per_velocity",
+        }
+    }
+}
+
+/// The shape of the footprint, in its own σ.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A tip that is known.
+    Known(TipFunction),
+    /// The triple Gaussian (48), its β one of the numbers.
+    Triple,
+}
+
+/// A value of each number, if it has one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Values([Option<f64>; 9]);
+
+impl Values {
+    /// Of one of them.
+    #[must_use]
+    pub fn get(&self, name: Name) -> Option<f64> {
+        self.0[name as usize]
+    }
+
+    /// Sets one.
+    pub fn set(&mut self, name: Name, value: f64) {
+        self.0[name as usize] = Some(value);
+    }
+
+    /// The same with one more.
+    #[must_use]
+    pub fn with(mut self, name: Name, value: f64) -> Self {
+        self.set(name, value);
+        self
+    }
+
+    /// The model at this α and r; `None` where there is none.
+    pub(super) fn model(&self, shape: &Shape, alpha: f64, r: f64) -> Option<Model> {
+        let tip = match shape {
+            Shape::Known(tip) => tip.clone(),
+            Shape::Triple => TipFunction::triple_gaussian(self.get(Name::Beta)?, 1.0).ok()?,
+        };
+        let wider = Wider {
+            depth_limit: self.get(Name::DepthLimit),
+            healing_time: self.get(Name::HealingTime),
+            inertia: self.get(Name::Inertia),
+            spring: true,
+        };
+        Model::under(wider, tip, alpha, r).ok()
+    }
+}

@@ -1,0 +1,244 @@
+//! The residuals of all data together, as a function of what is searched.
+
+use super::data::{Data, Track};
+use super::parameters::{Name, Shape, Values};
+use super::wave::{Cycles, Wave};
+use crate::least_squares::{Residuals, differences, forward};
+use crate::projection::{Projected, project};
+use stickslip_stability::{critical, critical_under};
+
+/// What is fitted to what.
+pub(super) struct Problem<'a> {
+    pub(super) shape: &'a Shape,
+    pub(super) data: &'a [Data],
+    /// Numbers that are known, or held.
+    pub(super) held: Values,
+    /// Numbers that are searched, in this order.
+    pub(super) free: Vec<Name>,
+    /// Standard deviation of the noise of each of the data.
+    pub(super) noise: Vec<f64>,
+    /// Of every row, the root of its weight.
+    pub(super) weights: Vec<Vec<f64>>,
+    pub(super) cycles: &'a Cycles,
+    /// Whether α is searched by α/αc(r) - 1: there are no ripples below onset, and a search would run against that
+    /// wall at every other step.
+    pub(super) by_excess: bool,
+}
+
+/// Where motions are looked for.
+const EXCESSES: std::ops::RangeInclusive<f64> = 1e-4..=5.0;
+const RS: std::ops::RangeInclusive<f64> = 0.03..=20.0;
+
+/// Step of ln α and ln r: cycles are known to 1e-7 or so.
+const STEP: f64 = 5e-4;
+
+impl Problem<'_> {
+    /// The numbers; searched are their logarithms, then the phases in turns. `None` beyond what motions there are.
+    pub(super) fn values(&self, searched: &[f64]) -> Option<Values> {
+        let mut values = self.held;
+        self.free.iter().zip(searched).for_each(|(name, v)| values.set(*name, v.exp()));
+        if self.by_excess && self.free.contains(&Name::Alpha) {
+            let (excess, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
+            let usable = EXCESSES.contains(&excess) && RS.contains(&r);
+            let onset = if usable { self.onset(&values, r)?.0 } else { return None };
+            values.set(Name::Alpha, onset * (1.0 + excess));
+        }
+        if self.by_wavelength() {
+            let length = values.get(Name::Width)? / self.wavelength(&values)?;
+            values.set(Name::Width, length);
+        }
+        Some(values)
+    }
+
+    /// Whether σ is searched by the wavelength that it makes: the data know that at once, and α and r alter but the
+    /// shape of the wave then.
+    fn by_wavelength(&self) -> bool {
+        let tracks = self.data.iter().any(|data| !data.is_series());
+        self.by_excess && tracks && self.free.contains(&Name::Width)
+    }
+
+    /// In σ.
+    fn wavelength(&self, values: &Values) -> Option<f64> {
+        let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
+        Some(self.cycles.waves(&values.model(self.shape, alpha, r)?)?.ripple.wavelength)
+    }
+
+    /// What is searched for these values, phases apart; `None` where one is missing, or below onset.
+    pub(super) fn searched_for(&self, values: &Values) -> Option<Vec<f64>> {
+        let of = |name: &Name| {
+            let value = values.get(*name)?;
+            if self.by_excess && *name == Name::Alpha {
+                let onset = self.onset(values, values.get(Name::R)?)?.0;
+                let excess = value / onset - 1.0;
+                return EXCESSES.contains(&excess).then(|| excess.ln());
+            }
+            if *name == Name::Width && self.by_wavelength() {
+                return Some((value * self.wavelength(values)?).ln());
+            }
+            Some(value.ln())
+        };
+        self.free.iter().map(of).collect()
+    }
+
+    /// How many are searched: the numbers, and a phase of each track.
+    pub(super) fn searched(&self) -> usize {
+        self.free.len() + self.data.iter().map(Data::phases).sum::<usize>()
+    }
+
+    /// All numbers that are fitted, those projected out among them.
+    pub(super) fn parameters(&self) -> usize {
+        self.searched() + self.data.iter().map(Data::linear).sum::<usize>()
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.data.iter().map(Data::rows).sum()
+    }
+
+    /// Of each of the data what is projected, in units of its noise, and weighted.
+    pub(super) fn parts(&self, searched: &[f64]) -> Option<Vec<Projected>> {
+        let values = self.values(searched)?;
+        let mut phases = searched[self.free.len()..].iter().copied();
+        let each = self.data.iter().zip(&self.noise).zip(&self.weights);
+        let part = |((data, noise), weights): ((&Data, &f64), &Vec<f64>)| {
+            let mine: Vec<f64> = phases.by_ref().take(data.phases()).collect();
+            let (columns, rest) = self.columns(data, &values, &mine)?;
+            let scaled = |column: Vec<f64>| -> Vec<f64> {
+                column.into_iter().zip(weights).map(|(v, w)| v * w / noise).collect()
+            };
+            let columns: Vec<Vec<f64>> = columns.into_iter().map(scaled).collect();
+            let rest = scaled(rest);
+            if columns.is_empty() {
+                Some(Projected::nothing(rest))
+            } else {
+                project(&columns, &rest)
+            }
+        };
+        each.map(part).collect()
+    }
+
+    /// The columns that data are a sum of, and what of the data is to be made up by them.
+    fn columns(
+        &self,
+        data: &Data,
+        values: &Values,
+        phases: &[f64],
+    ) -> Option<(Vec<Vec<f64>>, Vec<f64>)> {
+        let waves = || {
+            let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
+            self.cycles.waves(&values.model(self.shape, alpha, r)?)
+        };
+        let width = values.get(Name::Width);
+        match data {
+            Data::Ripple(track) => {
+                let (wave, width) = (waves()?.ripple, width?);
+                let model = along(&wave, &track.x, width, phases[0], 1.0);
+                Some(track_columns(track, model, width * width))
+            }
+            Data::Friction(track) => {
+                let (wave, width) = (waves()?.lag, width?);
+                let model = along(&wave, &track.x, width, phases[0], 1.0);
+                let model = model.into_iter().map(|v| v + wave.mean).collect();
+                Some(track_columns(track, model, width))
+            }
+            Data::Loop(track, back) => {
+                let (wave, width) = (waves()?.lag, width?);
+                let there = along(&wave, &track.x, width, phases[0], 1.0);
+                let here = along(&wave, &track.x, width, phases[1], -1.0);
+                let there = there.into_iter().map(|v| v + wave.mean);
+                let model = there.chain(here.into_iter().map(|v| -v - wave.mean)).collect();
+                let both = Track {
+                    x: [&*track.x, &track.x].concat(),
+                    y: [&*track.y, back].concat(),
+                    gain: track.gain,
+                };
+                Some(track_columns(&both, model, width))
+            }
+            Data::Onsets { velocity, load } => {
+                let rows = velocity.iter().zip(load).map(|(v, load)| {
+                    let r = values.get(Name::RPerVelocity)? * v;
+                    let alpha = values.get(Name::AlphaPerLoad)? * load;
+                    Some((alpha / self.onset(values, r)?.0).ln())
+                });
+                Some((vec![], rows.collect::<Option<_>>()?))
+            }
+            Data::Wavelengths { velocity, load, wavelength } => {
+                let rows = velocity.iter().zip(load).zip(wavelength).map(|((v, load), found)| {
+                    let r = values.get(Name::RPerVelocity)? * v;
+                    let alpha = values.get(Name::AlphaPerLoad)? * load;
+                    let (onset, born) = self.onset(values, r)?;
+                    // Below onset there are no ripples: the nearest are those that are born there.
+                    let told = if alpha > onset * (1.0 + 1e-6) {
+                        self.cycles.waves(&values.model(self.shape, alpha, r)?)?.ripple.wavelength
+                    } else {
+                        born
+                    };
+                    Some((found / (width? * told)).ln())
+                });
+                Some((vec![], rows.collect::<Option<_>>()?))
+            }
+        }
+    }
+
+    /// αc and the wavelength there.
+    fn onset(&self, values: &Values, r: f64) -> Option<(f64, f64)> {
+        let model = values.model(self.shape, 1.0, r)?;
+        let found = if model.wider().is_papers() {
+            critical(model.tip(), r).ok()?
+        } else {
+            critical_under(model.wider(), model.tip(), r).ok()?.critical
+        };
+        Some((found.alpha, found.wavelength))
+    }
+}
+
+/// The wave, less its mean, along positions; `phase` is where the crest of its first harmonic is, in turns from the
+/// middle, where it depends least on the wavelength.
+fn along(wave: &Wave, x: &[f64], width: f64, phase: f64, direction: f64) -> Vec<f64> {
+    let (first, last) = ends(x);
+    let middle = 0.5 * (first + last);
+    let moved = phase * wave.wavelength - wave.crest();
+    x.iter().map(|x| wave.at(direction * (x - middle) / width - moved)).collect()
+}
+
+/// Offset, slope and, unless the gain is known, the model.
+fn track_columns(track: &Track, model: Vec<f64>, size: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let (first, last) = ends(&track.x);
+    let slope = track.x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
+    let mut columns = vec![vec![1.0; track.x.len()], slope];
+    match track.gain {
+        Some(gain) => {
+            let rest = track.y.iter().zip(&model).map(|(y, v)| y - gain * size * v);
+            (columns, rest.collect())
+        }
+        None => {
+            columns.push(model);
+            (columns, track.y.clone())
+        }
+    }
+}
+
+pub(super) fn ends(x: &[f64]) -> (f64, f64) {
+    x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
+}
+
+impl Problem<'_> {
+    /// Derivatives at the best place, better than those on the way.
+    pub(super) fn slopes(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
+        differences(self, (here, searched), STEP)
+    }
+}
+
+impl Residuals for Problem<'_> {
+    fn at(&self, searched: &[f64]) -> Option<Vec<f64>> {
+        let parts = self.parts(searched)?;
+        Some(parts.into_iter().flat_map(|part| part.residuals).collect())
+    }
+
+    fn derivatives(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
+        forward(self, (here, searched), STEP)
+    }
+
+    fn enough(&self) -> f64 {
+        1e-6
+    }
+}

@@ -1,0 +1,134 @@
+//! What a cycle leaves and feels over one wavelength, as Fourier series; and the cycles that were solved for, from
+//! which the next are begun.
+
+use std::cell::RefCell;
+use std::f64::consts::TAU;
+use stickslip_cycles::{Cycle, cycle, cycle_near};
+use stickslip_tip::Model;
+
+/// A periodic function of position, in σ, by its Fourier series.
+#[derive(Debug, Clone)]
+pub(super) struct Wave {
+    pub(super) wavelength: f64,
+    pub(super) mean: f64,
+    /// Of cos and sin of 1, 2, … times the wave number.
+    coefficients: Vec<(f64, f64)>,
+}
+
+/// Samples of a wavelength.
+const SAMPLES: usize = 256;
+/// Harmonics below this part of the largest are left out.
+const NOTHING: f64 = 1e-8;
+
+impl Wave {
+    fn of(wavelength: f64, samples: &[f64]) -> Self {
+        let count = samples.len();
+        let turns: Vec<(f64, f64)> =
+            (0..count).map(|i| (TAU * i as f64 / count as f64).sin_cos()).collect();
+        let harmonic = |k: usize| {
+            let (mut of_cos, mut of_sin) = (0.0, 0.0);
+            for (i, value) in samples.iter().enumerate() {
+                let (sin, cos) = turns[(i * k) % count];
+                of_cos += value * cos;
+                of_sin += value * sin;
+            }
+            (2.0 * of_cos / count as f64, 2.0 * of_sin / count as f64)
+        };
+        let mut coefficients: Vec<(f64, f64)> = (1..count / 3).map(harmonic).collect();
+        let size = |(a, b): &(f64, f64)| a.hypot(*b);
+        let largest = coefficients.iter().map(size).fold(0.0, f64::max);
+        let last = coefficients.iter().rposition(|c| size(c) > NOTHING * largest);
+        coefficients.truncate(last.map_or(0, |last| last + 1));
+        let mean = samples.iter().sum::<f64>() / count as f64;
+        Self { wavelength, mean, coefficients }
+    }
+
+    /// Less the mean.
+    pub(super) fn at(&self, x: f64) -> f64 {
+        let (sin, cos) = (TAU * x / self.wavelength).sin_cos();
+        // Clenshaw's recurrence for both sums at once.
+        let (mut a, mut b) = ((0.0, 0.0), (0.0, 0.0));
+        for (c, s) in self.coefficients.iter().rev() {
+            a = (c + 2.0 * cos * a.0 - a.1, a.0);
+            b = (s + 2.0 * cos * b.0 - b.1, b.0);
+        }
+        cos * a.0 - a.1 + sin * b.0
+    }
+
+    /// Where its first harmonic has its crest.
+    pub(super) fn crest(&self) -> f64 {
+        let (c, s) = self.coefficients.first().copied().unwrap_or((1.0, 0.0));
+        s.atan2(c) / TAU * self.wavelength
+    }
+}
+
+/// Of one motion: u far behind the tip over x, in kσ²/a, and the lag over the way of the support, in σ.
+#[derive(Debug, Clone)]
+pub(super) struct Waves {
+    pub(super) ripple: Wave,
+    pub(super) lag: Wave,
+}
+
+impl Waves {
+    fn of(cycle: &Cycle) -> Self {
+        let (wavelength, motion, r) = (cycle.wavelength(), cycle.motion(), cycle.model().r());
+        let part = |i: usize| i as f64 / SAMPLES as f64;
+        let x: Vec<f64> = (0..SAMPLES).map(|i| wavelength * part(i)).collect();
+        let lags: Vec<f64> = (0..SAMPLES).map(|i| motion.l(cycle.period() * part(i)) + r).collect();
+        Self {
+            ripple: Wave::of(wavelength, &cycle.surface_behind(&x)),
+            lag: Wave::of(wavelength, &lags),
+        }
+    }
+}
+
+/// Cycles, each begun from the nearest of the last ones.
+#[derive(Debug, Default)]
+pub(super) struct Cycles {
+    last: RefCell<Vec<(Cycle, Waves)>>,
+}
+
+/// So many are kept.
+const KEPT: usize = 12;
+/// Residual of (18): the noise of any data is far above what that leaves, and so is a step of the differences.
+const TOLERANCE: f64 = 1e-6;
+/// Distance in ln α and ln r from which a cycle is begun from another.
+const NEAR: f64 = 0.2;
+
+impl Cycles {
+    /// Of the cycle of a model; `None` where none is found.
+    pub(super) fn waves(&self, model: &Model) -> Option<Waves> {
+        let distance = |other: &Model| {
+            let same = other.tip() == model.tip() && other.wider() == model.wider();
+            let apart = (other.alpha() / model.alpha()).ln().hypot((other.r() / model.r()).ln());
+            if same { apart } else { apart + 0.5 * NEAR }
+        };
+        let mut last = self.last.borrow_mut();
+        let nearest = (0..last.len())
+            .min_by(|a, b| distance(last[*a].0.model()).total_cmp(&distance(last[*b].0.model())));
+        let found = nearest.filter(|i| distance(last[*i].0.model()) < NEAR).and_then(|i| {
+            let (other, waves) = &last[i];
+            if distance(other.model()) <= 0.0 {
+                return Some((None, waves.clone()));
+            }
+            let near = cycle_near(model, other.motion(), TOLERANCE).ok()?;
+            let waves = Waves::of(&near);
+            Some((Some(near), waves))
+        });
+        let (new, waves) = match found {
+            Some(found) => found,
+            None => {
+                let found = cycle(model, TOLERANCE).ok()?;
+                let waves = Waves::of(&found);
+                (Some(found), waves)
+            }
+        };
+        if let Some(new) = new {
+            if last.len() == KEPT {
+                last.remove(0);
+            }
+            last.push((new, waves.clone()));
+        }
+        Some(waves)
+    }
+}

@@ -1,0 +1,6 @@
+//! What measurement is held to: profiles drawn from known footprints, ripples carved by the full equations.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod fitted_ripples;
+mod measured_tips;

@@ -1,0 +1,123 @@
+//! `stickslip fit`: what a run leaves and feels, with noise, in nanometres, gives back what it was made of.
+
+use crate::folder::{Folder, said};
+use serde_json::Value;
+
+/// Numbers in [-1, 1] by a fixed rule.
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 2_024_u32;
+    move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        2.0 * f64::from(state) / f64::from(u32::MAX) - 1.0
+    }
+}
+
+fn rows(text: &[u8]) -> Vec<Vec<f64>> {
+    let text = String::from_utf8_lossy(text).into_owned();
+    let number = |word: &str| word.parse().unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
+}
+
+fn number<'a>(fit: &'a Value, name: &str) -> &'a Value {
+    let numbers = fit["numbers"].as_array().unwrap();
+    &numbers.iter().find(|n| n["name"] == name).unwrap()["estimate"]
+}
+
+fn holds(fit: &Value, name: &str, truth: f64) {
+    let estimate = number(fit, name);
+    let [low, high] = ["low", "high"].map(|end| estimate[end].as_f64().unwrap());
+    assert!(low < truth && truth < high, "{name} {truth}: {estimate}");
+    assert!(high - low < 0.2 * truth, "{name}: {estimate}");
+}
+
+/// σ = 30 nm, heights of 0.02 σ² nm, 2 % of noise, a tilt; lag to force by 0.3 nN/nm.
+fn measured(folder: &Folder) {
+    folder.prints("run --alpha 1.3 --r 1 --kick 0.3 --until 300 --sample-every 0.1 -o run.csv");
+    folder.prints("run --alpha 1.3 --r 1 --kick 0.3 --until 300 -o run.json");
+    folder.prints("surface run.json --range 230:270:500 -o surface.csv");
+    let mut random = random();
+    let mut ripple = "x_nm,z_nm\n".to_owned();
+    for row in rows(&folder.read("surface.csv")) {
+        let (x, u) = (30.0 * row[1], 18.0 * (row[2] + 0.02 * row[1] + 0.04 * random()));
+        ripple += &format!("{x},{u}\n");
+    }
+    folder.write("ripple.csv", ripple);
+    let heading = String::from_utf8(folder.read("run.csv")).unwrap();
+    let heading: Vec<&str> = heading.lines().next().unwrap().split(',').collect();
+    let of = |name: &str| heading.iter().position(|h| *h == name).unwrap();
+    let (t, lag) = (of("t"), of("lag"));
+    let mut trace = "way_nm,force_nN\n".to_owned();
+    for row in rows(&folder.read("run.csv")).iter().filter(|row| row[t] > 240.0) {
+        trace += &format!("{},{}\n", 30.0 * row[t], 9.0 * (row[lag] + 0.02 * random()));
+    }
+    folder.write("trace.csv", trace);
+}
+
+#[test]
+fn ripples_and_friction_give_back_what_they_were_made_of() {
+    let folder = Folder::new("fit_command");
+    measured(&folder);
+    let output =
+        folder.stickslip("fit --ripple ripple.csv --height-gain 0.02 -o fit.json --plot fit.svg");
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(
+        said(&output).contains("width = ") && said(&output).contains("nm"),
+        "{}",
+        said(&output)
+    );
+    let fit = folder.json("fit.json");
+    for (name, truth) in [("alpha", 1.3), ("r", 1.0), ("width", 30.0)] {
+        holds(&fit, name, truth);
+    }
+    let both = folder.prints_json(
+        "fit --ripple ripple.csv --height-gain 0.02 --friction trace.csv --force-gain 0.3 --width 30",
+    );
+    for (name, truth) in [("alpha", 1.3), ("r", 1.0)] {
+        holds(&both, name, truth);
+    }
+    assert_eq!(both["data"].as_array().unwrap().len(), 2);
+    folder.prints("plot fit.json -o again.svg");
+    assert_eq!(folder.read("fit.svg"), folder.read("again.svg"));
+    let table = String::from_utf8(folder.prints("fit --ripple ripple.csv --format csv"));
+    assert!(table.unwrap().starts_with("number,value,low,high\nalpha,"));
+}
+
+/// αc(r) of `boundary`, as loads over velocities: α = 0.5 load, r = 2 velocity.
+#[test]
+fn onsets_give_alpha_per_load_and_r_per_velocity() {
+    let folder = Folder::new("fit_onsets");
+    folder.prints("boundary --r-range 0.4:1.6:13 -o boundary.csv");
+    let mut random = random();
+    let mut onsets = "v,N\n".to_owned();
+    for row in rows(&folder.read("boundary.csv")) {
+        onsets += &format!("{},{}\n", 0.5 * row[1], 2.0 * row[2] * (1.0 + 0.01 * random()));
+    }
+    folder.write("onsets.csv", onsets);
+    let fit = folder.prints_json("fit --onsets onsets.csv");
+    holds(&fit, "alpha_per_load", 0.5);
+    holds(&fit, "r_per_velocity", 2.0);
+}
+
+#[test]
+fn what_cannot_be_fitted_is_refused_with_what_would_do() {
+    let folder = Folder::new("fit_refusals");
+    folder.write("two.csv", "0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n");
+    folder.write("below.csv", "1,1\n-2,2\n3,3\n4,4\n");
+    for (line, status, words) in [
+        ("fit", 2, ["--ripple", "what was measured"]),
+        ("fit --ripple absent.csv", 2, ["absent.csv", "cannot be read"]),
+        ("fit --wavelengths two.csv", 2, ["two.csv", "3 are needed"]),
+        ("fit --onsets below.csv", 2, ["row 2", "above 0"]),
+        ("fit --ripple two.csv --free gamma", 2, ["--free gamma", "depth-limit"]),
+        ("fit --ripple two.csv --free beta --tip gaussian", 2, ["--free beta", "--tip"]),
+        ("fit --ripple two.csv --r -1", 2, ["--r -1", "above 0"]),
+        ("fit --ripple two.csv", 2, ["two.csv", "too few"]),
+    ] {
+        let output = folder.stickslip(line);
+        assert_eq!(output.status.code(), Some(status), "{line}: {}", said(&output));
+        assert!(output.stdout.is_empty(), "{line}");
+        for word in words {
+            assert!(said(&output).contains(word), "{line}: {}", said(&output));
+        }
+    }
+}

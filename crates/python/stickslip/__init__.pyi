@@ -359,6 +359,22 @@ def raster(
     length: _Number | None = None,
     progress: _Progress = None,
 ) -> RasterResult: ...
+def tip(
+    measured: _Path | Result,
+    *,
+    unit: _Number | None = None,
+    half: bool = False,
+    both: bool = False,
+    centre: _Number | None = None,
+    sigma: _Number | None = None,
+    terms: _Number | None = None,
+    r: _Number | None = None,
+    resamples: _Number | None = None,
+    seed: _Number | None = None,
+    output: _Path | None = None,
+    plot: _Path | None = None,
+    progress: _Progress = None,
+) -> Result: ...
 def compare(
     *,
     tip: str | _Columns | None = None,

@@ -281,7 +281,8 @@ def grid(result):
 
     parameters = result.parameters
     alphas = "alpha" if parameters.get("alpha") is not None else "alpha_above"
-    axes = {name: parameters.get(name) for name in ("beta", "r", alphas)}
+    axes = {name: parameters.get(name) for name in ("width", "beta", "r", alphas)}
+    axes.update((axis.name.replace("-", "_"), axis["values"]) for axis in parameters.get("axes", []))
     axes = {name: values for name, values in axes.items() if values is not None}
     shape = tuple(len(values) for values in axes.values())
     places = np.array([point["index"] for point in result.points])

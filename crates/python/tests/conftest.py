@@ -12,13 +12,13 @@ ROOT = Path(__file__).resolve().parents[3]
 
 @pytest.fixture(scope="session")
 def program():
-    """The program as it is built: STICKSLIP names it, or one of the usual places has it."""
+    """The program as it is built: STICKSLIP names it, or it is the latest in the usual places."""
     named = os.environ.get("STICKSLIP")
     places = [Path(named)] if named else [ROOT / "target" / kind / "stickslip" for kind in ("release", "debug")]
-    found = next((place for place in places if place.is_file()), None)
-    if found is None:
+    found = [place for place in places if place.is_file()]
+    if not found:
         pytest.fail(f"there is no program in {', '.join(map(str, places))}: build it first")
-    return found
+    return max(found, key=lambda place: place.stat().st_mtime)
 
 
 @pytest.fixture

@@ -82,6 +82,19 @@ def test_datasets_hold_axes_and_parameters(run):
     assert (part["regime"].values != "").sum() == 5
 
 
+def test_an_ensemble_is_a_dataset_over_its_seeds():
+    pytest.importorskip("xarray")
+    runs = stickslip.sweep(r=1, alpha=[1.0, 1.2], width=[0.8, 1.0], kick=0.1, until=40, noise=1e-2, seed=(1, 4, 4))
+    data = runs.to_xarray()
+    assert dict(data.sizes) == {"width": 2, "r": 1, "alpha": 2, "seed": 4}
+    for point in runs.points:
+        place = data.sel(width=point.width, r=1, alpha=point.alpha, seed=point.at[0])
+        assert place["deviation_l"].item() == point.deviation_l
+    first = data["deviation_l"].isel(width=0, r=0, alpha=0).values
+    told = runs.ensembles[0].deviation_l
+    assert np.isclose(first.mean(), told.mean, rtol=1e-14) and np.isclose(first.std(ddof=1), told.deviation, rtol=1e-12)
+
+
 def test_parts_of_a_sweep_merge_to_the_whole():
     parts = [stickslip.sweep(r=1, alpha=(1, 2, 5), shard=(i, 2)) for i in (2, 1)]
     assert stickslip.sweep_merge(*parts).to_json() == stickslip.sweep(r=1, alpha=(1, 2, 5)).to_json()

@@ -252,7 +252,18 @@ fn effective(rows: usize, correlation: f64) -> f64 {
 const WIDE: f64 = 0.05;
 const ABOVE_NOISE: f64 = 1.3;
 
+/// Of the apex: with more noise, one half alone does not tell a tilt from a lobe.
+const DOUBTFUL: f64 = 0.015;
+
 impl MeasuredTip {
+    /// Whether all rows but a few are on one side of the centre.
+    fn is_one_sided(&self) -> bool {
+        let x = &self.fitted.x;
+        let before = x.partition_point(|x| *x < self.centre);
+        let few = x.len() / 10;
+        before <= few || x.len() - before <= few
+    }
+
     /// What a reader should know before believing it.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
@@ -262,6 +273,13 @@ impl MeasuredTip {
             remarks.push(format!(
                 "the profile leaves the critical alpha open by {:.0} % to either side: more rows, or less noise, tell more",
                 100.0 * relative
+            ));
+        }
+        if self.is_one_sided() && self.residual > DOUBTFUL * self.apex.abs() {
+            remarks.push(format!(
+                "one half of a footprint with {:.1} % of noise hardly tells a tilt of the ground from a wide lobe: alpha may be off by \
+                 more than its interval has it (by over 10 % in one of 200); measure both halves",
+                100.0 * self.residual / self.apex.abs()
             ));
         }
         if self.residual > ABOVE_NOISE * self.noise {

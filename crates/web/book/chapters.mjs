@@ -25,7 +25,7 @@ const escape = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 function equation(tex, displayMode) {
   const html = katex.renderToString(tex.replaceAll('\\|', '|').trim(), { displayMode, strict: false, output: 'htmlAndMathml' });
   // Markdown must leave it alone.
-  return html.replaceAll(/\s*\n\s*/g, ' ').replaceAll('|', '&#124;').replaceAll('*', '&#42;').replaceAll('_', '&#95;').replaceAll('\\', '&#92;').replaceAll('`', '&#96;');
+  return html.replaceAll(/\s*\n\s*/g, ' ').replaceAll('|', '&#124;').replaceAll('*', '&#42;').replaceAll('_', '&#95;').replaceAll('\\', '&#92;').replaceAll('`', '&#96;').replaceAll('~', '&#126;');
 }
 
 /** Equations of a text without code. `$$` may go over lines, `$` over one line break. */

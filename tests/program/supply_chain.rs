@@ -43,7 +43,7 @@ fn root() -> &'static Path {
 /// Every package of the build, ours included.
 fn packages() -> Vec<Value> {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["metadata", "--format-version", "1", "--locked"]).current_dir(root());
+    cargo.args(["metadata", "--format-version", "1", "--locked", "--all-features"]).current_dir(root());
     let output = cargo.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -216,11 +216,12 @@ fn locked(file: &Path) -> Vec<(String, String, Vec<String>)> {
     packages.map(|entry| (word(entry, "name"), word(entry, "version"), needs(entry))).collect()
 }
 
-/// The crates below `[dependencies]` in a manifest.
+/// The crates below `[dependencies]` in a manifest that are always there.
 fn needed(manifest: &Path) -> Vec<String> {
     let text = fs::read_to_string(manifest).unwrap();
     let lines = text.lines().skip_while(|line| *line != "[dependencies]").skip(1);
     let lines = lines.take_while(|line| !line.starts_with('['));
+    let lines = lines.filter(|line| !line.contains("optional = true"));
     let names = lines.filter_map(|line| line.split_once(['=', '.'])).map(|(name, _)| name.trim());
     names.filter(|name| !name.starts_with('#')).map(str::to_owned).collect()
 }

@@ -4,6 +4,7 @@
 //! program writes (`stickslip_documents`), and each has the command line that makes the same.
 
 mod asked;
+mod limits;
 mod line;
 mod linear;
 mod map;

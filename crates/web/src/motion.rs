@@ -1,6 +1,7 @@
 //! The run: its samples, the surface at any time of it, and its document.
 
 use crate::asked::Asked;
+use crate::limits::MOST_TIME;
 use crate::refusal::Refusal;
 use stickslip_documents::{
     OscillationDocument, RunDocument, RunEnd, RunParameters, SampleLine, SteadyState, Times,
@@ -10,8 +11,6 @@ use stickslip_outcome::{Observer, judge};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{InitialSurface, Running, Scenario, Trajectory};
 
-/// Time to which a page runs: the history of a fast motion takes some 100 MB then.
-pub(crate) const MOST_TIME: f64 = 20_000.0;
 /// As the program samples by default.
 const INTERVALS: u64 = 2000;
 

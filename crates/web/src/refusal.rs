@@ -13,9 +13,9 @@ use thiserror::Error;
 pub(crate) enum Refusal {
     #[error("these are no parameters: {0}")]
     Json(serde_json::Error),
-    #[error("the page runs up to t = {most}, not to {0}: the program goes on from there", most = crate::motion::MOST_TIME)]
+    #[error("the page runs up to t = {most}, not to {0}: the program goes on from there", most = crate::limits::MOST_TIME)]
     TooLong(f64),
-    #[error("the page scans up to {most} lines, not {0}: the program scans more", most = crate::scan::MOST_LINES)]
+    #[error("the page scans up to {most} lines, not {0}: the program scans more", most = crate::limits::MOST_LINES)]
     TooManyLines(usize),
     #[error("the run has no steps")]
     NoSteps,

@@ -1,14 +1,13 @@
 //! A raster, line by line.
 
 use crate::asked::Asked;
+use crate::limits::MOST_LINES;
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use stickslip_documents::{PathName, PatternDocument, RasterRegimeName};
 use stickslip_raster::{Path, Plan, Scanned, Scanning, pattern};
 use stickslip_tip::{Footprint, Scenario};
 
-/// Lines that a page has the patience for.
-pub(crate) const MOST_LINES: usize = 400;
 /// Error of each line: a picture, and a pattern, need no more.
 pub(crate) const TOLERANCE: f64 = 1e-6;
 /// Heights in a width of the tip along a line; two rows to a pitch.

@@ -1,0 +1,6 @@
+//! What the page computes at most.
+
+/// Time to which a page runs: the history of a fast motion takes some 100 MB then.
+pub(crate) const MOST_TIME: f64 = 20_000.0;
+/// Lines that a page has the patience for.
+pub(crate) const MOST_LINES: usize = 400;

@@ -43,7 +43,9 @@ fn root() -> &'static Path {
 /// Every package of the build, ours included.
 fn packages() -> Vec<Value> {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["metadata", "--format-version", "1", "--locked", "--all-features"]).current_dir(root());
+    cargo
+        .args(["metadata", "--format-version", "1", "--locked", "--all-features"])
+        .current_dir(root());
     let output = cargo.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -16,8 +16,17 @@ pub(super) const PREPARED: [&str; 6] = [
     "units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1 -o units.json",
 ];
 
+/// Tables that are read by the lines: a tip of width 1 in any unit, and onsets.
+pub(super) const TABLES: [(&str, &str); 2] = [
+    (
+        "pit.csv",
+        "0,1\n0.5,0.8825\n1,0.6065\n1.5,0.3247\n2,0.1353\n2.5,0.0439\n3,0.0111\n3.5,0.0022\n4,0.0003\n5,0\n",
+    ),
+    ("onsets.csv", "1,1.02\n2,2.5\n3,4.2\n4,6.5\n"),
+];
+
 /// Every command with what it cannot do without.
-const LINES: [&str; 20] = [
+const LINES: [&str; 23] = [
     "run --alpha 1.2 --r 1 --until 30",
     "verify run.json",
     "surface run.json",
@@ -38,6 +47,9 @@ const LINES: [&str; 20] = [
     "stability --r 1 --pitch 1",
     "compare --alpha 0.5 --r 1 --pitch 1 --lines 2 --length 8",
     "surface raster.json --range 5:15 --y-range 0:2 --spacing 0.5",
+    "stability --no-spring --alpha -1",
+    "tip pit.csv --resamples 20",
+    "fit --onsets onsets.csv --tip gaussian",
 ];
 /// Has no numbers.
 const WITHOUT: [&str; 2] = ["schema", "help"];

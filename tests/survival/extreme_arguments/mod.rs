@@ -8,7 +8,7 @@ mod values;
 mod watch;
 
 use crate::folder::Folder;
-use lines::{Options, PREPARED, line};
+use lines::{Options, PREPARED, TABLES, line};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -18,6 +18,7 @@ use watch::watched;
 /// So many lines from this seed on, each by a seed of its own.
 fn judged(cases: std::ops::Range<u64>, seed: u64) {
     let folder = Folder::new(&format!("extreme_arguments_{seed}_{}", cases.start));
+    TABLES.iter().for_each(|(name, table)| folder.write(name, table));
     PREPARED.iter().for_each(|line| drop(folder.prints(line)));
     let prepared = folder.names();
     let options = Options::of_help(&folder);

@@ -6,6 +6,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_outcome::Outcome;
 use stickslip_tip::{Step, Support, Wider};
 
 /// A line of a run written as it goes on (`.jsonl`): the first says what is run, one follows for each
@@ -118,4 +119,25 @@ pub struct RunEnd {
     pub interrupted: bool,
     /// What it took.
     pub work: WorkDocument,
+}
+
+impl RunEnd {
+    /// What became of a run that nobody stopped, at the time `end`.
+    pub fn of(
+        end: f64,
+        outcome: Outcome,
+        oscillation: Option<OscillationDocument>,
+        work: WorkDocument,
+    ) -> Self {
+        Self {
+            end,
+            regime: outcome.regime.into(),
+            oscillation,
+            creep: outcome.creep.map(Into::into),
+            transient: outcome.prospect.map(Into::into),
+            remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
+            interrupted: false,
+            work,
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::Model;
+use stickslip_tip::{Model, Work};
 
 /// Steady motion.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -66,4 +66,20 @@ pub struct WorkDocument {
     pub switches: u64,
     /// Time of the integration alone, in seconds: the one field that differs from run to run.
     pub seconds: f64,
+}
+
+impl WorkDocument {
+    /// What a run took in so many seconds with a memory of this name, chosen for that reason.
+    pub fn of(work: &Work, (memory, memory_reason): (&str, String), seconds: f64) -> Self {
+        Self {
+            memory: memory.into(),
+            memory_reason,
+            steps: work.steps,
+            rejected: work.rejected,
+            newton_iterations: work.newton_iterations,
+            series: work.series,
+            switches: work.switches,
+            seconds,
+        }
+    }
 }

@@ -40,17 +40,8 @@ impl Motion {
         if steps.is_empty() {
             return Err(Refusal::NoSteps);
         }
-        let work = running.work();
-        let work = WorkDocument {
-            memory: running.memory().into(),
-            memory_reason: running.memory_reason(),
-            steps: work.steps,
-            rejected: work.rejected,
-            newton_iterations: work.newton_iterations,
-            series: work.series,
-            switches: work.switches,
-            seconds: (now() - began) / 1e3,
-        };
+        let memory = (running.memory(), running.memory_reason());
+        let work = WorkDocument::of(&running.work(), memory, (now() - began) / 1e3);
         drop(running);
         let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
         Ok(Self { scenario, initial, trajectory, observer, work })
@@ -111,20 +102,11 @@ impl Motion {
     pub(crate) fn end(&self) -> Result<RunEnd, Refusal> {
         let outcome = judge(&self.scenario, &self.initial, &self.observer);
         let tail = self.observer.tail().ok_or(Refusal::NoSteps)?;
-        let oscillation = outcome.oscillation.map(|o| {
+        let oscillation = outcome.oscillation.as_ref().map(|o| {
             let ripple = ripple_behind(&self.surface(&tail), &tail, o.wavelength);
-            OscillationDocument::of(&o, ripple)
+            OscillationDocument::of(o, ripple)
         });
-        Ok(RunEnd {
-            end: self.trajectory.end(),
-            regime: outcome.regime.into(),
-            oscillation,
-            creep: outcome.creep.map(Into::into),
-            transient: outcome.prospect.map(Into::into),
-            remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
-            interrupted: false,
-            work: self.work.clone(),
-        })
+        Ok(RunEnd::of(self.trajectory.end(), outcome, oscillation, self.work.clone()))
     }
 
     pub(crate) fn document(&self) -> Result<RunDocument, Refusal> {

@@ -16,27 +16,12 @@ pub(super) fn end(
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
     // Whoever stops the judgement too, or stopped the run, is told what can be said at once.
     let outcome = stop::where_asked_by(interrupt.flag(), || running.outcome());
-    let work = running.work();
-    Ok(RunEnd {
-        end: running.t(),
-        regime: outcome.regime.into(),
-        oscillation: outcome.oscillation.map(|o| {
-            let surface = Surface::new(&scenario.model, initial, &tail);
-            OscillationDocument::of(&o, ripple_behind(&surface, &tail, o.wavelength))
-        }),
-        creep: outcome.creep.map(Into::into),
-        transient: outcome.prospect.map(Into::into),
-        remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
-        interrupted: interrupt.signal().is_some(),
-        work: WorkDocument {
-            memory: running.memory().into(),
-            memory_reason: running.memory_reason(),
-            steps: work.steps,
-            rejected: work.rejected,
-            newton_iterations: work.newton_iterations,
-            series: work.series,
-            switches: work.switches,
-            seconds: *seconds,
-        },
-    })
+    let oscillation = outcome.oscillation.as_ref().map(|o| {
+        let surface = Surface::new(&scenario.model, initial, &tail);
+        OscillationDocument::of(o, ripple_behind(&surface, &tail, o.wavelength))
+    });
+    let memory = (running.memory(), running.memory_reason());
+    let work = WorkDocument::of(&running.work(), memory, *seconds);
+    let interrupted = interrupt.signal().is_some();
+    Ok(RunEnd { interrupted, ..RunEnd::of(running.t(), outcome, oscillation, work) })
 }

@@ -22,6 +22,8 @@ _Values: TypeAlias = _Number | tuple[_Number, _Number, int] | list[float] | npt.
 _Pulse: TypeAlias = tuple[_Number, _Number, _Number]
 # _Columns (x, f), a table of rows, a pandas Series or DataFrame, or what a .json file would hold.
 _Columns: TypeAlias = Sequence[npt.ArrayLike] | npt.NDArray[Any] | Mapping[str, Any] | Result | Any
+# Several of them are a list, for columns are a tuple.
+_Data: TypeAlias = _Path | _Columns | list[Any]
 _Progress: TypeAlias = bool | Callable[[float | None, str], object] | None
 
 class StickslipWarning(UserWarning): ...
@@ -103,6 +105,10 @@ class ResponseResult(Result): ...
 class RasterResult(Result): ...
 class SurfaceResult(Result): ...
 class SweepResult(Result): ...
+
+class FitResult(Result):
+    @property
+    def estimates(self) -> Record: ...
 
 def load(path: _Path) -> Any: ...
 def loads(text: str) -> Any: ...
@@ -420,9 +426,9 @@ def raster(
     progress: _Progress = None,
 ) -> RasterResult: ...
 def tip(
-    measured: _Path | Result,
+    measured: _Path | _Columns,
     *,
-    unit: _Number | None = None,
+    unit: str | None = None,
     half: bool = False,
     both: bool = False,
     centre: _Number | None = None,
@@ -435,6 +441,30 @@ def tip(
     plot: _Path | None = None,
     progress: _Progress = None,
 ) -> Result: ...
+def fit(
+    *,
+    ripple: _Data | None = None,
+    friction: _Data | None = None,
+    onsets: _Path | _Columns | None = None,
+    wavelengths: _Path | _Columns | None = None,
+    height_gain: _Number | None = None,
+    force_gain: _Number | None = None,
+    unit: str | None = None,
+    robust: bool = False,
+    tip: str | _Columns | None = None,
+    beta: _Number | None = None,
+    width: _Number | None = None,
+    tip_file: _Path | _Columns | None = None,
+    r: _Number | None = None,
+    alpha: _Number | None = None,
+    depth_limit: _Number | None = None,
+    healing_time: _Number | None = None,
+    inertia: _Number | None = None,
+    free: str | Sequence[str] | None = None,
+    output: _Path | None = None,
+    plot: _Path | None = None,
+    progress: _Progress = None,
+) -> FitResult: ...
 def compare(
     *,
     tip: str | _Columns | None = None,

@@ -1,7 +1,7 @@
 //! `stickslip compare --lines`: a raster against the full equations on rows of cells.
 
 use super::grid::stepping;
-use super::pace::PATIENCE;
+use super::pace::{PATIENCE, stopped};
 use super::time_limit;
 use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
@@ -96,8 +96,11 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
         let clock = Instant::now();
         let mut scanning = Scanning::new(plan).map_err(failed)?;
         while scanning.next_line().map_err(failed)?.is_some() {
-            too_slow(clock, scanning.lines().len(), plan.lines(), limit).map_or(Ok(()), Err)?;
+            let done = scanning.lines().len() as f64;
+            too_slow(clock, done, plan.lines(), limit).map_or(Ok(()), Err)?;
         }
+        // A scan that is told to end has no next line either.
+        stopped().map_or(Ok(()), Err)?;
         let seconds = clock.elapsed().as_secs_f64();
         (spent, best) = (spent + seconds, seconds.min(best));
         if spent > PATIENCE {
@@ -142,8 +145,8 @@ fn on_cells(
     let clock = Instant::now();
     let mut failure = None;
     let mut progress = Progress::new(0.0, lines.len() as f64).at_every_call();
-    let mut watch = |done: usize| {
-        progress.counted(done as f64, || format!("grid: {done} of {} lines", lines.len()));
+    let mut watch = |done: f64| {
+        progress.counted(done, || format!("grid: {} of {} lines", done.floor(), lines.len()));
         failure = too_slow(clock, done, lines.len(), limit);
         if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
@@ -155,14 +158,19 @@ fn on_cells(
     }
 }
 
-/// A refusal, where the rest at the pace so far goes beyond the limit.
-fn too_slow(clock: Instant, done: usize, lines: usize, limit: f64) -> Option<Failure> {
+/// A refusal, where the rest at the pace so far goes beyond the limit, or nobody waits for it.
+fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failure> {
+    if let Some(failure) = stopped() {
+        return Some(failure);
+    }
     let seconds = clock.elapsed().as_secs_f64();
-    let needed = seconds * lines as f64 / done as f64;
-    if seconds < PATIENCE.min(limit) || needed <= limit {
+    let needed = seconds * lines as f64 / done;
+    // Before a line is done nobody knows what lines take.
+    let is_known = done >= 1.0 && seconds >= PATIENCE.min(limit) && needed > limit;
+    if !is_known && seconds <= limit {
         return None;
     }
-    let fewer = (0.5 * limit * done as f64 / seconds).floor().max(1.0);
+    let fewer = (0.5 * limit * done / seconds).floor().max(1.0);
     Some(Failure::input(
         format!("--time-limit {}", Typed(limit)),
         format!(

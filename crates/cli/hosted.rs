@@ -16,6 +16,7 @@ use clap::{ArgAction, CommandFactory, FromArgMatches};
 use serde::Serialize;
 use std::io::Read;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use stickslip_documents::{Tabular, UnitsDocument, Unusable, VerifyDocument, read_from, told};
 use stickslip_figures::{Drawn, Taker, saved_as};
@@ -45,6 +46,10 @@ pub fn call<'a>(
     let _lent = Lent::to(host);
     match stop::where_asked_by(host.stop(), || done(&cli.command)) {
         Ok(()) => Ok(host.take()),
+        // Work that ends early has its own words for what it did not find.
+        Err(failure) if host.stop().load(Ordering::Relaxed) => {
+            Err(Refusal::Stopped(failure.to_string()))
+        }
         Err(failure) => Err(failure.into()),
     }
 }
@@ -190,7 +195,6 @@ impl Taker for Keep {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::Ordering;
     use stickslip_documents::{RunDocument, SweepDocument};
 
     fn host(supplies: impl IntoIterator<Item = (&'static str, Supply)>) -> Arc<Host> {
@@ -264,6 +268,25 @@ mod tests {
         assert_eq!(sweep.points.len(), 2);
         assert!(made.headline.contains("2 points"), "{}", made.headline);
         assert_eq!(host.pace(), Some(Pace { part: Some(1.0), counted: "2 of 2 points".into() }));
+    }
+
+    #[test]
+    fn a_host_stops_a_comparison_within_either_grid() {
+        // Hours of work, were it not stopped, and nothing is shown before the grid marches.
+        for line in [
+            "compare --alpha=1.2 --r=1 --until=20 --grid=uniform --spacing=1e-3 --step=1e-5 --time-limit=1e9",
+            "compare --tip=gaussian --alpha=0.4 --r=1 --pitch=1 --length=1e3 --lines=2 --step=1e-6 --time-limit=1e9",
+        ] {
+            let host = host([]);
+            let raise = Arc::clone(&host);
+            let work = std::thread::spawn(move || call(line.split(' '), &host).map(drop));
+            while raise.pace().is_none() {
+                assert!(!work.is_finished(), "{line}: {:?}", work.join());
+                std::thread::sleep(std::time::Duration::from_millis(1));
+            }
+            raise.stop().store(true, Ordering::Relaxed);
+            assert!(matches!(work.join(), Ok(Err(Refusal::Stopped(_)))), "{line}");
+        }
     }
 
     #[test]

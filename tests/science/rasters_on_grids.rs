@@ -80,7 +80,7 @@ fn on_grid(
         force: &|_| 0.0,
     };
     let stepping = Stepping::absolute(tolerance);
-    let mut go_on = |_: usize| ControlFlow::Continue(());
+    let mut go_on = |_: f64| ControlFlow::Continue(());
     scan(&asked, (method, spacing), &stepping, (times, points), &mut go_on).unwrap()
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let job = Job::open::<FitDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let given: Vec<Data> = data.iter().map(|(_, data)| data.clone()).collect();
     let found = fitted(&given, &request).map_err(|error| match error {
-        FitError::NoStart => Failure::Run(error.to_string()),
+        FitError::NoStart | FitError::Stopped => Failure::Run(error.to_string()),
         error => Failure::input(named(&data), error),
     })?;
     let tip = fitted_tip(&request, &found)?;

@@ -36,6 +36,7 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
     judge_counts(&request)?;
     let job = Job::open::<MeasuredTipDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let found = tip(&profile, &request).map_err(|error| match error {
+        TipError::Stopped => Failure::Run(error.to_string()),
         TipError::NoOnset { r } => Failure::input(format!("--r {}", Typed(r)), error),
         error => Failure::input(named(), error),
     })?;

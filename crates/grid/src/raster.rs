@@ -71,8 +71,8 @@ pub struct Scanned {
 /// A tip so many reaches outside of where the support goes has left the grid.
 const OUTSIDE: f64 = 2.0;
 
-/// Told the number of lines that are done; may stop the scan there.
-pub type LineObserver<'a> = dyn FnMut(usize) -> ControlFlow<()> + 'a;
+/// Told at every step how many lines are done, with the part of the one under way; may stop the scan there.
+pub type LineObserver<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 /// Scans all lines on a flat surface; `spacing` is that of the cells. Times
 /// are those of every line, ascending from its start, each hit by a step; those after its end count for nothing.
@@ -95,7 +95,8 @@ pub fn scan(
     for (n, line) in scan.lines.iter().enumerate() {
         let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
         let mut own = vec![];
-        let asked = Asked { method, stepping, times, steps: &mut own };
+        let mut within = |part: f64| observe(n as f64 + part);
+        let asked = Asked { method, stepping, times, steps: &mut own, observe: &mut within };
         let (at, end, took) = plane.line(scan, n, start, asked)?;
         x0.push(at);
         steps.push(own);
@@ -104,18 +105,9 @@ pub fn scan(
         work.rejected += took.rejected;
         work.right_hand_sides += took.right_hand_sides;
         work.cells_updated += took.cells_updated;
-        if observe(n + 1).is_break() {
-            return Err(GridError::Stopped { time: elapsed(scan, n) });
-        }
     }
     let u = plane.rows.iter().map(|row| plane.read(row, method, points)).collect();
     Ok(Scanned { x0, steps, y: plane.y, u, work })
-}
-
-/// Since the start of the first line, at the end of line n.
-fn elapsed(scan: &Scan, n: usize) -> f64 {
-    let length: f64 = scan.lines[..=n].iter().map(|line| (line.to - line.from).abs()).sum();
-    length / scan.model.1
 }
 
 /// Heights on all rows.
@@ -138,6 +130,8 @@ struct Asked<'a> {
     stepping: &'a Stepping,
     times: &'a [f64],
     steps: &'a mut Vec<(f64, f64)>,
+    /// Told the part of the line that is done.
+    observe: &'a mut LineObserver<'a>,
 }
 
 impl Plane {
@@ -167,7 +161,7 @@ impl Plane {
         scan: &Scan,
         n: usize,
         (start, velocity): State,
-        Asked { method, stepping, times, steps }: Asked,
+        Asked { method, stepping, times, steps, observe }: Asked,
     ) -> Result<(Vec<f64>, State, Work), GridError> {
         let (line, (alpha, r)) = (scan.lines[n], scan.model);
         let duration = (line.to - line.from).abs() / r;
@@ -205,7 +199,7 @@ impl Plane {
                 .run_to_velocity(&request, &mut |time, x0| {
                     steps.push((time, x0));
                     if x0 > ends.0 && x0 < ends.1 {
-                        return ControlFlow::Continue(());
+                        return observe(time / duration);
                     }
                     outside = Some(GridError::LeftGrid { time, x0 });
                     ControlFlow::Break(())

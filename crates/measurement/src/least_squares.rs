@@ -2,6 +2,7 @@
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, storage::Owned};
+use stickslip_tip::stop;
 
 /// Residuals as a function of parameters that are of order 1.
 pub(crate) trait Residuals {
@@ -49,8 +50,12 @@ const FAILED: f64 = 10.0;
 /// Evaluations for each parameter.
 const PATIENCE: usize = 40;
 
-/// The least sum of squares that is downhill from `start`; `None` where there are no residuals.
+/// The least sum of squares that is downhill from `start`; `None` where there are no residuals, or where the work is
+/// asked to [`stop`].
 pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
+    if stop::is_asked() {
+        return None;
+    }
     let residuals = model.at(start)?;
     let sum = squares(&residuals);
     let begin = Minimum { parameters: start.to_vec(), residuals, sum };
@@ -140,6 +145,9 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
+        if stop::is_asked() {
+            return None;
+        }
         let columns = self.model.derivatives(self.here.as_ref()?, self.at.as_slice())?;
         let columns: Vec<DVector<f64>> = columns.into_iter().map(DVector::from_vec).collect();
         Some(DMatrix::from_columns(&columns))

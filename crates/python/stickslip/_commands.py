@@ -6,6 +6,7 @@ from ._results import (
     BoundaryResult,
     ContinueResult,
     CycleResult,
+    FitResult,
     RasterResult,
     ResponseResult,
     Result,
@@ -126,6 +127,16 @@ def tip():
 
     ``gaussians`` is f with f(0) = 1, ``sigma`` its width; what noise leaves open is ``low`` and ``high`` of each estimate. The
     result is a tip: ``run(tip=stickslip.tip("pit.csv"), ...)``."""
+
+
+@command("fit", returns=FitResult)
+def fit():
+    """alpha, r and sigma from what was measured, by the limit cycle of l'(t) at alpha and r: files, or columns (x, z) of shape
+    (rows,), or DataFrames, of which the names may have units; a list is several data of the same kind, columns are a tuple.
+
+    ``estimates`` has value, low and high (95 %, by profile likelihood) of each number by its name: alpha and r without
+    dimension, width sigma in the unit of the data; ``correlations`` has a row for each, of shape (numbers, numbers); ``data``
+    each of the data beside the model, ``remarks`` what should be known before it is believed."""
 
 
 @command("compare")

@@ -84,16 +84,16 @@ class Asked:
         if isinstance(value, bool):
             raise TypeError(f"{name} has a value, {option.value}: {value!r} is none")
         if is_file(option):
-            text = self._file(name, value)
+            # A list is several, where there may be several; columns are a tuple.
+            several = option.is_repeatable and isinstance(value, list)
+            files = [self._file(f"{name}[{i}]", part) for i, part in enumerate(value)] if several else [self._file(name, value)]
+            self.words += [f"--{option.name}={file}" for file in files]
         elif name == "tip" and not isinstance(value, str):
             # A footprint of one's own.
             self.words.append(f"--tip-file={self._file('tip', value)}")
-            return
         else:
             parts = repeated(option, value)
             self.words += [f"--{option.name}={shown(option, part)}" for part in parts]
-            return
-        self.words.append(f"--{option.name}={text}")
 
     def _file(self, name, value):
         """The name of a file, or a name for what is none."""

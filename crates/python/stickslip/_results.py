@@ -6,7 +6,7 @@ from collections import namedtuple
 
 from . import _native
 from ._picture import Picture
-from ._records import recorded
+from ._records import Record, recorded
 
 Motion = namedtuple("Motion", "l x0 velocity lag")
 Motion.__doc__ = """The motion at some times, arrays of the shape of these: l = rt - r - x0, x0 and the lag R - x0 in
@@ -226,6 +226,15 @@ class SweepResult(Result):
         return grid(self)
 
 
+class FitResult(Result):
+    """Numbers of the law as measured data have them."""
+
+    @property
+    def estimates(self):
+        """Of each number fitted, by its name, value, low and high: a 95 % interval, None where the data do not bound it."""
+        return Record((number.name, number.estimate) for number in self.numbers)
+
+
 KINDS = {
     "stickslip/run": RunResult,
     "stickslip/cycle": CycleResult,
@@ -236,6 +245,7 @@ KINDS = {
     "stickslip/raster": RasterResult,
     "stickslip/surface": SurfaceResult,
     "stickslip/sweep": SweepResult,
+    "stickslip/fit": FitResult,
 }
 
 

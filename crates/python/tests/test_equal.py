@@ -92,6 +92,46 @@ def test_a_measured_tip_is_that_of_its_file_and_is_a_tip(shell, tmp_path):
     assert run.parameters.tip.gaussians[0].width == mine.gaussians[0].width
 
 
+def ripples(pandas):
+    """Heights of settled ripples in nm, on a slope, noisy, as an instrument would give them; and the force of the same scan."""
+    run = stickslip.run(alpha=1.3, r=1, kick=0.3, until=300)
+    noise = np.random.default_rng(3).normal(0, 0.02, (2, 400))
+    x, t = np.linspace(230, 270, 400), np.linspace(250, 290, 400)
+    height = pandas.DataFrame({"x_nm": 30 * x, "z_nm": 18 * (run.surface(x) + 0.02 * x + noise[0])})
+    return height, pandas.DataFrame({"way_nm": 30 * t, "force_nN": 9 * (run.sol(t).lag + noise[1])})
+
+
+def test_a_fit_is_that_of_its_files_and_finds_what_the_ripples_were_made_of(shell, tmp_path):
+    height, force = ripples(pytest.importorskip("pandas"))
+    first, second = height[:260], height[140:]
+    for name, frame in (("first", first), ("second", second), ("force", force)):
+        frame.to_csv(tmp_path / f"{name}.csv", index=False)
+    program = shell("fit --ripple first.csv --ripple second.csv --friction force.csv --height-gain 0.02 --width 30")
+    mine = stickslip.fit(ripple=[first, tmp_path / "second.csv"], friction=force, height_gain=0.02, width=30)
+    found = mine.to_dict()
+    assert [data["source"] for data in found["data"]] == ["--ripple <ripple[0]>", f"--ripple {tmp_path / 'second.csv'}", "--friction <friction>"]
+    for one, other in zip(found["data"], program["data"]):
+        one["source"] = other["source"]
+    assert timeless(found) == timeless(program)
+    for name, truth in (("alpha", 1.3), ("r", 1.0)):
+        estimate = mine.estimates[name]
+        assert estimate.low < truth < estimate.high < 1.05 * truth, (name, estimate)
+    assert mine.correlations.shape == (2, 2) and np.allclose(np.diag(mine.correlations), 1)
+    assert mine.plot().svg.startswith("<svg")
+
+
+def test_columns_of_a_fit_are_a_tuple_and_several_data_a_list():
+    height, _ = ripples(pytest.importorskip("pandas"))
+    columns = tuple(height.to_numpy().T)
+    asked = dict(alpha=1.3, r=1, unit="nm")
+    alone = [stickslip.fit(ripple=given, **asked).to_dict() for given in (columns, [columns], height)]
+    for fit in alone:
+        fit["data"][0].pop("source")
+    assert alone[0] == alone[1] == alone[2] and len(alone[0]["data"]) == 1
+    with pytest.raises(TypeError, match=r"ripple\[0\] is a file, columns such as \(x, f\)"):
+        stickslip.fit(ripple=list(columns), **asked)
+
+
 def test_attributes_are_the_numbers_of_the_document(shell):
     line = "run --alpha 1.2 --r 1 --kick 0.05 --until 400"
     mine, program = stickslip.run(alpha=1.2, r=1, kick=0.05, until=400), shell(line)

@@ -35,6 +35,12 @@ pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T 
     work()
 }
 
+/// The flag lent to this thread, for it to lend to others that share its work.
+#[must_use]
+pub fn flag() -> Option<Arc<AtomicBool>> {
+    FLAG.with_borrow(Clone::clone)
+}
+
 /// Whether the work under way on this thread is to end.
 #[must_use]
 pub fn is_asked() -> bool {

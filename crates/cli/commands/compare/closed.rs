@@ -1,7 +1,7 @@
 //! The closed equation's side of a comparison.
 
 use super::Asked;
-use super::pace::{PATIENCE, Pace};
+use super::pace::{PATIENCE, Pace, stopped};
 use crate::arguments::CompareArguments;
 use crate::commands::model::wide_model;
 use crate::commands::progress::Progress;
@@ -68,7 +68,8 @@ pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
             if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let seconds = pace.seconds();
-        match failure {
+        // The run looks at every step whether anybody waits for it, and this at some.
+        match failure.or_else(stopped) {
             Some(failure) => Err(failure),
             None => Ok((run.map_err(|error| at_run_time(&error))?, seconds)),
         }

@@ -1,10 +1,17 @@
-//! What would take too long is refused as soon as that is seen.
+//! What would take too long is refused as soon as that is seen; what nobody waits for any more ends.
 
 use crate::failure::{Failure, Typed};
+use signal_hook::consts::SIGINT;
 use std::time::Instant;
+use stickslip_tip::stop;
 
 /// Seconds after which the rest is extrapolated from what was done, and no repetition is made.
 pub(super) const PATIENCE: f64 = 0.5;
+
+/// A host has asked the work to end. (In a shell a signal ends the program at once.)
+pub(super) fn stopped() -> Option<Failure> {
+    stop::is_asked().then_some(Failure::Stopped(SIGINT as u8))
+}
 
 /// The time that one side takes, against the limit.
 pub(super) struct Pace {
@@ -26,8 +33,11 @@ impl Pace {
         self.clock.elapsed().as_secs_f64()
     }
 
-    /// A refusal, where the rest at the pace until time t goes beyond the limit.
+    /// A refusal, where the rest at the pace until time t goes beyond the limit, or nobody waits for it.
     pub(super) fn too_slow(&self, t: f64) -> Option<Failure> {
+        if let Some(failure) = stopped() {
+            return Some(failure);
+        }
         let (seconds, done) = (self.seconds(), t - self.start);
         let needed = seconds * (self.end - self.start) / done;
         if seconds < PATIENCE.min(self.limit) || needed <= self.limit {

@@ -1,9 +1,10 @@
 //! `stickslip compare --lines`: a raster against the full equations on rows of cells.
 
 use super::grid::stepping;
-use super::pace::PATIENCE;
+use super::pace::{PATIENCE, stopped};
 use super::time_limit;
 use crate::arguments::CompareArguments;
+use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::progress::Progress;
 use crate::commands::raster::{plan_of, sample_times};
@@ -11,7 +12,7 @@ use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
 use std::ops::ControlFlow;
 use std::time::Instant;
-use stickslip_documents::{GridName, GridWork, RasterCompareDocument, RasterCompared};
+use stickslip_documents::{GridName, GridWork, Physical, RasterCompareDocument, RasterCompared};
 use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 
@@ -27,7 +28,10 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let sampling = &arguments.sampling;
     let accuracy = (arguments.tolerance, arguments.memory);
     let pulse = &arguments.disturbance.pulse;
-    let (plan, parameters) = plan_of(&arguments.model, &arguments.scan, pulse, accuracy)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let scan = (&arguments.scan, scales.as_ref());
+    let (plan, parameters) = plan_of(&arguments.model, scan, pulse, accuracy)?;
     let (stepping, limit) = (stepping(arguments)?, time_limit(arguments)?);
     let (grid, method) = method(arguments.grid)?;
     let spacing = spacing(arguments, method, &plan)?;
@@ -52,12 +56,9 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
     let discretisation = (grid, spacing, tolerance, arguments.step);
-    job.finish(RasterCompareDocument::new(
-        parameters,
-        (&plan, &lines, seconds),
-        discretisation,
-        compared,
-    ))
+    let scanned = (&plan, lines.as_slice(), seconds);
+    let document = RasterCompareDocument::new(parameters, scanned, discretisation, compared);
+    job.finish(document.in_units(scales.as_ref()))
 }
 
 /// The one that is exact to round-off along x, or the one of second order.
@@ -95,8 +96,11 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
         let clock = Instant::now();
         let mut scanning = Scanning::new(plan).map_err(failed)?;
         while scanning.next_line().map_err(failed)?.is_some() {
-            too_slow(clock, scanning.lines().len(), plan.lines(), limit).map_or(Ok(()), Err)?;
+            let done = scanning.lines().len() as f64;
+            too_slow(clock, done, plan.lines(), limit).map_or(Ok(()), Err)?;
         }
+        // A scan that is told to end has no next line either.
+        stopped().map_or(Ok(()), Err)?;
         let seconds = clock.elapsed().as_secs_f64();
         (spent, best) = (spent + seconds, seconds.min(best));
         if spent > PATIENCE {
@@ -141,8 +145,8 @@ fn on_cells(
     let clock = Instant::now();
     let mut failure = None;
     let mut progress = Progress::new(0.0, lines.len() as f64).at_every_call();
-    let mut watch = |done: usize| {
-        progress.counted(done as f64, || format!("grid: {done} of {} lines", lines.len()));
+    let mut watch = |done: f64| {
+        progress.counted(done, || format!("grid: {} of {} lines", done.floor(), lines.len()));
         failure = too_slow(clock, done, lines.len(), limit);
         if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
@@ -154,14 +158,19 @@ fn on_cells(
     }
 }
 
-/// A refusal, where the rest at the pace so far goes beyond the limit.
-fn too_slow(clock: Instant, done: usize, lines: usize, limit: f64) -> Option<Failure> {
+/// A refusal, where the rest at the pace so far goes beyond the limit, or nobody waits for it.
+fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failure> {
+    if let Some(failure) = stopped() {
+        return Some(failure);
+    }
     let seconds = clock.elapsed().as_secs_f64();
-    let needed = seconds * lines as f64 / done as f64;
-    if seconds < PATIENCE.min(limit) || needed <= limit {
+    let needed = seconds * lines as f64 / done;
+    // Before a line is done nobody knows what lines take.
+    let is_known = done >= 1.0 && seconds >= PATIENCE.min(limit) && needed > limit;
+    if !is_known && seconds <= limit {
         return None;
     }
-    let fewer = (0.5 * limit * done as f64 / seconds).floor().max(1.0);
+    let fewer = (0.5 * limit * done / seconds).floor().max(1.0);
     Some(Failure::input(
         format!("--time-limit {}", Typed(limit)),
         format!(

@@ -18,6 +18,7 @@ pub use parameters::{Name, Shape, Values};
 use crate::least_squares::{Minimum, minimum};
 use likelihood::{Around, least_felt, plain};
 use problem::Problem;
+use stickslip_tip::stop;
 use thiserror::Error;
 use wave::Cycles;
 
@@ -84,6 +85,9 @@ pub enum FitError {
         "no motion of this footprint is like the data anywhere that was tried (r from 0.15 to 3, α from 1.01 to 1.6 αc): is it a settled ripple, by the tip that made it?"
     )]
     NoStart,
+    /// The work was asked to [`stop`].
+    #[error("the fit was interrupted")]
+    Stopped,
 }
 
 /// Rounds of Huber's weights, and the residual from which on a row counts less, in standard deviations.
@@ -93,8 +97,14 @@ const HUBER: f64 = 1.345;
 /// Fits the numbers that are not known.
 ///
 /// # Errors
-/// Unusable data, nothing to fit, or no start.
+/// Unusable data, nothing to fit, no start, or [`FitError::Stopped`].
 pub fn fit(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
+    let found = best(data, request);
+    // Searches that are asked to stop end as if there were nothing to find.
+    if stop::is_asked() { Err(FitError::Stopped) } else { found }
+}
+
+fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     data.iter().try_for_each(Data::judge)?;
     let cycles = Cycles::default();
     let free = free(data, request);

@@ -11,7 +11,7 @@ use answers::{Answers, normalised};
 use resample::Resampling;
 pub use search::Candidate;
 use search::{Found, MOST_TERMS};
-use stickslip_tip::Gaussian;
+use stickslip_tip::{Gaussian, stop};
 use thiserror::Error;
 
 /// What is asked of a profile.
@@ -123,6 +123,9 @@ pub enum TipError {
         /// As asked.
         r: f64,
     },
+    /// The work was asked to [`stop`].
+    #[error("the fit was interrupted")]
+    Stopped,
 }
 
 /// So far behind the best by the criterion a sum may still be what was measured: it is e^-2 times as likely.
@@ -131,8 +134,14 @@ const PLAUSIBLE: f64 = 4.0;
 /// A footprint: the sum of Gaussians, on a sloping ground, that Schwarz' criterion chooses.
 ///
 /// # Errors
-/// Too few rows, nothing above the noise, or a sum that is no footprint.
+/// Too few rows, nothing above the noise, a sum that is no footprint, or [`TipError::Stopped`].
 pub fn tip(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipError> {
+    let found = measured(profile, request);
+    // Searches that are asked to stop end as if there were nothing to find.
+    if stop::is_asked() { Err(TipError::Stopped) } else { found }
+}
+
+fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipError> {
     let rows = profile.x().len();
     let Found { best: candidates, others } =
         search::candidates(profile, request.centre, request.terms);

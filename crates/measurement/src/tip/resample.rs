@@ -8,6 +8,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
+use stickslip_tip::stop;
 
 /// What profiles are drawn from.
 #[derive(Debug)]
@@ -28,9 +29,10 @@ impl Resampling<'_> {
     /// that has none.
     pub(super) fn draw(&self, count: usize) -> Vec<Vec<Option<Answers>>> {
         let each = count.div_ceil(self.makers.len());
+        let flag = stop::flag().unwrap_or_default();
         let of = |(k, maker): (usize, &&Candidate)| {
-            let stream = |i: usize| (k * each + i) as u64;
-            (0..each).into_par_iter().map(|i| self.one(stream(i), maker)).collect()
+            let one = |i: usize| self.one((k * each + i) as u64, maker);
+            (0..each).into_par_iter().map(|i| stop::where_asked_by(&flag, || one(i))).collect()
         };
         self.makers.iter().enumerate().map(of).collect()
     }

@@ -3,7 +3,7 @@
 use super::examples::examples;
 use super::named::named;
 use super::range::Range;
-use super::{OutletArguments, TipArguments, WiderArguments};
+use super::{InUnitsArguments, OutletArguments, TipArguments, WiderArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::PathName;
@@ -69,6 +69,9 @@ pub(crate) struct RasterSweepArguments {
     /// Points computed side by side [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -4,7 +4,7 @@ use super::examples::examples;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
 use super::sweep_start::SweepRunArguments;
-use super::{OutletArguments, TipName};
+use super::{InUnitsArguments, OutletArguments, TipName};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -134,6 +134,9 @@ pub(crate) struct SweepArguments {
     pub(crate) shard: Option<Shard>,
 
     #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
+
+    #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
     /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
@@ -165,7 +168,7 @@ pub(crate) struct WiderRanges {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepThen {
-    Merge(MergeArguments),
+    Merge(Box<MergeArguments>),
     Raster(Box<RasterSweepArguments>),
 }
 
@@ -176,6 +179,9 @@ pub(crate) struct MergeArguments {
     /// Documents of `stickslip sweep --shard`, in any order.
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -12,13 +12,15 @@ use super::finished::Finished;
 use super::job::{Job, judge_places};
 use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
 use crate::arithmetic::arithmetic;
+use crate::commands::in_units::scales;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use stickslip_documents::{
-    EnsembleDocument, FORMAT_VERSION, Software, SweepDocument, SweepParameters, SweepPoint,
+    EnsembleDocument, FORMAT_VERSION, Physical, Software, SweepDocument, SweepParameters,
+    SweepPoint,
 };
 use stickslip_figures::judge_sweep;
 use work::compute;
@@ -35,6 +37,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
+    let r = Some(&*grid.parameters.r).filter(|r| r.len() == 1).map(|r| r[0]);
+    let scales = scales(&arguments.in_units, arguments.tip_file.as_deref(), r)?;
     let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters)?;
     let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
@@ -43,7 +47,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = grid.indices().collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
-    job.finish(sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?)?;
+    let document = sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?;
+    job.finish(document.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())
 }
@@ -70,6 +75,7 @@ fn sealed(
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         ensembles: EnsembleDocument::all(&parameters, &points),
         parameters,
         points,

@@ -9,7 +9,7 @@ pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
 pub use start::{SweepRunParameters, SweepStartName};
 
 use crate::table::{Column, Named, Tabular};
-use crate::{RegimeName, Software, TipDocument};
+use crate::{InUnits, RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
@@ -42,6 +42,9 @@ pub struct SweepDocument {
     /// whether anything was changed.
     #[serde(default)]
     pub crc32: Option<u32>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl SweepDocument {
@@ -125,7 +128,7 @@ impl std::fmt::Display for SourceName {
 pub struct SweepPoint {
     /// Its place in the grid.
     pub index: usize,
-    /// Width of the footprint, where it varies.
+    /// Width of the footprint, in σ, where it varies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Side lobes, where they were given.
@@ -334,5 +337,9 @@ impl Tabular for SweepDocument {
             [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
         });
         widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{checksum, job, sealed};
 use crate::arguments::MergeArguments;
+use crate::commands::in_units::scales;
 use crate::commands::job::judge_places;
 use crate::failure::Failure;
 use crate::files::distinct::Named;
@@ -9,7 +10,7 @@ use crate::files::input::read_document;
 use crate::message::say;
 use std::collections::HashSet;
 use std::path::Path;
-use stickslip_documents::{ShardDocument, SweepDocument, SweepParameters, SweepPoint};
+use stickslip_documents::{Physical, ShardDocument, SweepDocument, SweepParameters, SweepPoint};
 
 /// The whole from its parts, which must be all of it, once.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
@@ -42,8 +43,11 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     whole.points.sort_by_key(|point| point.index);
     judge_parts(&shards)?;
     complete(&whole.parameters, &whole.points)?;
+    let r = Some(&*whole.parameters.r).filter(|r| r.len() == 1).map(|r| r[0]);
+    let scales = scales(&arguments.in_units, None, r)?;
     let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
-    job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?.finish(whole)
+    let job = job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?;
+    job.finish(whole.in_units(scales.as_ref()))
 }
 
 /// Names the parts that are missing, as an array job of Slurm takes them.

@@ -5,13 +5,14 @@ use super::work::compute;
 use crate::arguments::RasterSweepArguments;
 use crate::commands::finished::{Finished, Part};
 use crate::commands::footprint::footprint;
+use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::model::{tip, wider};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use stickslip_documents::{
-    FORMAT_VERSION, PathName, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
-    Software,
+    FORMAT_VERSION, PathName, Physical, RasterSweepDocument, RasterSweepParameters,
+    RasterSweepPoint, Software,
 };
 use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
 use stickslip_stability::{Raster, RasterPath, WiderRaster};
@@ -41,6 +42,8 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
+    let tip_file = arguments.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, Some(grid.parameters.r))?;
     let job = Job::open::<RasterSweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let count = grid.parameters.points();
     let finished = match job.file() {
@@ -50,13 +53,15 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = (0..count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
-    job.finish(RasterSweepDocument {
+    let document = RasterSweepDocument {
         format: RasterSweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: grid.parameters,
         points: finished.in_order(),
-    })?;
+    };
+    job.finish(document.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())
 }

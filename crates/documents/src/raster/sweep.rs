@@ -2,7 +2,7 @@
 
 use super::{PathName, RasterRegimeName};
 use crate::table::{Column, Named, Tabular};
-use crate::{PatternDocument, Software, TipDocument};
+use crate::{InUnits, PatternDocument, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
@@ -21,6 +21,9 @@ pub struct RasterSweepDocument {
     pub parameters: RasterSweepParameters,
     /// The points, by rising index.
     pub points: Vec<RasterSweepPoint>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl RasterSweepDocument {
@@ -142,5 +145,9 @@ impl Tabular for RasterSweepDocument {
             ("defects", pattern(|p| p.defects as f64)),
             ("stuck_lines", of(|point| point.stuck_lines.map(|lines| lines as f64))),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -1,8 +1,10 @@
 //! `stickslip sweep raster`: the pattern of a raster over pitch and α.
 
+use super::divided::Divided;
 use super::threads;
 use super::work::compute;
 use crate::arguments::RasterSweepArguments;
+use crate::arithmetic::arithmetic;
 use crate::commands::finished::{Finished, Part};
 use crate::commands::footprint::footprint;
 use crate::commands::job::{Job, judge_places};
@@ -42,21 +44,25 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
     let job = Job::open::<RasterSweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let count = grid.parameters.points();
+    let (count, part) = (grid.parameters.points(), grid.parameters.part());
+    let has = |index| index < count && part.has(index);
     let finished = match job.file() {
-        Some(file) => Finished::beside(file, &grid.parameters, |index| index < count)?,
+        Some(file) => Finished::beside(file, &grid.parameters, has)?,
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let indices: Vec<usize> = (0..count).collect();
+    let indices: Vec<usize> = part.indices(count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
-    job.finish(RasterSweepDocument {
+    let document = RasterSweepDocument {
         format: RasterSweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
         parameters: grid.parameters,
         points: finished.in_order(),
-    })?;
+        arithmetic: Some(arithmetic()),
+        crc32: None,
+    };
+    job.finish(document.sealed()?)?;
     finished.remove();
     Ok(())
 }
@@ -89,6 +95,7 @@ impl Grid {
             lines: arguments.lines,
             length: arguments.length,
             tolerance: arguments.tolerance,
+            shard: arguments.shard.map(Into::into),
         };
         let grid = Self { tip, footprint, law, parameters };
         // Both ends: what is wrong with any is wrong with one of them.

@@ -10,7 +10,8 @@
 use crate::arguments::{Cli, Command, ModelArguments};
 use crate::commands::sweep::merge;
 use crate::commands::{model, run};
-use crate::files::input::{parse_profile, parse_tip};
+use crate::files::columns::parse_profile;
+use crate::files::input::parse_tip;
 use crate::files::lines::Lines;
 use clap::Parser;
 use proptest::prelude::*;
@@ -164,7 +165,7 @@ fn any_tip_file_is_taken_or_refused() {
 fn any_columns_are_taken_or_refused() {
     fuzz("columns", |text| {
         // Tables of two columns are read as this does; of three, surfaces alone.
-        let Ok((x, u)) = parse_profile(text) else { return false };
+        let Ok((x, u)) = parse_profile(text, None) else { return false };
         let Ok(force) = Force::new(vec![], Some((x.clone(), u.clone()))) else { return false };
         let Ok(surface) = InitialSurface::flat().with_profile(x, u) else { return false };
         let _ = surface.slope_and_curvature(16.2);

@@ -220,19 +220,14 @@ fn what_does_not_go_together_is_refused() {
         ("-o image.gsf", &["--output image.gsf", "--y-range"]),
         ("--y-range -1,1 --x 20,21 -o image.gsf", &["--output image.gsf", "--range"]),
         ("--y-range -1,1 --at 40,50 -o image.gsf", &["--output image.gsf", "one image"]),
-        ("--y-range -1,1 --units units.json", &["--units units.json", ".gsf"]),
+        ("--y-range -1,1 --sigma 20nm -o image.gsf", &["--output", "--slope-force"]),
         ("--y-range -1,1 --units none.json -o image.gsf", &["--units none.json", "read"]),
-        ("--y-range -1,1 --units run.json -o image.gsf", &["--units run.json", "stickslip/units"]),
+        ("--y-range -1,1 --units run.json -o image.gsf", &["--units run.json", "stickslip units"]),
         ("--y-range -1,1 --x 20,21 --plot map.svg", &["--x", "--range"]),
     ];
     for (options, words) in cases {
         folder.refuses(&format!("surface run.json {options}"), words);
     }
-    folder.prints("run --tip gaussian --alpha 2 --r 1 --until 40 -o other.json");
-    folder.refuses(
-        "surface other.json --y-range -1,1 --units units.json -o image.gsf",
-        &["--units units.json", "α is 2.1 there and 2 in the run"],
-    );
     folder.prints("run --tip bessel --alpha 0.5 --r 1 --until 40 -o bessel.json");
     folder.refuses("surface bessel.json --y-range -1,1", &["--width-y", "f(x,y)"]);
     folder.write(

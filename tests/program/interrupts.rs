@@ -47,7 +47,7 @@ fn a_signal_ends_every_command_even_where_it_was_to_be_ignored() {
             shell.args(inner.get_args()).current_dir(folder.path(""));
             let mut child = shell.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
             wait_until_it_listens(&mut child);
-            sleep(Duration::from_millis(300));
+            sleep(Duration::from_millis(100));
             assert!(child.try_wait().unwrap().is_none(), "{line}: it must take longer");
             let sent = Instant::now();
             let id = child.id().to_string();

@@ -25,6 +25,7 @@ mod image_files;
 mod interrupts;
 mod outcomes;
 mod people;
+mod physical_units;
 mod pictures;
 mod raster_commands;
 mod raster_sweeps;

@@ -99,7 +99,7 @@ fn every_memory_goes_on_to_the_last_bit() {
             let whole = finish(running, vec![]);
             let n = whole.0.len();
             println!("{name}, {memory:?}: {n} steps, {}", whole.1);
-            let places = [vec![0], vec![1], vec![n], vec![n / 7, n / 3, n / 2, n - 1], vec![n / 5]];
+            let places = [vec![0, 1, n / 7, n / 3, n / 2, n - 1, n], vec![n / 5]];
             for at in places {
                 assert!(broken_at(&scenario, &at) == whole, "{name}, {memory:?}, broken at {at:?}");
             }
@@ -156,9 +156,10 @@ fn a_state_that_is_not_the_same_is_noticed() {
         // t and extension; and velocity, which steps by series work out anew.
         let carried = if running.work().series > 0 { 2 } else { 3 };
         assert!((0..carried).all(|i| noticed(&i)), "{memory:?}");
-        let seen = (0..words.len().min(400)).filter(noticed).count();
-        println!("{memory:?}: {seen} of {} words matter", words.len().min(400));
-        assert!(seen > 60);
+        let tried = || (0..words.len().min(400)).step_by(3);
+        let seen = tried().filter(noticed).count();
+        println!("{memory:?}: {seen} of {} words matter", tried().count());
+        assert!(seen > 20);
     }
 }
 

@@ -1,11 +1,71 @@
 //! What is read back of documents: a run whole, what is something else refused by its beginning.
 
+use serde_json::Value;
 use std::io::{self, Read};
 use stickslip_documents::{
-    RegimeName, RunDocument, RunEnd, RunParameters, SteadyState, SweepDocument, WorkDocument, read,
-    read_from,
+    Dimension, RegimeName, RunDocument, RunEnd, RunParameters, SCHEMAS, SteadyState, SweepDocument,
+    WorkDocument, dimension, read, read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
+
+/// The unit that the description of a field names: `in σ`, `in kσ/Γ, one order less accurate`.
+fn described(description: &str) -> Option<Dimension> {
+    let words: Vec<&str> = description.split_whitespace().collect();
+    let unit = |pair: &[&str]| {
+        let named = pair[0] == "in" || pair[0].ends_with(',');
+        named.then(|| Dimension::of_unit(pair[1].trim_end_matches(['.', ',', ';', ':']))).flatten()
+    };
+    words.windows(2).find_map(unit)
+}
+
+/// Fields of numbers in a schema: the part that holds each, its name, and its description.
+fn fields(root: &Value, at: &Value, part: &str, found: &mut Vec<[String; 3]>, depth: usize) {
+    let referred = at["$ref"].as_str().and_then(|name| root.pointer(name.trim_start_matches('#')));
+    let kinds = ["anyOf", "oneOf", "allOf"].into_iter().filter_map(|name| at[name].as_array());
+    if depth < 12 {
+        let below = kinds.flatten().chain(referred).chain(at.get("items"));
+        below.for_each(|kind| fields(root, kind, part, found, depth + 1));
+    }
+    for (name, field) in at["properties"].as_object().into_iter().flatten() {
+        let description = field["description"].as_str().unwrap_or_default();
+        if field.to_string().contains("\"number\"") {
+            found.push([part, name, description].map(String::from));
+        }
+        if !UNTOUCHED.contains(&name.as_str()) && depth < 12 {
+            fields(root, field, name, found, depth + 1);
+        }
+    }
+}
+
+/// Parts that `physical` does not mirror.
+const UNTOUCHED: [&str; 6] =
+    ["parameters", "history", "work", "verification", "physical", "floquet"];
+/// Documents that are in units, with their own or none, or are not told in them.
+const OTHERS: [&str; 8] =
+    ["run-lines", "checkpoint", "verify", "tip", "fit", "units", "figure", "reproduction"];
+
+/// What has the unit of what it is a part, or a statistic, of.
+const OF_THE_WHOLE: [&str; 8] =
+    ["re", "im", "mean", "least", "median", "largest", "error", "deviation"];
+
+/// What each number is a multiple of is told by its name, and said in its description: two lists that know nothing of
+/// each other.
+#[test]
+fn dimensions_are_those_that_the_schemas_describe() {
+    let mut judged = 0;
+    for (document, schema) in SCHEMAS.iter().filter(|(name, _)| !OTHERS.contains(name)) {
+        let (schema, mut found) = (schema().to_value(), vec![]);
+        fields(&schema, &schema, "", &mut found, 0);
+        for [part, name, description] in found {
+            let (told, said) = (dimension(&part, &name), described(&description));
+            if said.is_some() || !OF_THE_WHOLE.contains(&name.as_str()) {
+                judged += usize::from(said.is_some());
+                assert_eq!(told, said, "{document}: {part}.{name}: {description}");
+            }
+        }
+    }
+    assert!(judged > 100, "{judged}");
+}
 
 /// Counts what is read of an endless stream.
 struct Endless<'a>(&'a [u8], u64);

@@ -72,7 +72,7 @@ fn every_extension_keeps_the_tolerance_from_1e_4_to_1e_11() {
         for memory in [MemoryChoice::Direct, MemoryChoice::Fft, MemoryChoice::Modes] {
             // Exponentials do not fit better where α is large.
             let most = if (name, memory) == ("slow slips", MemoryChoice::Modes) { 9 } else { 11 };
-            for digits in 4..=most {
+            for digits in [4, 5, 7, 9, 11].into_iter().filter(|digits| *digits <= most) {
                 let tolerance = 10.0_f64.powi(-digits);
                 let found = with(tolerance, memory);
                 let label =

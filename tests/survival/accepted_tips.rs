@@ -51,7 +51,9 @@ fn accepted(from: usize, tips_asked: usize) {
 
 #[test]
 fn every_command_takes_accepted_tips() {
-    accepted(1, 2);
+    // A table, and lobes whose cycle is found in no time.
+    accepted(1, 1);
+    accepted(4, 1);
 }
 
 #[test]

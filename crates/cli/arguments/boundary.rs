@@ -1,7 +1,7 @@
 //! `stickslip boundary`.
 
 use super::examples::examples;
-use super::{Interval, OutletArguments, TipArguments, WiderArguments};
+use super::{InUnitsArguments, Interval, OutletArguments, TipArguments, WiderArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -65,6 +65,9 @@ pub(crate) struct BoundaryArguments {
     /// Equal ratios from one to the next, in place of equal differences.
     #[arg(long)]
     pub(crate) logarithmic: bool,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -3,8 +3,8 @@
 use super::examples::examples;
 use super::named::named;
 use super::{
-    DisturbanceArguments, ModelArguments, OutletArguments, SamplingArguments, ScanArguments,
-    StartArguments,
+    DisturbanceArguments, InUnitsArguments, ModelArguments, OutletArguments, SamplingArguments,
+    ScanArguments, StartArguments,
 };
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -111,6 +111,9 @@ pub(crate) struct CompareArguments {
 
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

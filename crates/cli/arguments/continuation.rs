@@ -2,7 +2,7 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{CycleStart, OutletArguments};
+use super::{CycleStart, InUnitsArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::OverName;
@@ -53,6 +53,9 @@ pub(crate) struct ContinueArguments {
     /// Each branch ends with this many cycles.
     #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Branch")]
     pub(crate) most_points: usize,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -1,7 +1,7 @@
 //! `stickslip cycle`.
 
 use super::examples::examples;
-use super::{ModelArguments, OutletArguments};
+use super::{InUnitsArguments, ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -44,6 +44,9 @@ pub(crate) struct CycleArguments {
     pub(crate) points: usize,
 
     #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
+
+    #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
     /// Draw l(t), the tip's velocity and the ripple left behind to this .svg or .png.
@@ -60,4 +63,6 @@ const EXAMPLES: &str = "Examples:
   Stick-slip with slips at 37 r, drawn:
     stickslip cycle --tip gaussian --alpha 2.6 --r 1 -o cycle.json --plot cycle.svg
   The same a little further on:
-    stickslip cycle --from cycle.json --alpha 2.61 -o next.json";
+    stickslip cycle --from cycle.json --alpha 2.61 -o next.json
+  The wavelength in nm of an experiment, at any α:
+    stickslip cycle --alpha 1.3 --r 1 --sigma 30nm --print physical.wavelength_nm";

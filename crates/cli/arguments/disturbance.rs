@@ -33,7 +33,7 @@ pub(crate) struct DisturbanceArguments {
 
     /// Profile added to the initial surface: CSV `x,u`, a cubic spline through it that ends level, 0
     /// outside; or one surface `t,x,u` as `surface -o FILE.csv` writes it, with --start flat, as it holds the
-    /// past already.
+    /// past already. Columns with a unit in their heading, x_nm,u_nm, are taken by --units or --sigma.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 
@@ -42,7 +42,8 @@ pub(crate) struct DisturbanceArguments {
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
-    /// External force from a file: CSV `t,force`, a cubic spline through it, 0 outside.
+    /// External force from a file: CSV `t,force`, a cubic spline through it, 0 outside; or with
+    /// units, t_s,force_nN.
     #[arg(long, value_name = "FILE", help_heading = "Force")]
     pub(crate) force_file: Option<PathBuf>,
 }

@@ -8,6 +8,7 @@ mod disturbance;
 mod examples;
 mod figures;
 mod fit;
+mod in_units;
 mod interval;
 mod model;
 mod named;
@@ -37,6 +38,7 @@ pub(crate) use cycle::{CycleArguments, CycleStart};
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use fit::FitArguments;
+pub(crate) use in_units::InUnitsArguments;
 pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, TipName, WiderArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
@@ -65,7 +67,8 @@ use stickslip_documents::SCHEMAS;
 ///
 /// A tip dragged over a soft surface carves it, and the groove pulls back on the tip: above a critical
 /// indentation rate it sticks, slips and writes ripples. All quantities are dimensionless: lengths in
-/// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a.
+/// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a; --units, or --sigma and what goes with it, tell results in nm, s
+/// and nN.
 #[derive(Debug, Parser)]
 #[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
@@ -109,7 +112,7 @@ pub(crate) enum Command {
     Response(ResponseArguments),
     Cycle(CycleArguments),
     Continue(ContinueArguments),
-    Sweep(SweepArguments),
+    Sweep(Box<SweepArguments>),
     Raster(RasterArguments),
     Tip(MeasuredTipArguments),
     Fit(Box<FitArguments>),

@@ -1,5 +1,6 @@
 //! `stickslip plot`.
 
+use super::InUnitsArguments;
 use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
@@ -28,7 +29,7 @@ pub(crate) struct PlotArguments {
     #[arg(long, value_name = "N")]
     pub(crate) dpi: Option<f64>,
 
-    /// Abscissas shown, LO:HI, of the first panel and of those with the same axis. A run is drawn from its history,
+    /// Abscissas shown, LO:HI, of the first panel and of those with the same axis, in its unit. A run is drawn from its history,
     /// as fine as the range asks for.
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) x_range: Option<String>,
@@ -36,6 +37,9 @@ pub(crate) struct PlotArguments {
     /// Ordinates shown, LO:HI, of the first panel and of those with the same axis.
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) y_range: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     /// Of a boundary, draw what is born along it, as `boundary --plot-onset` does.
     #[arg(long)]
@@ -45,4 +49,5 @@ pub(crate) struct PlotArguments {
 const EXAMPLES: &str = "Examples:
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip plot run.json -o slips.png --x-range 400:420 --dpi 300
+  stickslip plot run.json -o run.svg --sigma 30nm --stiffness 0.2N/m --velocity 1um/s --slope-force 5nN
   stickslip plot boundary.json --onset -o criticality.svg";

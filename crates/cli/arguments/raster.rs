@@ -2,7 +2,9 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{FieldArguments, Format, ModelArguments, SamplingArguments, ScanArguments};
+use super::{
+    FieldArguments, Format, InUnitsArguments, ModelArguments, SamplingArguments, ScanArguments,
+};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::MemoryName;
@@ -64,6 +66,9 @@ pub(crate) struct RasterArguments {
     /// terminal, else json].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<Format>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) fields: FieldArguments,

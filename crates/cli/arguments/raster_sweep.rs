@@ -4,7 +4,7 @@ use super::examples::examples;
 use super::named::named;
 use super::range::Range;
 use super::shard::Shard;
-use super::{OutletArguments, TipArguments, WiderArguments};
+use super::{InUnitsArguments, OutletArguments, TipArguments, WiderArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::PathName;
@@ -75,6 +75,9 @@ pub(crate) struct RasterSweepArguments {
     /// part of this task of an array job, as for `stickslip sweep`.
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -1,7 +1,7 @@
 //! `stickslip response`.
 
 use super::examples::examples;
-use super::{ModelArguments, OutletArguments, SamplingArguments};
+use super::{InUnitsArguments, ModelArguments, OutletArguments, SamplingArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -43,6 +43,9 @@ pub(crate) struct ResponseArguments {
 
     #[command(flatten)]
     pub(crate) sampling: SamplingArguments,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

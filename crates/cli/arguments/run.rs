@@ -3,7 +3,8 @@
 use super::examples::examples;
 use super::named::named;
 use super::{
-    DisturbanceArguments, FieldArguments, ModelArguments, SamplingArguments, StartArguments,
+    DisturbanceArguments, FieldArguments, InUnitsArguments, ModelArguments, SamplingArguments,
+    StartArguments,
 };
 use clap::{Arg, Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -74,6 +75,9 @@ pub(crate) struct RunArguments {
     /// terminal, else json].
     #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) fields: FieldArguments,

@@ -2,7 +2,7 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{ModelArguments, OutletArguments};
+use super::{InUnitsArguments, ModelArguments, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::{PathName, SolveFor};
@@ -64,6 +64,9 @@ pub(crate) struct StabilityArguments {
     /// All growth exponents λ with Re λ of at least this, in k/Γ.
     #[arg(long, value_name = "BOUND", allow_hyphen_values = true)]
     pub(crate) re_above: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

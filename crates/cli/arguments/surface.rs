@@ -1,7 +1,7 @@
 //! `stickslip surface`.
 
 use super::examples::examples;
-use super::{FieldArguments, Format, Interval};
+use super::{FieldArguments, Format, InUnitsArguments, Interval};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -71,9 +71,8 @@ pub(crate) struct SurfaceArguments {
     )]
     pub(crate) width_y: Option<f64>,
 
-    /// Document that `stickslip units` wrote for this α and r: the .gsf file is in metres.
-    #[arg(long, value_name = "UNITS.json", help_heading = "Three dimensions")]
-    pub(crate) units: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     /// Only what the tip has carved, as the surface is left far behind it, (35): without the initial
     /// surface.
@@ -103,6 +102,9 @@ const EXAMPLES: &str = "Examples:
   stickslip surface run.json --at 100,200,457 --plot surface.png
   An image for Gwyddion, and a height map of the same:
     stickslip surface run.json --range 400:450 --y-range -2:2 --spacing 0.025 -o image.gsf --plot map.png
+  In nm, by a document of `stickslip units`; and read back as the surface that another run begins with:
+    stickslip surface run.json --units units.json -o surface.csv
+    stickslip run --alpha 1.2 --r 1 --start flat --initial-surface surface.csv --units units.json --until 60
   Profiles of a raster along two lines, and an image of it:
     stickslip surface raster.json --range 0:60 --spacing 0.1 --y 10,10.25 -o profiles.csv
     stickslip surface raster.json --range 0:60 --y-range 0:128 --spacing 0.25 -o image.gsf

@@ -5,7 +5,7 @@ use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
 use super::shard::Shard;
 use super::sweep_start::SweepRunArguments;
-use super::{OutletArguments, TipName};
+use super::{InUnitsArguments, OutletArguments, TipName};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -81,6 +81,9 @@ pub(crate) struct SweepArguments {
     pub(crate) shard: Option<Shard>,
 
     #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
+
+    #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
     /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
@@ -112,7 +115,7 @@ pub(crate) struct WiderRanges {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepThen {
-    Merge(MergeArguments),
+    Merge(Box<MergeArguments>),
     Raster(Box<RasterSweepArguments>),
 }
 
@@ -123,6 +126,9 @@ pub(crate) struct MergeArguments {
     /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order.
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

@@ -4,6 +4,7 @@ mod raster;
 mod wider;
 
 use super::figure::{Figure, undrawn};
+use super::in_units::scales;
 use super::job::Job;
 use super::model::{only_papers, refuse_endless, tip, wider};
 use super::progress::Progress;
@@ -12,9 +13,10 @@ use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use std::f64::consts::PI;
 use stickslip_documents::{
-    BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Software, SpacingName,
+    BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Physical, Software,
+    SpacingName,
 };
-use stickslip_figures::Size;
+use stickslip_figures::{Size, View};
 use stickslip_stability::{Boundary, Critical, StabilityError};
 use stickslip_tip::{TipFunction, Wider};
 
@@ -34,6 +36,7 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
         only_papers(&arguments.tip, &arguments.wider, "boundary --pitch-range")?;
         return raster::boundary(arguments, pitches, tip);
     }
+    let scales = scales(&arguments.in_units, arguments.tip.tip_file.as_deref(), arguments.r)?;
     let missing = || Failure::input(OPTION, "give the range of r, LO:HI:N");
     let typed = arguments.r_range.as_ref().ok_or_else(missing)?;
     let range = range(OPTION, typed, arguments.points)?;
@@ -52,8 +55,10 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     } else {
         wider::document(&asked, (&law, &tip), typed)?
     };
+    let document = document.in_units(scales.as_ref());
     if let Some(figure) = plot_onset {
-        let onset = stickslip_figures::onset_of(&document).map_err(|error| undrawn(&error))?;
+        let onset = stickslip_figures::onset_of(&document, &View::default())
+            .map_err(|error| undrawn(&error))?;
         figure.write(&onset, &Size::default())?;
     }
     job.finish(document)
@@ -146,6 +151,7 @@ fn document(
         format: BoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: asked.parameters(&Wider::default(), tip),
         wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
         r: along.iter().map(|at| at.r).collect(),

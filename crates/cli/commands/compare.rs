@@ -8,11 +8,13 @@ mod raster;
 use super::job::{Job, judge_places};
 use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
+use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip_documents::{
-    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, RunParameters, Software,
+    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, KnownScales, Physical,
+    RunParameters, Software,
 };
 use stickslip_tip::Scenario;
 
@@ -25,13 +27,15 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     }
     let read = files_read(&arguments.model, &arguments.disturbance);
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
-    let asked = Asked::of(arguments)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let asked = Asked::of(arguments, scales.as_ref())?;
     let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let closed = closed::run(&asked)?;
     let x = asked.positions(&closed)?;
     let motion = grid::run(&asked, &x)?;
     let document = document(arguments, &asked, &closed, motion, x)?;
-    job.finish(document)
+    job.finish(document.in_units(scales.as_ref()))
 }
 
 /// The options, judged.
@@ -46,8 +50,8 @@ struct Asked {
 }
 
 impl Asked {
-    fn of(arguments: &CompareArguments) -> Result<Self, Failure> {
-        let disturbance = Disturbance::of(&arguments.disturbance)?;
+    fn of(arguments: &CompareArguments, scales: Option<&KnownScales>) -> Result<Self, Failure> {
+        let disturbance = Disturbance::of(&arguments.disturbance, scales)?;
         let scenario = closed::scenario(arguments, &disturbance)?;
         warn_of_idle(&arguments.disturbance, &disturbance, (scenario.start_time(), scenario.until));
         let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
@@ -117,6 +121,7 @@ fn document(
         format: CompareDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: parameters(arguments, asked),
         t,
         x,

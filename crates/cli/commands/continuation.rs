@@ -3,6 +3,7 @@
 mod document;
 
 use super::cycle::start::{Start, explain};
+use super::in_units::scales;
 use super::job::{Job, judge_places};
 use super::model::{refuse_endless, refused_wider, tip, wider};
 use super::progress::Progress;
@@ -12,7 +13,7 @@ use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
-use stickslip_documents::{ContinueDocument, OverName};
+use stickslip_documents::{ContinueDocument, OverName, Physical};
 use stickslip_tip::{TipFunction, Wider, stop};
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
@@ -27,6 +28,9 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let settings = settings(arguments)?;
     let origin = Origin::asked(arguments)?;
+    let tip_file = start.model.tip.tip_file.as_deref();
+    let r = (arguments.over == OverName::Alpha).then(|| origin.r());
+    let scales = scales(&arguments.in_units, tip_file, r)?;
     let job = Job::open::<ContinueDocument>(&arguments.outlet, arguments.plot.as_deref())?;
 
     let interrupt = Interrupt::listen()?;
@@ -40,7 +44,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
-    job.finish(document)?;
+    job.finish(document.in_units(scales.as_ref()))?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }
 
@@ -77,6 +81,14 @@ impl Origin {
         let (law, tip) = (wider(&asked.wider), tip(&asked.tip)?);
         law.validate().map_err(|error| refused_wider(&error))?;
         Ok(Self::Onset { law, tip, other: other.ok_or(missing)? })
+    }
+
+    /// Where α varies.
+    fn r(&self) -> f64 {
+        match self {
+            Self::Cycle(start) => start.model().r(),
+            Self::Onset { other, .. } => *other,
+        }
     }
 
     fn wider(&self) -> &Wider {

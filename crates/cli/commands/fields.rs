@@ -19,7 +19,12 @@ impl Fields {
             return Ok(Self::default());
         }
         let schema = schema_for!(D).to_value();
-        paths.iter().try_for_each(|path| judge(&schema, path))?;
+        for path in paths {
+            match path.strip_prefix("physical.").filter(|below| !below.starts_with("scales")) {
+                Some(below) => judge(&schema, &without_units(below), "physical.")?,
+                None => judge(&schema, path, "")?,
+            }
+        }
         Ok(Self(paths.to_vec()))
     }
 
@@ -48,14 +53,37 @@ fn shown(document: &Value, path: &str) -> String {
     }
 }
 
-fn judge(schema: &Value, path: &str) -> Result<(), Failure> {
+/// The field that one with a unit behind its name mirrors.
+fn without_units(path: &str) -> String {
+    let plain = |name: &str| match strip(name) {
+        "support_velocity" => "parameters.r".into(),
+        "indentation_rate" => "parameters.alpha".into(),
+        "lateral_force" => "lag".into(),
+        name => name.to_owned(),
+    };
+    path.split('.').map(plain).collect::<Vec<String>>().join(".")
+}
+
+fn strip(name: &str) -> &str {
+    match name.rsplit_once('_') {
+        Some((rest, "nm" | "nm2" | "nm3" | "s" | "s2" | "nN" | "per")) => strip(rest),
+        _ => name,
+    }
+}
+
+/// `under` is what stands before the path.
+fn judge(schema: &Value, path: &str, under: &str) -> Result<(), Failure> {
     let mut at = vec![schema];
     let mut before = String::new();
     for name in path.split('.') {
         let kinds: Vec<&Value> = at.iter().flat_map(|kind| kinds(schema, kind)).collect();
         let next: Vec<&Value> = kinds.iter().filter_map(|kind| below(kind, name)).collect();
         if next.is_empty() {
-            return Err(unknown(path, &before, &kinds));
+            let advice = match under {
+                "" => "",
+                _ => ", each with its unit behind it, as in period_s or samples.x0_nm",
+            };
+            return Err(unknown(&format!("{under}{path}"), &before, &kinds, advice));
         }
         before = format!("{before}{name}.");
         at = next;
@@ -79,7 +107,7 @@ fn below<'a>(kind: &'a Value, name: &str) -> Option<&'a Value> {
     field.or_else(entry)
 }
 
-fn unknown(path: &str, before: &str, kinds: &[&Value]) -> Failure {
+fn unknown(path: &str, before: &str, kinds: &[&Value], more: &str) -> Failure {
     let fields = kinds.iter().filter_map(|kind| kind["properties"].as_object());
     let names: BTreeSet<&String> = fields.flat_map(serde_json::Map::keys).collect();
     let names: Vec<String> = names.into_iter().map(|name| format!("{before}{name}")).collect();
@@ -89,7 +117,7 @@ fn unknown(path: &str, before: &str, kinds: &[&Value]) -> Failure {
         (true, true) => format!("{before}0 is the first entry there"),
         (true, false) => format!("{} has no fields", before.trim_end_matches('.')),
     };
-    Failure::input(format!("--print {path}"), format!("there is no such field: {advice}"))
+    Failure::input(format!("--print {path}"), format!("there is no such field: {advice}{more}"))
 }
 
 #[cfg(test)]
@@ -114,6 +142,23 @@ mod tests {
         }
         let refused = Fields::asked::<StabilityDocument>(&["critical.x".into()]).unwrap_err();
         assert!(refused.to_string().contains("critical.alpha, critical.kind"), "{refused}");
+    }
+
+    #[test]
+    fn fields_in_units_are_those_of_the_document_with_a_unit_behind() {
+        let good = [
+            "physical.samples.x0_nm",
+            "physical.samples.lateral_force_nN.0",
+            "physical.oscillation.period_s",
+            "physical.steady_state.lag_nm",
+            "physical.support_velocity_nm_per_s",
+            "physical.scales.length",
+            "physical",
+        ];
+        assert!(Fields::asked::<RunDocument>(&good.map(String::from)).is_ok());
+        for bad in ["physical.perod_s", "physical.samples.x1_nm", "physical.scales.x"] {
+            assert!(Fields::asked::<RunDocument>(&[bad.into()]).is_err(), "{bad}");
+        }
     }
 
     #[test]

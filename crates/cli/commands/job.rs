@@ -93,7 +93,7 @@ impl Job {
         product: P,
     ) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
-        let told = product.told();
+        let told = product.told().in_units(product.physical());
         let figure = self.write_told(&product, &told)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
         host::give(|| told.of(pictured(product)));
@@ -105,7 +105,7 @@ impl Job {
         self,
         product: P,
     ) -> Result<(), Failure> {
-        let told = product.told();
+        let told = product.told().in_units(product.physical());
         self.write_told(&product, &told)?;
         host::give(|| told.of(plain(product)));
         Ok(())
@@ -137,7 +137,8 @@ impl Job {
         bytes: &[u8],
         product: P,
     ) -> Result<(), Failure> {
-        let (figure, told) = (self.figure.take(), product.told());
+        let figure = self.figure.take();
+        let told = product.told().in_units(product.physical());
         self.output.write_bytes(bytes)?;
         after(&product, &told, &self.fields, self.is_told)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));

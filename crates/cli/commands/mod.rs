@@ -23,6 +23,7 @@ mod fields;
 mod figure;
 mod finished;
 mod footprint;
+mod in_units;
 mod job;
 mod judged;
 mod progress;

@@ -1,6 +1,7 @@
 //! `stickslip plot`.
 
 use super::figure::{Figure, undrawn};
+use super::in_units::scales;
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
@@ -14,8 +15,10 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let view = View {
         x_range: range("--x-range", arguments.x_range.as_deref())?,
         y_range: range("--y-range", arguments.y_range.as_deref())?,
+        scales: None,
     };
-    let read = [("DOCUMENT.json", Some(&*arguments.document))];
+    let units = ("--units", arguments.in_units.units.as_deref());
+    let read = [("DOCUMENT.json", Some(&*arguments.document)), units];
     distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Figure::at("--output", &arguments.output)?;
     output.write(&figure(arguments, &view)?, &size)
@@ -25,21 +28,25 @@ fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Fail
     let option = "DOCUMENT.json";
     let path: &Path = &arguments.document;
     let named = || format!("{option} {}", path.display());
-    let figure = if arguments.onset {
-        let option = format!("--onset with {option}");
-        figures::onset_of(&read_document::<BoundaryDocument>(
-            &option,
-            path,
-            BoundaryDocument::FORMAT,
-        )?)
-    } else {
-        let saved = figures::saved(open(option, path)?);
-        figures::of(&*saved.map_err(|error| Failure::input(named(), error))?, view)
-    };
-    figure.map_err(|error| match error {
+    let refused = |error: FigureError| match error {
         FigureError::Damaged(_) | FigureError::Nothing(_) => Failure::input(named(), error),
         error => undrawn(&error),
-    })
+    };
+    if arguments.onset {
+        let option = format!("--onset with {option}");
+        let document: BoundaryDocument = read_document(&option, path, BoundaryDocument::FORMAT)?;
+        let view = View { scales: scales(&arguments.in_units, None, None)?, ..*view };
+        return figures::onset_of(&document, &view).map_err(refused);
+    }
+    let document =
+        figures::saved(open(option, path)?).map_err(|error| Failure::input(named(), error))?;
+    // With the velocity of the support times need the one r of what is drawn.
+    let r = match &arguments.in_units.velocity {
+        Some(_) => figures::of(&*document, view).map_err(refused)?.one_r(),
+        None => None,
+    };
+    let view = View { scales: scales(&arguments.in_units, None, r)?, ..*view };
+    figures::of(&*document, &view).map_err(refused)
 }
 
 fn size(arguments: &PlotArguments) -> Result<Size, Failure> {

@@ -8,9 +8,10 @@ use super::run::limits::within_range;
 use super::run::parse_pulses;
 use super::run::samples::times;
 use crate::arguments::ResponseArguments;
+use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, ModeDocument, ModelParameters, ResponseDocument, ResponseParameters,
+    FORMAT_VERSION, ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseParameters,
     ResponseSamples, Software,
 };
 use stickslip_stability::{Response, ResponseMode, response as respond};
@@ -26,8 +27,10 @@ pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let asked = Asked::of(arguments)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, Some(asked.model.r()))?;
     let job = Job::open::<ResponseDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(document(arguments, &asked)?)
+    job.finish(document(arguments, &asked)?.in_units(scales.as_ref()))
 }
 
 /// The options, judged.
@@ -116,6 +119,7 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
         format: ResponseDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: ResponseParameters {
             model: ModelParameters::of(model, arguments.model.alpha_above),
             pulses: asked.pulses.iter().copied().map(Into::into).collect(),

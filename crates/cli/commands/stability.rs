@@ -8,9 +8,10 @@ use super::job::{Job, judge_places};
 use super::model::{refuse_endless, tip, wide_model, wider as wider_law};
 use super::roots::{complex, failed, judge_count, leftmost, remarks};
 use crate::arguments::{ModelArguments, StabilityArguments};
+use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    CriticalDocument, FORMAT_VERSION, ModelParameters, OnsetDocument, Software, SolveFor,
+    CriticalDocument, FORMAT_VERSION, ModelParameters, OnsetDocument, Physical, Software, SolveFor,
     StabilityDocument, StabilityParameters, TrappingDocument,
 };
 use stickslip_stability::{
@@ -34,10 +35,12 @@ pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         let message = "is of a raster: give --pitch D too, or leave the option out";
         return Err(Failure::input(format!("--width-y {}", Typed(width)), message));
     }
+    let tip_file = arguments.model.tip.tip_file.as_deref();
     let point = Point::asked(arguments)?;
+    let scales = scales(&arguments.in_units, tip_file, Some(point.model.r()))?;
     judge_extent(arguments, &point.model)?;
     let job = Job::open::<StabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(document(arguments, &point)?)
+    job.finish(document(arguments, &point)?.in_units(scales.as_ref()))
 }
 
 /// The critical point, and the one whose roots are listed.
@@ -183,6 +186,7 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         format: StabilityDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: StabilityParameters {
             model: ModelParameters::of(model, arguments.model.alpha_above),
             solve_for: arguments.solve_for,

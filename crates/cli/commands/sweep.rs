@@ -13,12 +13,13 @@ use super::finished::Finished;
 use super::job::{Job, judge_places};
 use crate::arguments::{SweepArguments, SweepThen};
 use crate::arithmetic::arithmetic;
+use crate::commands::in_units::scales;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use divided::Divided;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use stickslip_documents::{FORMAT_VERSION, Software, SweepDocument, SweepPoint};
+use stickslip_documents::{FORMAT_VERSION, Physical, Software, SweepDocument, SweepPoint};
 use stickslip_figures::judge_sweep;
 use work::compute;
 
@@ -34,6 +35,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
+    let tip_file = arguments.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, grid.parameters.velocity())?;
     if arguments.plot.is_some() {
         // Before hours of work.
         judge_sweep(&grid.parameters).map_err(|error| Failure::input("--plot", error))?;
@@ -50,13 +53,14 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: grid.parameters,
         points: finished.in_order(),
         ensembles: None,
         arithmetic: Some(arithmetic()),
         crc32: None,
     };
-    job.finish(document.sealed()?)?;
+    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())
 }

@@ -1,5 +1,8 @@
-//! Files that users give, or that a host supplies: two-column CSV, tip functions, documents. All of it may be wrong.
+//! Files that users give, or that a host supplies: tip functions, documents. All of it may be wrong.
 
+use super::columns::{Columns, numbers_of, width_of};
+use super::in_model_units::with_unit;
+use super::text::{LARGEST_TABLE, read_text, unreadable};
 use crate::failure::Failure;
 use crate::host;
 use serde::Deserialize;
@@ -10,129 +13,9 @@ use std::path::Path;
 use stickslip_documents::{
     self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable,
 };
-use stickslip_raster::AreaLine;
 
-/// Two columns read from a CSV file.
-pub(crate) type Columns = (Vec<f64>, Vec<f64>);
-
-/// Measured series are small; this is a million rows and more.
-pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 /// A run of some ten million steps.
 const LARGEST_DOCUMENT: u64 = 4 << 30;
-
-/// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
-pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    let text = if let Some(bytes) = host::bytes(path) {
-        text_of(&*bytes, most)
-    } else if path == Path::new("-") {
-        text_of(io::stdin().lock(), most)
-    } else {
-        File::open(path).map_err(unreadable).and_then(|file| text_of(file, most))
-    };
-    text.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
-}
-
-fn text_of(reader: impl Read, most: u64) -> Result<String, String> {
-    let mut text = String::new();
-    match reader.take(most + 1).read_to_string(&mut text) {
-        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
-            Err("cannot be read: it is no text in UTF-8".into())
-        }
-        Err(error) => Err(unreadable(error)),
-        Ok(_) if text.len() as u64 > most => {
-            Err(format!("larger than {} MB, the most that is read", most >> 20))
-        }
-        Ok(_) => Ok(text),
-    }
-}
-
-#[expect(clippy::needless_pass_by_value, reason = "what map_err hands over")]
-pub(super) fn unreadable(error: io::Error) -> String {
-    format!("cannot be read: {error}")
-}
-
-/// Two columns of numbers from CSV, a heading allowed, `#` comments skipped.
-pub(crate) fn read_columns(option: &str, path: &Path, heading: &str) -> Result<Columns, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
-    parse_columns(&text, heading)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
-}
-
-/// Lines of an area, y,start,length.
-pub(crate) fn read_area(option: &str, path: &Path) -> Result<Vec<AreaLine>, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
-    let [y, start, length] = parse_table(&text, "y,start,length")
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
-    let columns = y.into_iter().zip(start).zip(length);
-    Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
-}
-
-/// A profile x,u; or one surface t,x,u, as `surface` writes it.
-pub(crate) fn read_profile(option: &str, path: &Path) -> Result<Columns, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
-    parse_profile(&text)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
-}
-
-pub(crate) fn parse_profile(text: &str) -> Result<Columns, String> {
-    if width_of(text) != 3 {
-        return parse_columns(text, "x,u");
-    }
-    let [t, x, u] = parse_table(text, "t,x,u")?;
-    match t.iter().position(|time| time.to_bits() != t[0].to_bits()) {
-        None => Ok((x, u)),
-        Some(row) => Err(format!(
-            "holds surfaces at several times, {} and {}: write one with `surface --at T`",
-            t[0], t[row]
-        )),
-    }
-}
-
-fn parse_columns(text: &str, heading: &str) -> Result<Columns, String> {
-    parse_table::<2>(text, heading).map(|[first, second]| (first, second))
-}
-
-/// N columns of numbers.
-fn parse_table<const N: usize>(text: &str, heading: &str) -> Result<[Vec<f64>; N], String> {
-    let mut columns = std::array::from_fn(|_| vec![]);
-    for (index, record) in csv_reader(text).records().enumerate() {
-        let record = record.map_err(|error| format!("not CSV: {error}"))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let numbers: Result<Vec<f64>, _> = record.iter().map(str::parse).collect();
-        match numbers {
-            Ok(row) if row.len() == N => {
-                columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-            }
-            Err(_) if index == 0 && is_heading(&record) => {}
-            _ => {
-                let count = ["no", "one", "two", "three"].get(N).unwrap_or(&"too many");
-                return Err(format!(
-                    "line {line} is not {count} numbers `{heading}` separated by commas"
-                ));
-            }
-        }
-    }
-    Ok(columns)
-}
-
-fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-}
-
-/// Fields of the first line.
-fn width_of(text: &str) -> usize {
-    csv_reader(text).records().next().and_then(Result::ok).map_or(0, |record| record.len())
-}
-
-/// A first line without any number; a mistyped row is none.
-fn is_heading(record: &csv::StringRecord) -> bool {
-    record.iter().all(|field| field.parse::<f64>().is_err())
-}
 
 /// A tip file: JSON {"gaussians":[…]}, CSV `x,f` or CSV `x,y,f`.
 pub(crate) enum TipFile {
@@ -174,9 +57,10 @@ pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
 pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
     if !text.trim_start().starts_with('{') {
         return if width_of(text) == 3 {
-            parse_table(text, "x,y,f").map(TipFile::Table2d)
+            numbers_of(text, "x,y,f").and_then(in_sigma).map(TipFile::Table2d)
         } else {
-            parse_columns(text, "x,f").map(TipFile::Table)
+            let [x, f] = numbers_of(text, "x,f").and_then(in_sigma)?;
+            Ok(TipFile::Table((x, f)))
         };
     }
     let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
@@ -190,6 +74,19 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
         )
     })?;
     Ok(TipFile::Gaussians(tip.gaussians))
+}
+
+/// Columns of a tip, which must be in its own σ.
+fn in_sigma<const N: usize>(
+    (columns, headings): ([Vec<f64>; N], Vec<String>),
+) -> Result<[Vec<f64>; N], String> {
+    match with_unit(&headings) {
+        None => Ok(columns),
+        Some(heading) => Err(format!(
+            "the heading `{heading}` has a unit, and a tip file is in σ: `stickslip tip` makes one of a profile in any \
+             unit and tells its σ"
+        )),
+    }
 }
 
 /// What `stickslip run` or `stickslip raster` wrote.
@@ -263,32 +160,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_heading_and_comments_are_skipped() {
-        let (x, u) = parse_columns("# measured\nx,u\n0, 1\n2,3e-1\n", "x,u").unwrap();
-        assert_eq!(x.len(), 2);
-        assert!((u[1] - 0.3).abs() < 1e-16);
-    }
-
-    /// A file one byte too long is refused, one of just the length is read; more is never asked for.
-    #[test]
-    fn no_more_is_read_than_the_limit() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("table.csv");
-        std::fs::write(&path, "0,1\n2,3\n").unwrap();
-        assert_eq!(read_text("--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
-        let refused = read_text("--force-file", &path, 7).unwrap_err();
-        assert!(refused.to_string().contains("larger than"), "{refused}");
-    }
-
-    /// It would not come back.
-    #[cfg(unix)]
-    #[test]
-    fn a_device_without_end_is_refused() {
-        let endless = read_text("--force-file", Path::new("/dev/zero"), 1 << 20).unwrap_err();
-        assert!(endless.to_string().contains("larger than"), "{endless}");
-    }
-
-    #[test]
     fn what_is_nested_too_deep_is_refused() {
         let nested = |depth: usize| format!("{}1{}", "[".repeat(depth), "]".repeat(depth));
         for depth in [200, 1_000_000] {
@@ -301,16 +172,6 @@ mod tests {
             let refused =
                 documents::read::<RunDocument>(&run, RunDocument::FORMAT).unwrap_err().to_string();
             assert!(!refused.is_empty() && refused.len() < 300, "{refused}");
-        }
-    }
-
-    #[test]
-    fn a_line_that_is_not_two_numbers_is_named() {
-        for (text, line) in
-            [("1,2\n3\n", 2), ("1,2\n3,4,5\n", 2), ("x,u\n1,2\nfoo,3\n", 3), ("1,2e\n3,4\n", 1)]
-        {
-            let message = parse_columns(text, "x,u").unwrap_err();
-            assert!(message.contains(&format!("line {line}")), "{message}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A run written as lines, read again, line by line: none of them is kept.
 
-use super::input::unreadable;
+use super::text::unreadable;
 use crate::host;
 use serde::de::DeserializeOwned;
 use std::fs::File;

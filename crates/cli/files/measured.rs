@@ -1,6 +1,6 @@
 //! Measured columns as instruments write them: any separator, a heading with units or none.
 
-use super::input::{LARGEST_TABLE, read_text};
+use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
 use std::path::Path;
 

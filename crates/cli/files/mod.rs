@@ -1,8 +1,10 @@
 //! Files that come in and go out.
 
 pub(crate) mod beside;
+pub(crate) mod columns;
 pub(crate) mod distinct;
 pub(crate) mod gsf;
+mod in_model_units;
 pub(crate) mod input;
 pub(crate) mod journal;
 pub(crate) mod lines;
@@ -17,4 +19,5 @@ mod special;
 pub(crate) mod stream;
 pub(crate) mod table;
 mod temporary;
+pub(crate) mod text;
 pub(crate) mod within;

@@ -5,12 +5,12 @@ use crate::failure::Failure;
 use ndarray::ArrayViewD;
 use ndarray_npy::NpzWriter;
 use std::io::{self, Cursor, Write};
-use stickslip_documents::{Column, Tabular};
+use stickslip_documents::{Column, Tabular, arrays_in_units, columns_in_units};
 
 /// Writes the columns as CSV under their names, a line for each row.
 pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Failure> {
-    let columns = table.columns();
-    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let columns = columns_in_units(table);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| &**name).collect();
     let rows = columns.iter().filter_map(|(_, column)| rows(column)).min().unwrap_or(0);
     let columns: Vec<Cells> = columns.iter().map(|(_, column)| Cells::of(column)).collect();
     output.write_with(|out| {
@@ -90,8 +90,8 @@ pub(crate) fn write_npz(table: &impl Tabular, output: Output) -> Result<(), Fail
 
 fn npz(table: &impl Tabular) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let mut npz = NpzWriter::new(Cursor::new(vec![]));
-    for (name, array) in table.arrays() {
-        npz.add_array(name, &ArrayViewD::from_shape(array.shape, &array.values)?)?;
+    for (name, array) in arrays_in_units(table) {
+        npz.add_array(&*name, &ArrayViewD::from_shape(array.shape, &array.values)?)?;
     }
     Ok(npz.finish()?.into_inner())
 }

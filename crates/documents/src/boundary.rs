@@ -1,7 +1,7 @@
 //! `stickslip/boundary`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{CriticalityName, ModelParameters, OnsetKindName, Software, TipDocument};
+use crate::{CriticalityName, InUnits, ModelParameters, OnsetKindName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{BoundaryBranch, Critical, onset_at};
@@ -40,6 +40,9 @@ pub struct BoundaryDocument {
     pub limits: Option<LimitColumns>,
     /// What is left out, and why; empty if nothing is.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl BoundaryDocument {
@@ -191,5 +194,9 @@ impl Tabular for BoundaryDocument {
             ("period_slope", Column::optional(period_slope)),
             ("lyapunov", Column::optional(lyapunov)),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -1,6 +1,6 @@
 //! `stickslip/checkpoint`.
 
-use crate::{FORMAT_VERSION, RunParameters, Software};
+use crate::{FORMAT_VERSION, KnownScales, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -54,6 +54,9 @@ pub struct Order {
     pub plot: Option<PathBuf>,
     /// Whether the run is repeated to verify it.
     pub verify: bool,
+    /// What the run is told in beside the dimensionless numbers, if it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scales: Option<KnownScales>,
     /// Time between two checkpoints, in Γ/k, if any are made.
     pub checkpoint_every: Option<f64>,
 }

@@ -1,7 +1,7 @@
 //! `stickslip/compare`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{RunParameters, Software};
+use crate::{InUnits, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,9 @@ pub struct CompareDocument {
     /// Seconds of the grid over seconds of the closed equation, each per unit of time simulated. It
     /// differs from run to run, as `work.seconds` does.
     pub speedup: f64,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl CompareDocument {
@@ -161,5 +164,9 @@ impl Tabular for CompareDocument {
             ("grid_x0", Array::vector(&self.grid.x0)),
             ("grid_u", Array::vector(&self.grid.u)),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

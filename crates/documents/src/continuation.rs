@@ -1,7 +1,7 @@
 //! `stickslip/continue`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{ModelParameters, Software};
+use crate::{InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
@@ -29,6 +29,9 @@ pub struct ContinueDocument {
     pub interrupted: bool,
     /// What could not be followed; empty if all was.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl ContinueDocument {
@@ -254,5 +257,9 @@ impl Tabular for ContinueDocument {
         let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
         let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
         columns.chain(mark).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

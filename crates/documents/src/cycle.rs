@@ -1,7 +1,7 @@
 //! `stickslip/cycle`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{ComplexDocument, FORMAT_VERSION, History, ModelParameters, Software};
+use crate::{ComplexDocument, FORMAT_VERSION, History, InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
@@ -62,6 +62,9 @@ pub struct CycleDocument {
     pub history: History,
     /// What it took.
     pub work: CycleWork,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl CycleDocument {
@@ -76,6 +79,7 @@ impl CycleDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters,
             period: cycle.period(),
             period_error: Some(cycle.error()),
@@ -168,5 +172,9 @@ impl Tabular for CycleDocument {
         let columns =
             [("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))];
         columns.into_iter().chain(height).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

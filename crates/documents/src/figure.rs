@@ -52,6 +52,15 @@ impl FigureDocument {
             columns: 1,
         }
     }
+
+    /// r, where it is the same in all that is drawn.
+    pub fn one_r(&self) -> Option<f64> {
+        let is_axis = |label: &str| label == "r" || label.starts_with("r = ");
+        let mut labels = self.panels.iter().flat_map(|panel| [&panel.x_label, &panel.y_label]);
+        let mut models = self.parameters.models.iter().map(|model| model.r);
+        let first = models.next().filter(|_| !labels.any(|label| is_axis(label)))?;
+        models.all(|r| r.to_bits() == first.to_bits()).then_some(first)
+    }
 }
 
 impl Tabular for FigureDocument {

@@ -30,9 +30,11 @@ mod cycle;
 mod figure;
 mod fit;
 mod history;
+mod in_units;
 mod measured_tip;
 mod model;
 mod outcome;
+mod physical;
 mod raster;
 mod raster_stability;
 mod read;
@@ -71,6 +73,7 @@ pub use figure::{
 };
 pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
 pub use history::{FARTHEST, History};
+pub use in_units::{Dimension, InUnits, KnownScales, dimension};
 pub use measured_tip::{
     CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,
 };
@@ -78,6 +81,7 @@ pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
+pub use physical::{InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units};
 pub use raster::{
     AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
     PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,

@@ -1,7 +1,9 @@
 //! `stickslip/raster-stability`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{FORMAT_VERSION, ModelParameters, PathName, Software, SpacingName, TipDocument};
+use crate::{
+    FORMAT_VERSION, InUnits, ModelParameters, PathName, Software, SpacingName, TipDocument,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::RasterCritical;
@@ -27,6 +29,9 @@ pub struct RasterStabilityDocument {
     pub growth: Option<RasterGrowth>,
     /// What a reader should know; empty if there is nothing.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl RasterStabilityDocument {
@@ -45,6 +50,7 @@ impl RasterStabilityDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters,
             critical: critical.map(Into::into),
             stable,
@@ -136,6 +142,10 @@ impl Tabular for RasterStabilityDocument {
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
         ]
     }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
 }
 
 /// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
@@ -164,6 +174,9 @@ pub struct RasterBoundaryDocument {
     pub alpha_zigzag: Vec<Option<f64>>,
     /// What a reader should know; empty if there is nothing.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl RasterBoundaryDocument {
@@ -199,5 +212,9 @@ impl Tabular for RasterBoundaryDocument {
             ("crest_angle", Column::of(&self.crest_angle)),
             ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
-    CertificateDocument, ComplexDocument, ModelParameters, PulseParameters, Software, SteadyState,
+    CertificateDocument, ComplexDocument, InUnits, ModelParameters, PulseParameters, Software,
+    SteadyState,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,9 @@ pub struct ResponseDocument {
     pub samples: ResponseSamples,
     /// What is short or inexact; empty if nothing is.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl ResponseDocument {
@@ -107,5 +111,9 @@ impl Tabular for ResponseDocument {
             of("residue_im", |m| m.residue.im),
         ];
         samples.chain(modes).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
-    CreepDocument, FORMAT_VERSION, History, OscillationDocument, RegimeName, RunEnd, RunParameters,
-    SampleLine, Software, SteadyState, TransientDocument, Unusable, VerificationDocument,
-    WorkDocument,
+    CreepDocument, FORMAT_VERSION, History, InUnits, OscillationDocument, RegimeName, RunEnd,
+    RunParameters, SampleLine, Software, SteadyState, TransientDocument, Unusable,
+    VerificationDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,6 +52,9 @@ pub struct RunDocument {
     pub verification: Option<VerificationDocument>,
     /// What it took.
     pub work: WorkDocument,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl RunDocument {
@@ -70,6 +73,7 @@ impl RunDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters,
             steady_state,
             samples: samples.into(),
@@ -181,5 +185,9 @@ impl Tabular for RunDocument {
         let samples = self.columns().into_iter();
         let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
         samples.chain(self.history.iter().flat_map(History::arrays)).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -1,7 +1,7 @@
 //! `stickslip/stability`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{ModelParameters, Software};
+use crate::{InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind};
@@ -37,6 +37,9 @@ pub struct StabilityDocument {
     pub limits: Option<LimitsDocument>,
     /// Why something is null, short or inexact; empty if nothing is.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl StabilityDocument {
@@ -130,7 +133,7 @@ pub struct TrappingDocument {
     pub alpha: Option<f64>,
     /// All such p at the α and r of `parameters`, in 1/σ, ascending; null where there is none.
     pub creep_rates: Option<Vec<f64>>,
-    /// The one of them that a trapped tip comes to; null where there is none, or where a complex root lies
+    /// The one of them that a trapped tip comes to, in 1/σ; null where there is none, or where a complex root lies
     /// right of them all: there every stick ends in a slip.
     pub attracting: Option<f64>,
     /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null where they
@@ -250,5 +253,9 @@ impl Tabular for StabilityDocument {
             Column::from(self.roots.iter().map(of).collect::<Vec<_>>())
         };
         vec![("re", column(|root| root.re)), ("im", column(|root| root.im))]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

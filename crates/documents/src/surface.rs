@@ -1,7 +1,7 @@
 //! `stickslip/surface`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{ModelParameters, Software};
+use crate::{InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +22,9 @@ pub struct SurfaceDocument {
     /// One image per time, in three dimensions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<SurfaceImage>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl SurfaceDocument {
@@ -117,6 +120,10 @@ impl Tabular for SurfaceDocument {
         let t: Vec<f64> = surfaces.iter().map(|surface| surface.t).collect();
         let u: Vec<Vec<f64>> = surfaces.iter().map(|surface| surface.u.clone()).collect();
         vec![("t", Array::vector(t)), ("x", Array::vector(x)), ("u", Array::matrix(&u))]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }
 

@@ -11,7 +11,7 @@ pub use shard::ShardDocument;
 pub use start::{SweepRunParameters, SweepStartName};
 
 use crate::table::{Column, Named, Tabular};
-use crate::{RegimeName, Software, TipDocument};
+use crate::{InUnits, RegimeName, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
@@ -44,6 +44,9 @@ pub struct SweepDocument {
     /// whether anything was changed.
     #[serde(default)]
     pub crc32: Option<u32>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl SweepDocument {
@@ -117,7 +120,7 @@ impl std::fmt::Display for SourceName {
 pub struct SweepPoint {
     /// Its place in the grid.
     pub index: usize,
-    /// Width of the footprint, where it varies.
+    /// Width of the footprint, in σ, where it varies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
     /// Side lobes, where they were given.
@@ -176,6 +179,11 @@ impl SweepParameters {
     pub fn wider(&self) -> Wider {
         let Self { depth_limit, healing_time, inertia, .. } = *self;
         Wider { depth_limit, healing_time, inertia, spring: true }
+    }
+
+    /// The one r of all points, if there is one.
+    pub fn velocity(&self) -> Option<f64> {
+        if let [r] = self.r.as_slice() { Some(*r) } else { None }
     }
 
     /// The part that is here, be it the whole.
@@ -325,5 +333,9 @@ impl Tabular for SweepDocument {
             [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
         });
         widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

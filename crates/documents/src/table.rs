@@ -1,5 +1,6 @@
 //! What a document holds as columns and arrays, declared once: for CSV, for NumPy archives, for whoever wants numbers.
 
+use crate::InUnits;
 use std::borrow::Cow;
 
 /// A column of a table.
@@ -42,6 +43,11 @@ pub trait Tabular {
         None
     }
 
+    /// Its numbers in physical units, where it was asked for these.
+    fn physical(&self) -> Option<&InUnits> {
+        None
+    }
+
     /// Its arrays: the columns, unless it has more, or others.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns();
@@ -58,6 +64,21 @@ impl<'a> Column<'a> {
     /// A column of numbers that need not be there.
     pub fn optional(values: &'a [Option<f64>]) -> Self {
         Self::Optional(values.into())
+    }
+
+    /// Every number of it times a factor.
+    pub(crate) fn times(self, factor: f64) -> Column<'static> {
+        let times = |values: &[f64]| values.iter().map(|v| v * factor).collect::<Vec<_>>();
+        match self {
+            Self::Numbers(values) => times(&values).into(),
+            Self::Optional(values) => {
+                values.iter().map(|v| v.map(|v| v * factor)).collect::<Vec<_>>().into()
+            }
+            Self::Repeated { values, each } => {
+                Column::Repeated { values: times(&values).into(), each }
+            }
+            Self::Words(words, numbers) => Column::Words(words, numbers),
+        }
     }
 
     /// The column as an array, if words do not stand in the way; a repeated one without its repetitions.
@@ -84,6 +105,12 @@ impl From<Vec<Option<f64>>> for Column<'_> {
 }
 
 impl<'a> Array<'a> {
+    /// Every number of it times a factor.
+    pub(crate) fn times(self, factor: f64) -> Array<'static> {
+        let values: Vec<f64> = self.values.iter().map(|v| v * factor).collect();
+        Array { shape: self.shape, values: values.into() }
+    }
+
     /// A vector.
     pub fn vector(values: impl Into<Cow<'a, [f64]>>) -> Self {
         let values = values.into();

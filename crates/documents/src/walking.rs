@@ -1,7 +1,9 @@
 //! `stickslip/walking`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{CertificateDocument, ComplexDocument, FORMAT_VERSION, ModelParameters, Software};
+use crate::{
+    CertificateDocument, ComplexDocument, FORMAT_VERSION, InUnits, ModelParameters, Software,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::Walk;
@@ -24,6 +26,9 @@ pub struct WalkingDocument {
     pub walks: Vec<WalkDocument>,
     /// Why something is missing, short or inexact; empty if nothing is.
     pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 /// The tip, and what was asked.
@@ -68,6 +73,7 @@ impl WalkingDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters,
             walking_alpha,
             walks: walks.iter().map(WalkDocument::from).collect(),
@@ -102,5 +108,9 @@ impl Tabular for WalkingDocument {
             ("re", column(|_, root| root.re)),
             ("im", column(|_, root| root.im)),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

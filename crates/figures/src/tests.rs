@@ -119,7 +119,8 @@ fn a_run_is_drawn_from_its_history_and_not_from_its_samples() {
     assert!((drawn - highest).abs() < 1e-2 * highest, "{drawn} {highest}");
     // Three samples tell nothing.
     assert!(document.samples.t.len() == 3 && highest > 2.0);
-    let detail = of(&document, &View { x_range: Some([1400.0, 1440.0]), y_range: None }).unwrap();
+    let detail =
+        of(&document, &View { x_range: Some([1400.0, 1440.0]), ..View::default() }).unwrap();
     assert_eq!(detail.panels[0].x_range, Some([1400.0, 1440.0]));
     assert!(detail.panels[0].curves[0].x.iter().all(|t| (1400.0..=1440.0).contains(t)));
 }

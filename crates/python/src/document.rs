@@ -144,7 +144,7 @@ impl Document {
         let format = FigureFormat::of(Path::new(&format!("picture.{format}"))).map_err(unusable)?;
         let width = width.map(str::parse::<Width>).transpose().map_err(unusable)?;
         let size = Size::new(width, dpi).map_err(unusable)?;
-        let view = View { x_range, y_range };
+        let view = View { x_range, y_range, ..View::default() };
         let bytes = self.whole(py, |document| {
             let drawn = document.drawn().ok_or_else(|| unusable("there is no picture of it"))?;
             let figure = figures::of(drawn, &view).map_err(unusable)?;

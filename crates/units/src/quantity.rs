@@ -15,6 +15,8 @@ pub enum Unit {
     Velocity,
     /// N
     Force,
+    /// s
+    Time,
 }
 
 impl std::fmt::Display for Unit {
@@ -31,6 +33,7 @@ impl Unit {
             Self::Length => &["m"],
             Self::Velocity => &["m/s"],
             Self::Force => &["N"],
+            Self::Time => &["s"],
         }
     }
 
@@ -41,6 +44,7 @@ impl Unit {
             Self::Length => "50nm",
             Self::Velocity => "1um/s",
             Self::Force => "10nN",
+            Self::Time => "5ms",
         }
     }
 
@@ -127,6 +131,7 @@ mod tests {
             (Unit::Velocity, "2mm/ms", 2.0),
             (Unit::Force, "10nN", 1e-8),
             (Unit::Force, "-3pN", -3e-12),
+            (Unit::Time, "16ms", 0.016),
             (Unit::Damping, "20ug/s", 2e-8),
             (Unit::Damping, "1e-8kg/s", 1e-8),
             (Unit::Damping, "1uNs/m", 1e-6),

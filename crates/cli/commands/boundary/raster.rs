@@ -3,11 +3,13 @@
 use super::{abscissas, range};
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::commands::footprint::footprint;
+use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, RasterBoundaryDocument, RasterBoundaryParameters, Software, SpacingName,
+    FORMAT_VERSION, Physical, RasterBoundaryDocument, RasterBoundaryParameters, Software,
+    SpacingName,
 };
 use stickslip_stability::{Raster, RasterPath, StabilityError};
 use stickslip_tip::TipFunction;
@@ -22,6 +24,8 @@ pub(super) fn boundary(
     let r = arguments.r.ok_or_else(|| Failure::input("--r", "give the support velocity, --r R"))?;
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let (ends, points) = range(OPTION, typed, arguments.points)?;
+    let tip_file = arguments.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, Some(r))?;
     let job = Job::open::<RasterBoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let spacing =
         if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
@@ -29,6 +33,7 @@ pub(super) fn boundary(
         format: RasterBoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: RasterBoundaryParameters {
             tip: (&tip).into(),
             r,
@@ -61,5 +66,5 @@ pub(super) fn boundary(
         document.alpha_zigzag.push(zigzag.ok().map(|at| at.alpha));
         progress.counted(n as f64 + 1.0, || format!("{} of {points} pitches", n + 1));
     }
-    job.finish(document)
+    job.finish(document.in_units(scales.as_ref()))
 }

@@ -38,6 +38,7 @@ pub(super) fn document(
         format: BoundaryDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: asked.parameters(law, tip),
         wave_number: column(|at| TAU / at.critical.wavelength),
         r: column(|at| at.critical.r),

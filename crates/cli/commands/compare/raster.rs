@@ -4,6 +4,7 @@ use super::grid::stepping;
 use super::pace::{PATIENCE, stopped};
 use super::time_limit;
 use crate::arguments::CompareArguments;
+use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::progress::Progress;
 use crate::commands::raster::{plan_of, sample_times};
@@ -11,7 +12,7 @@ use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
 use std::ops::ControlFlow;
 use std::time::Instant;
-use stickslip_documents::{GridName, GridWork, RasterCompareDocument, RasterCompared};
+use stickslip_documents::{GridName, GridWork, Physical, RasterCompareDocument, RasterCompared};
 use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 
@@ -27,7 +28,10 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let sampling = &arguments.sampling;
     let accuracy = (arguments.tolerance, arguments.memory);
     let pulse = &arguments.disturbance.pulse;
-    let (plan, parameters) = plan_of(&arguments.model, &arguments.scan, pulse, accuracy)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let scan = (&arguments.scan, scales.as_ref());
+    let (plan, parameters) = plan_of(&arguments.model, scan, pulse, accuracy)?;
     let (stepping, limit) = (stepping(arguments)?, time_limit(arguments)?);
     let (grid, method) = method(arguments.grid)?;
     let spacing = spacing(arguments, method, &plan)?;
@@ -52,12 +56,9 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
     let discretisation = (grid, spacing, tolerance, arguments.step);
-    job.finish(RasterCompareDocument::new(
-        parameters,
-        (&plan, &lines, seconds),
-        discretisation,
-        compared,
-    ))
+    let scanned = (&plan, lines.as_slice(), seconds);
+    let document = RasterCompareDocument::new(parameters, scanned, discretisation, compared);
+    job.finish(document.in_units(scales.as_ref()))
 }
 
 /// The one that is exact to round-off along x, or the one of second order.

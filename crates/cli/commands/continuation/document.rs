@@ -41,6 +41,7 @@ pub(super) fn of(
         format: ContinueDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: ContinueParameters {
             model: ModelParameters { depth_limit, healing_time, inertia, ..papers },
             over: arguments.over,

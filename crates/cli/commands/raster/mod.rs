@@ -11,12 +11,13 @@ use super::model::wide_model;
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
 use super::run::samples::times;
 use crate::arguments::{Format, ModelArguments, RasterArguments, SamplingArguments, ScanArguments};
+use crate::commands::in_units::{in_metres, scales};
 use crate::failure::{Failure, Typed};
+use crate::files::columns::read_area;
 use crate::files::distinct::distinct;
-use crate::files::input::read_area;
 use crate::interrupt::Interrupt;
 use stickslip_documents::{
-    MemoryName, ModelParameters, PathName, RasterDocument, RasterParameters,
+    KnownScales, MemoryName, ModelParameters, PathName, Physical, RasterDocument, RasterParameters,
 };
 use stickslip_raster::{Area, Path, Plan, RasterError};
 use stickslip_tip::{Force, RunError, Scenario};
@@ -34,15 +35,18 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let is_gsf = arguments.format.is_none()
         && output.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf"));
     let format = if is_gsf { Format::Json } else { format(arguments.format, output, ", .gsf")? };
-    let (plan, parameters) = plan(arguments)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let (plan, parameters) = plan(arguments, scales.as_ref())?;
     let times = sample_times(&arguments.sampling, &plan)?;
+    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let job = Job::of_format::<RasterDocument>(format, output, &arguments.fields, plot.as_deref())?;
     let interrupt = Interrupt::listen()?;
     let (lines, finished) = scan::scan(&plan, &parameters, job.file(), &interrupt)?;
-    let document = RasterDocument::new(parameters, &plan, &lines, &times);
-    if is_gsf {
+    let document = RasterDocument::new(parameters, &plan, &lines, &times).in_units(scales.as_ref());
+    if let Some(unit) = in_metres {
         let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
-        let bytes = field(&document.parameters, &map, (1.0, 1.0, ""));
+        let bytes = field(&document.parameters, &map, unit);
         job.finish_bytes(&bytes, document)?;
     } else {
         job.finish(document)?;
@@ -52,22 +56,25 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
 }
 
 /// What is to be scanned, and the document's word for it.
-fn plan(arguments: &RasterArguments) -> Result<(Plan, RasterParameters), Failure> {
+fn plan(
+    arguments: &RasterArguments,
+    scales: Option<&KnownScales>,
+) -> Result<(Plan, RasterParameters), Failure> {
     let accuracy = (arguments.tolerance, arguments.memory);
-    plan_of(&arguments.model, &arguments.scan, &arguments.pulse, accuracy)
+    plan_of(&arguments.model, (&arguments.scan, scales), &arguments.pulse, accuracy)
 }
 
 /// The same of any command that scans.
 pub(super) fn plan_of(
     given: &ModelArguments,
-    scan: &ScanArguments,
+    (scan, scales): (&ScanArguments, Option<&KnownScales>),
     pulse: &[String],
     (tolerance, memory): (f64, MemoryName),
 ) -> Result<(Plan, RasterParameters), Failure> {
     let model = wide_model(given)?;
     let (footprint, width_y) = footprint(scan.width_y, model.tip())?;
     let parameters = ModelParameters::of(&model, given.alpha_above);
-    let mut plan = Plan::over(footprint, model, Path::from(scan.path), area(scan)?);
+    let mut plan = Plan::over(footprint, model, Path::from(scan.path), area(scan, scales)?);
     plan.law = Scenario { tolerance, memory: memory.into(), ..plan.law };
     let pulses = parse_pulses(pulse)?;
     plan.disturbance =
@@ -79,9 +86,9 @@ pub(super) fn plan_of(
 }
 
 /// A rectangle, or the lines of a file.
-fn area(arguments: &ScanArguments) -> Result<Area, Failure> {
+fn area(arguments: &ScanArguments, scales: Option<&KnownScales>) -> Result<Area, Failure> {
     if let Some(file) = &arguments.area {
-        return Ok(Area::Lines(read_area("--area", file)?));
+        return Ok(Area::Lines(read_area("--area", file, scales)?));
     }
     let pitch = match (arguments.path, arguments.pitch) {
         (PathName::Repeat, None) => 0.0,

@@ -2,10 +2,11 @@
 
 use crate::arguments::{DisturbanceArguments, ModelArguments, StartArguments, StartChoice};
 use crate::failure::{Failure, Typed};
+use crate::files::columns::{Columns, read_columns, read_profile};
 use crate::files::distinct::Named;
-use crate::files::input::{Columns, read_columns, read_profile};
 use crate::message::remark;
 use std::path::Path;
+use stickslip_documents::KnownScales;
 use stickslip_tip::{Force, ForceError, Model, Noise, Pulse, Scenario, Start, SupportPath};
 
 const DEFAULT_NOISE_SPACING: f64 = 0.1;
@@ -19,14 +20,21 @@ pub(crate) struct Disturbance {
     pub(crate) table: Option<Columns>,
     /// Of pulses and table.
     pub(crate) force: Force,
+    /// Of columns that have units.
+    scales: Option<KnownScales>,
 }
 
 impl Disturbance {
-    pub(crate) fn of(arguments: &DisturbanceArguments) -> Result<Self, Failure> {
+    pub(crate) fn of(
+        arguments: &DisturbanceArguments,
+        scales: Option<&KnownScales>,
+    ) -> Result<Self, Failure> {
         let profile = arguments.initial_surface.as_deref();
-        let profile = profile.map(|path| read_profile("--initial-surface", path)).transpose()?;
+        let profile =
+            profile.map(|path| read_profile("--initial-surface", path, scales)).transpose()?;
         let table = arguments.force_file.as_deref();
-        let table = table.map(|path| read_columns("--force-file", path, "t,force")).transpose()?;
+        let table =
+            table.map(|path| read_columns("--force-file", path, "t,force", scales)).transpose()?;
         let pulses = parse_pulses(&arguments.pulse)?;
         let force = Force::new(pulses.clone(), table.clone());
         let force = force.map_err(|error| explain(&error, arguments))?;
@@ -35,7 +43,7 @@ impl Disturbance {
             spacing: arguments.noise_spacing.unwrap_or(DEFAULT_NOISE_SPACING),
             seed: arguments.seed.unwrap_or(DEFAULT_SEED),
         });
-        Ok(Self { noise, profile, pulses, table, force })
+        Ok(Self { noise, profile, pulses, table, force, scales: scales.copied() })
     }
 
     /// A run that starts as asked and meets all this, at the tolerance and with the memory of `Scenario::new`.
@@ -54,7 +62,11 @@ impl Disturbance {
             start: begin.surface,
             start_position: begin.position,
             kick: begin.kick,
-            path: start.support_path.as_deref().map(support_path).transpose()?,
+            path: start
+                .support_path
+                .as_deref()
+                .map(|path| support_path(path, self.scales.as_ref()))
+                .transpose()?,
             start_velocity: start.start_velocity,
             noise,
             profile: self.profile.clone(),
@@ -65,8 +77,8 @@ impl Disturbance {
 }
 
 /// R(t) from a file.
-fn support_path(path: &Path) -> Result<SupportPath, Failure> {
-    let (t, displacement) = read_columns("--support-path", path, "t,R")?;
+fn support_path(path: &Path, scales: Option<&KnownScales>) -> Result<SupportPath, Failure> {
+    let (t, displacement) = read_columns("--support-path", path, "t,R", scales)?;
     let named = || format!("--support-path {}", path.display());
     SupportPath::new(t, displacement).map_err(|error| Failure::input(named(), error))
 }

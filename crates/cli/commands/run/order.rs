@@ -6,6 +6,7 @@ use super::disturbance::{Disturbance, files_read, warn_of_idle};
 use super::limits::within_range;
 use super::samples::sample_times;
 use crate::arguments::{DisturbanceArguments, Format, HistoryName, RunArguments, StartArguments};
+use crate::commands::in_units::scales;
 use crate::commands::job;
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::distinct;
@@ -17,7 +18,9 @@ use stickslip_tip::{RunError, Scenario};
 /// What is asked for, judged as a whole.
 pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let format = format(arguments)?;
-    let disturbance = Disturbance::of(&arguments.disturbance)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let disturbance = Disturbance::of(&arguments.disturbance, scales.as_ref())?;
     let scenario = scenario(arguments, &disturbance)?;
     within_range(&arguments.model, &scenario)?;
     scenario
@@ -36,6 +39,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
         history: arguments.history == HistoryName::All,
         plot: arguments.plot.as_deref().map(resolved),
         verify: arguments.verify,
+        scales,
         checkpoint_every: arguments.checkpoint.is_some().then_some(every),
     };
     judged(order, arguments)
@@ -52,6 +56,12 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
         return Err(Failure::input(
             option,
             "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz",
+        ));
+    }
+    if order.scales.is_some() {
+        return Err(Failure::input(
+            "--units, --sigma and what goes with it",
+            "are of tables and documents, and lines are written as the run goes on: write it to a .json, .csv or .npz",
         ));
     }
     if arguments.verify {

@@ -13,7 +13,7 @@ use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
 use stickslip_documents::{
-    Array, Named, Order, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
+    Array, InUnits, Named, Order, Physical, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
 };
 use stickslip_tip::{InitialSurface, Scenario, Trajectory, friction};
 
@@ -81,7 +81,8 @@ pub(super) fn all(
             let found =
                 asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
-            let told = told::of_run(&document, &end);
+            let mut document = document.in_units(order.scales.as_ref());
+            let told = told::of_run(&document, &end).in_units(document.physical.as_ref());
             let figure = job.write_told(&Written { document: &document, reached }, &told)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 // Drawn from the history, whether or not it is written.
@@ -123,6 +124,10 @@ impl Tabular for Written<'_> {
         let place = self.columns().len();
         arrays.splice(place..place, interrupted);
         arrays
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.document.physical()
     }
 
     fn note(&self) -> Option<String> {

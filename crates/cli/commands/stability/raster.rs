@@ -4,11 +4,13 @@ mod wider;
 
 use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
+use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::commands::model::{model_of, tip, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    ModelParameters, PathName, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
+    KnownScales, ModelParameters, PathName, Physical, RasterGrowth, RasterStabilityDocument,
+    RasterStabilityParameters,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction};
@@ -26,13 +28,21 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let path = arguments.path.unwrap_or(PathName::OneWay);
     let raster = raster(arguments, &footprint, path)?;
+    let scales = scales_of(arguments)?;
     let job = Job::open::<RasterStabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let critical = match path {
         PathName::OneWay => Some(critical(arguments, &raster, RasterPath::OneWay)?),
         PathName::Zigzag => Some(critical(arguments, &raster, RasterPath::Zigzag)?),
         PathName::Repeat => None,
     };
-    job.finish(document(arguments, (tip, width_y), path, &raster, critical)?)
+    let document = document(arguments, (tip, width_y), path, &raster, critical)?;
+    job.finish(document.in_units(scales.as_ref()))
+}
+
+/// What the result is told in.
+fn scales_of(arguments: &StabilityArguments) -> Result<Option<KnownScales>, Failure> {
+    let model = &arguments.model;
+    scales(&arguments.in_units, model.tip.tip_file.as_deref(), model.r)
 }
 
 fn raster(

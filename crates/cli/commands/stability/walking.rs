@@ -2,11 +2,14 @@
 
 use super::DEFAULT_ROOTS;
 use crate::arguments::StabilityArguments;
+use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::commands::model::{refuse_endless_past, wide_model};
 use crate::commands::roots::{failed, judge_count, remarks};
 use crate::failure::{Failure, Typed};
-use stickslip_documents::{ModelParameters, SolveFor, WalkingDocument, WalkingParameters};
+use stickslip_documents::{
+    ModelParameters, Physical, SolveFor, WalkingDocument, WalkingParameters,
+};
 use stickslip_stability::{StabilityError, Walk, walk, walking_alpha, walking_speeds};
 use stickslip_tip::Model;
 
@@ -16,8 +19,10 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let model = wide_model(&arguments.model)?;
     let count = arguments.roots.unwrap_or(DEFAULT_ROOTS);
     judge_count("--roots", count)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, None)?;
     let job = Job::open::<WalkingDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(document(&model, count)?)
+    job.finish(document(&model, count)?.in_units(scales.as_ref()))
 }
 
 /// Options that only make sense behind a support.

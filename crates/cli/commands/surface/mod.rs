@@ -3,28 +3,28 @@
 mod image;
 mod of_raster;
 mod places;
-mod units;
 mod write;
 
 pub(crate) use places::evenly;
 
 use crate::arguments::SurfaceArguments;
+use crate::commands::in_units::{in_metres, scales};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::{RunOrRaster, read_scanned};
 use image::Images;
 use places::Places;
 use stickslip_documents::{
-    FORMAT_VERSION, RunDocument, Software, SurfaceCurve, SurfaceDocument, SurfaceParameters,
-    Unusable,
+    FORMAT_VERSION, Physical, RunDocument, Software, SurfaceCurve, SurfaceDocument,
+    SurfaceParameters, Unusable,
 };
 use stickslip_surface::Surface;
-use units::Scale;
 use write::SurfaceFormat;
 
 pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let format = SurfaceFormat::of(arguments)?;
-    let read = [("RUN.json", Some(&*arguments.run)), ("--units", arguments.units.as_deref())];
+    let read =
+        [("RUN.json", Some(&*arguments.run)), ("--units", arguments.in_units.units.as_deref())];
     let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
     distinct(&written, &read)?;
     let document = match read_scanned(&arguments.run)? {
@@ -44,7 +44,9 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory)?;
-    let scale = Scale::asked(arguments, &model)?;
+    let scales = scales(&arguments.in_units, None, Some(model.r()))?;
+    let in_metres =
+        (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;
     let images = Images::asked(arguments, &model, &places)?;
     let job = format.job(arguments)?;
 
@@ -60,9 +62,10 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
         }
     };
-    match format {
-        SurfaceFormat::Document(_) => job.finish(result),
-        SurfaceFormat::Gsf => job.finish_bytes(&write::field(&result, &places, &scale), result),
+    let result = result.in_units(scales.as_ref());
+    match in_metres {
+        None => job.finish(result),
+        Some(unit) => job.finish_bytes(&write::field(&result, &places, unit), result),
     }
 }
 
@@ -91,6 +94,7 @@ fn empty(
         format: SurfaceDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: SurfaceParameters {
             model: run.parameters.model.clone(),
             far_behind: arguments.far_behind,

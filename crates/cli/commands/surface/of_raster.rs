@@ -1,13 +1,13 @@
 //! Heights of a raster: points, profiles and images.
 
 use super::places::{Places, evenly};
-use super::units::Scale;
 use super::write::SurfaceFormat;
 use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::in_units::{in_metres, scales};
 use crate::commands::job::Job;
 use crate::commands::raster::field;
 use crate::failure::Failure;
-use stickslip_documents::{RasterDocument, RasterSurfaceDocument, Unusable};
+use stickslip_documents::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
 
 pub(super) fn surface(
     arguments: &SurfaceArguments,
@@ -36,18 +36,17 @@ pub(super) fn surface(
             if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
         }
     };
-    let scale = Scale::asked(arguments, &plan.law.model)?;
+    let scales = scales(&arguments.in_units, None, Some(plan.law.model.r()))?;
     let (is_gsf, written) = match format {
         SurfaceFormat::Document(format) => (false, format),
         SurfaceFormat::Gsf => (true, Format::Json),
     };
     let (output, plot) = (&arguments.output, arguments.plot.as_deref());
     let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;
+    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
-    if !is_gsf {
-        return job.finish(document);
-    }
-    let unit = (scale.length, scale.height, scale.unit);
+    let document = document.in_units(scales.as_ref());
+    let Some(unit) = in_metres else { return job.finish(document) };
     let bytes = field(&document.parameters, &document.surfaces[0], unit);
     job.finish_bytes(&bytes, document)
 }

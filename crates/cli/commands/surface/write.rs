@@ -1,7 +1,6 @@
 //! Surfaces to files.
 
 use super::places::Places;
-use super::units::Scale;
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::job::{Job, format};
 use crate::failure::{Failure, Typed};
@@ -37,12 +36,6 @@ impl SurfaceFormat {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let refused = |what: String, advice: &str| Err(Failure::input(what, advice));
         if extension.as_deref() != Some("gsf") || arguments.format.is_some() {
-            if let Some(units) = &arguments.units {
-                let named = format!("--units {}", units.display());
-                let advice =
-                    "only .gsf files carry units: name the output so, or leave the option out";
-                return refused(named, advice);
-            }
             return format(arguments.format, path, ", .gsf").map(Self::Document);
         }
         let named = format!("--output {}", path.display());
@@ -76,15 +69,19 @@ impl SurfaceFormat {
 }
 
 /// The image, for Gwyddion.
-pub(super) fn field(document: &SurfaceDocument, places: &Places, scale: &Scale) -> Vec<u8> {
+pub(super) fn field(
+    document: &SurfaceDocument,
+    places: &Places,
+    (length, height, unit): (f64, f64, &str),
+) -> Vec<u8> {
     let image = &document.images[0];
     let model = &document.parameters.model;
     gsf(&Field {
         title: &format!("u(x,y) at time {}, alpha {}, r {}", image.t, model.alpha, model.r),
-        first: [scale.length * places.x[0], scale.length * places.y[0]],
-        spacing: [scale.length * places.spacing.unwrap_or(1.0), scale.length * places.spacing_y],
-        unit: scale.unit,
+        first: [length * places.x[0], length * places.y[0]],
+        spacing: [length * places.spacing.unwrap_or(1.0), length * places.spacing_y],
+        unit,
         rows: &image.u,
-        factor: scale.height,
+        factor: height,
     })
 }

@@ -6,14 +6,14 @@ use crate::failure::Failure;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use stickslip_documents::{
-    EnsembleDocument, RasterSweepDocument, RasterSweepPoint, ShardDocument, SweepDocument,
-    SweepPoint,
+    EnsembleDocument, Physical, RasterSweepDocument, RasterSweepPoint, ShardDocument,
+    SweepDocument, SweepPoint,
 };
 use stickslip_figures::{Drawn, FigureError, judge_sweep};
 
 /// A document of points that may be computed in parts.
 pub(crate) trait Divided:
-    Product + Drawn + DeserializeOwned + Clone + Send + Sync + 'static
+    Product + Drawn + Physical + DeserializeOwned + Clone + Send + Sync + 'static
 {
     /// One of them.
     type Point: Part;
@@ -35,6 +35,9 @@ pub(crate) trait Divided:
     /// CRC-32 of parameters, points and how the machine rounds, as this program writes them, however the document is
     /// laid out.
     fn checksum(&self) -> Result<u32, Failure>;
+
+    /// The one r of all points, if there is one.
+    fn velocity(&self) -> Option<f64>;
 
     /// The same with what all points together tell.
     fn told_together(self) -> Self {
@@ -88,6 +91,10 @@ impl Divided for SweepDocument {
         sum(&(&self.parameters, &self.points, &self.arithmetic))
     }
 
+    fn velocity(&self) -> Option<f64> {
+        self.parameters.velocity()
+    }
+
     fn told_together(self) -> Self {
         let ensembles = EnsembleDocument::all(&self.parameters, &self.points);
         Self { ensembles, ..self }
@@ -121,6 +128,10 @@ impl Divided for RasterSweepDocument {
 
     fn checksum(&self) -> Result<u32, Failure> {
         sum(&(&self.parameters, &self.points, &self.arithmetic))
+    }
+
+    fn velocity(&self) -> Option<f64> {
+        Some(self.parameters.r)
     }
 }
 

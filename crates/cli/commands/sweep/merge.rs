@@ -3,6 +3,7 @@
 use super::divided::Divided;
 use crate::arguments::MergeArguments;
 use crate::commands::finished::Part;
+use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::failure::Failure;
 use crate::files::distinct::Named;
@@ -59,7 +60,9 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
     if arguments.plot.is_some() {
         whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
     }
-    Job::open::<D>(&arguments.outlet, arguments.plot.as_deref())?.finish(whole.sealed()?)
+    let scales = scales(&arguments.in_units, None, whole.velocity())?;
+    let job = Job::open::<D>(&arguments.outlet, arguments.plot.as_deref())?;
+    job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 
 /// Names the parts that are missing, as an array job of Slurm takes them.

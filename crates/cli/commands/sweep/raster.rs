@@ -7,13 +7,14 @@ use crate::arguments::RasterSweepArguments;
 use crate::arithmetic::arithmetic;
 use crate::commands::finished::{Finished, Part};
 use crate::commands::footprint::footprint;
+use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::model::{tip, wider};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use stickslip_documents::{
-    FORMAT_VERSION, PathName, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
-    Software,
+    FORMAT_VERSION, PathName, Physical, RasterSweepDocument, RasterSweepParameters,
+    RasterSweepPoint, Software,
 };
 use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
 use stickslip_stability::{Raster, RasterPath, WiderRaster};
@@ -43,6 +44,8 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
+    let tip_file = arguments.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, Some(grid.parameters.r))?;
     let job = Job::open::<RasterSweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let (count, part) = (grid.parameters.points(), grid.parameters.part());
     let has = |index| index < count && part.has(index);
@@ -57,12 +60,13 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
         format: RasterSweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
+        physical: None,
         parameters: grid.parameters,
         points: finished.in_order(),
         arithmetic: Some(arithmetic()),
         crc32: None,
     };
-    job.finish(document.sealed()?)?;
+    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())
 }

@@ -20,7 +20,7 @@ pub(super) fn scenario(
     tolerance: f64,
 ) -> Result<Scenario, Failure> {
     let (start, disturbance) = (start(run), disturbance(run));
-    let asked = Disturbance::of(&disturbance)?.scenario(&start, model, run.until)?;
+    let asked = Disturbance::of(&disturbance, None)?.scenario(&start, model, run.until)?;
     let scenario = Scenario { tolerance, ..asked };
     scenario.validate().map_err(|error| explain(&error, &start, &disturbance))?;
     Ok(scenario)

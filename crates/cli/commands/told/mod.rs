@@ -13,6 +13,7 @@ pub(in crate::commands) use run::{of_lines, of_run};
 
 use crate::made::{Document, Made};
 use std::fmt::Write;
+use stickslip_documents::{Dimension, InUnits, KnownScales};
 
 /// What a person is told of a result.
 #[derive(Debug, Default)]
@@ -43,6 +44,18 @@ impl Told {
             Some(value) => self.row(name, value),
             None => self,
         }
+    }
+
+    /// Each value with its unit in nm, s and nN beside the model's, where the document has these.
+    #[must_use]
+    pub(crate) fn in_units(mut self, physical: Option<&InUnits>) -> Self {
+        let Some(InUnits { scales, .. }) = physical else { return self };
+        for (_, value) in &mut self.rows {
+            if let Some(beside) = in_units(value, scales) {
+                value.push_str(&beside);
+            }
+        }
+        self
     }
 
     /// What a reader should know.
@@ -116,6 +129,16 @@ fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
 fn quoted(word: String) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
+}
+
+/// ` = 212 nm` of `7.067(2) σ`, with as many digits.
+fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
+    let (number, unit) = value.rsplit_once(' ')?;
+    let dimension = Dimension::of_unit(unit)?;
+    let number = number.split('(').next()?;
+    let count = number.chars().filter(char::is_ascii_digit).count();
+    let converted = number.parse::<f64>().ok()? * dimension.factor(scales)?;
+    Some(format!(" = {} {}", digits(converted, count.max(3)), dimension.unit()))
 }
 
 /// With so many digits that count, as few as it needs.

@@ -2,7 +2,7 @@
 
 use super::RasterParameters;
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{DifferenceDocument, FORMAT_VERSION, GridName, GridWork, Software};
+use crate::{DifferenceDocument, FORMAT_VERSION, GridName, GridWork, InUnits, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
@@ -26,9 +26,9 @@ pub struct RasterCompareDocument {
     pub x: Vec<f64>,
     /// The rows, one at the y of every line, ascending, in σ.
     pub y: Vec<f64>,
-    /// Heights by the closed equation: a row for each y.
+    /// Heights by the closed equation, in kσ²/a: a row for each y.
     pub closed_u: Vec<Vec<f64>>,
-    /// Heights of the cells.
+    /// Heights of the cells, in kσ²/a.
     pub grid_u: Vec<Vec<f64>>,
     /// How far they are apart.
     pub max_difference: DifferenceDocument,
@@ -38,6 +38,9 @@ pub struct RasterCompareDocument {
     pub grid_work: GridWork,
     /// Seconds of the grid over seconds of the closed equation. It differs from run to run, as `seconds` do.
     pub speedup: f64,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 /// What was asked for.
@@ -129,6 +132,7 @@ impl RasterCompareDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters: RasterCompareParameters {
                 raster,
                 grid: name,
@@ -188,5 +192,9 @@ impl Tabular for RasterCompareDocument {
             ("grid_u", Array::matrix(&self.grid_u)),
         ]);
         arrays
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{RasterDocument, RasterParameters};
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, Software, Unusable};
+use crate::{FORMAT_VERSION, InUnits, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, Path, Plan, Scanned};
@@ -21,6 +21,9 @@ pub struct RasterSurfaceDocument {
     pub parameters: RasterParameters,
     /// One surface, after the last line.
     pub surfaces: Vec<HeightMap>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 /// u(x,y).
@@ -55,6 +58,7 @@ impl RasterSurfaceDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters: raster.parameters.clone(),
             surfaces: vec![raster.heights(x, y)?],
         })
@@ -124,5 +128,9 @@ impl Tabular for RasterSurfaceDocument {
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let Some(HeightMap { x, y, u }) = self.surfaces.first() else { return vec![] };
         vec![("x", Array::vector(x)), ("y", Array::vector(y)), ("u", Array::matrix(u))]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -18,7 +18,7 @@ pub use pattern::{PatternDocument, RasterRegimeName};
 pub use sweep::{RasterSweepDocument, RasterSweepParameters, RasterSweepPoint};
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, Software, Unusable};
+use crate::{FORMAT_VERSION, InUnits, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, pattern, volume};
@@ -50,6 +50,9 @@ pub struct RasterDocument {
     pub remarks: Vec<String>,
     /// What it took.
     pub work: RasterWork,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 /// Counts over all lines, which depend on the input alone.
@@ -91,6 +94,7 @@ impl RasterDocument {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
             software: Software::this(),
+            physical: None,
             parameters,
             lines: lines_told,
             regime: regime.into(),
@@ -169,5 +173,9 @@ impl Tabular for RasterDocument {
         }
         arrays.extend(self.history.arrays());
         arrays
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{PathName, RasterRegimeName};
 use crate::table::{Column, Named, Tabular};
-use crate::{PatternDocument, ShardDocument, Software, TipDocument};
+use crate::{InUnits, PatternDocument, ShardDocument, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
@@ -27,6 +27,9 @@ pub struct RasterSweepDocument {
     /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
     #[serde(default)]
     pub crc32: Option<u32>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
 }
 
 impl RasterSweepDocument {
@@ -157,5 +160,9 @@ impl Tabular for RasterSweepDocument {
             ("defects", pattern(|p| p.defects as f64)),
             ("stuck_lines", of(|point| point.stuck_lines.map(|lines| lines as f64))),
         ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
     }
 }

@@ -62,7 +62,7 @@ impl Drawn for BoundaryDocument {
 ///
 /// # Errors
 /// None of the points of the boundary has a criticality.
-pub fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
+pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
     let title = format!("What is born at the boundary, {}", law_name(&any(document)));
     let mut figure = FigureDocument::new("criticality", &title, models(document));
     let slopes = &document.onset.amplitude_squared_slope;

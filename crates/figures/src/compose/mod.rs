@@ -7,6 +7,7 @@ mod cycle;
 mod dense;
 mod drawn;
 mod fit;
+mod in_units;
 mod labels;
 mod measured_tip;
 mod raster;
@@ -21,6 +22,7 @@ mod tip;
 mod walking;
 
 use crate::error::FigureError;
+use in_units::{asked_of, in_units};
 use serde::Serialize;
 use std::io::Read;
 use stickslip_documents::{
@@ -31,15 +33,27 @@ use stickslip_documents::{
     Unusable, WalkingDocument, read_from, told,
 };
 
-pub use boundary::onset_of;
 pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
 
-/// The figure of a document.
+/// The figure of a document; in nm, s and nN where the view or the document has the scales of an experiment. Ranges are
+/// in the units drawn.
 ///
 /// # Errors
 /// The document is damaged, or holds nothing that could be drawn.
 pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
+    let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
+    let Some(scales) = known else { return shown(document, view) };
+    let mut view = *view;
+    if view.x_range.or(view.y_range).is_some() {
+        let whole = shown(document, &View::default())?;
+        view = whole.panels.first().map_or(view, |first| asked_of(first, &scales, &view));
+    }
+    Ok(in_units(shown(document, &view)?, &scales))
+}
+
+/// The figure in the model's own units.
+fn shown<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
     let mut figure = document.figure(view)?;
     figure.panels.iter().try_for_each(judge)?;
     let Some(first) = figure.panels.first() else {
@@ -173,6 +187,19 @@ impl Taker for Boxed {
     fn take<D: Drawn + 'static>(self, document: D) -> Box<dyn Drawn> {
         Box::new(document)
     }
+}
+
+/// What is born along a boundary; in units where the view or the document has the scales of an experiment.
+///
+/// # Errors
+/// The document is damaged, or no onset is known along it.
+pub fn onset_of(document: &BoundaryDocument, view: &View) -> Result<FigureDocument, FigureError> {
+    let figure = boundary::onset_of(document)?;
+    let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
+    Ok(match known {
+        Some(scales) => in_units(figure, &scales),
+        None => figure,
+    })
 }
 
 impl Drawn for FigureDocument {

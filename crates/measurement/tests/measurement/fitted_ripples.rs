@@ -161,9 +161,9 @@ fn a_wrong_law_is_noticed() {
 fn rows_far_off_count_less_where_asked_for() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let truth = Truth { alpha: 1.25, r: 1.0, width: 25.0, depth_limit: None };
-    let mut track = truth.track(400, 0.01, 0.02, &mut random);
+    let mut track = truth.track(160, 0.01, 0.02, &mut random);
     let height = track.y.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    for i in (20..400).step_by(37) {
+    for i in (20..160).step_by(29) {
         track.y[i] += 3.0 * height;
     }
     let data = [Data::Ripple(track)];

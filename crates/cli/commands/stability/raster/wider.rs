@@ -1,13 +1,14 @@
 //! `stickslip stability --pitch` under the wider law.
 
 use super::growth_of;
+use super::scales_of;
 use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
 use crate::commands::job::Job;
 use crate::commands::model::{tip, wide_model, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    ModelParameters, PathName, RasterStabilityDocument, RasterStabilityParameters,
+    ModelParameters, PathName, Physical, RasterStabilityDocument, RasterStabilityParameters,
 };
 use stickslip_stability::{RasterCritical, StabilityError, WiderRaster};
 use stickslip_tip::{Model, Wider};
@@ -31,6 +32,7 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let at = (r, pitch);
     let left = left(arguments, &law, r)?;
     let raster = WiderRaster::new(&footprint, law, at, left).map_err(|error| refused(error, at))?;
+    let scales = scales_of(arguments)?;
     let job = Job::open::<RasterStabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let critical = raster.critical();
     let given = &arguments.model;
@@ -53,13 +55,14 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         length: arguments.length,
         at_critical_point: !is_given,
     };
-    job.finish(RasterStabilityDocument::new(
+    let document = RasterStabilityDocument::new(
         parameters,
         critical.as_ref().ok(),
         is_given.then_some(stable),
         is_given.then(growth),
         none.into_iter().collect(),
-    ))
+    );
+    job.finish(document.in_units(scales.as_ref()))
 }
 
 /// What is left of a groove after another line.

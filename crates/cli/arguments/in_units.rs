@@ -1,0 +1,41 @@
+//! What a result is told in beside the dimensionless numbers: the scales of an experiment.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Options of every command whose result may be told in nm, s and nN.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Physical units")]
+pub(crate) struct InUnitsArguments {
+    /// Tell the result in nm, s and nN too, by a document of `stickslip units`, `tip` or `fit`, or by one that was told so;
+    /// its α and r do not matter.
+    ///
+    /// Tables and pictures are in these units, their columns and axes named so (x0_nm); in a JSON document `physical` has
+    /// them beside the dimensionless numbers.
+    #[arg(
+        long,
+        value_name = "UNITS.json",
+        conflicts_with_all = ["sigma", "stiffness", "damping", "velocity", "slope_force"]
+    )]
+    pub(crate) units: Option<PathBuf>,
+
+    /// Width σ of the tip, such as 30nm: lengths are told in nm. Left out, that of a --tip-file which `stickslip tip` wrote.
+    #[arg(long, value_name = "σ", visible_alias = "tip-width", allow_hyphen_values = true)]
+    pub(crate) sigma: Option<String>,
+
+    /// Spring constant k, such as 0.2N/m: with σ forces are told in nN.
+    #[arg(long, value_name = "k", allow_hyphen_values = true)]
+    pub(crate) stiffness: Option<String>,
+
+    /// Friction Γ of the tip, such as 3mNs/m: with k times are told in s.
+    #[arg(long, value_name = "Γ", allow_hyphen_values = true)]
+    pub(crate) damping: Option<String>,
+
+    /// Velocity v0 of the support, such as 1um/s: with σ and r times are told in s, in place of Γ.
+    #[arg(long, value_name = "v0", allow_hyphen_values = true)]
+    pub(crate) velocity: Option<String>,
+
+    /// Force a per slope of the surface, such as 5nN: with k and σ heights are told in nm.
+    #[arg(long, value_name = "a", allow_hyphen_values = true)]
+    pub(crate) slope_force: Option<String>,
+}

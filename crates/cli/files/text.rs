@@ -1,0 +1,64 @@
+//! Text that users give, or that a host supplies, as long as it is not too long.
+
+use crate::failure::Failure;
+use crate::host;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Measured series are small; this is a million rows and more.
+pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
+/// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
+pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
+    let text = if let Some(bytes) = host::bytes(path) {
+        text_of(&*bytes, most)
+    } else if path == Path::new("-") {
+        text_of(io::stdin().lock(), most)
+    } else {
+        File::open(path).map_err(unreadable).and_then(|file| text_of(file, most))
+    };
+    text.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+fn text_of(reader: impl Read, most: u64) -> Result<String, String> {
+    let mut text = String::new();
+    match reader.take(most + 1).read_to_string(&mut text) {
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Err("cannot be read: it is no text in UTF-8".into())
+        }
+        Err(error) => Err(unreadable(error)),
+        Ok(_) if text.len() as u64 > most => {
+            Err(format!("larger than {} MB, the most that is read", most >> 20))
+        }
+        Ok(_) => Ok(text),
+    }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "what map_err hands over")]
+pub(super) fn unreadable(error: io::Error) -> String {
+    format!("cannot be read: {error}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file one byte too long is refused, one of just the length is read; more is never asked for.
+    #[test]
+    fn no_more_is_read_than_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, "0,1\n2,3\n").unwrap();
+        assert_eq!(read_text("--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
+        let refused = read_text("--force-file", &path, 7).unwrap_err();
+        assert!(refused.to_string().contains("larger than"), "{refused}");
+    }
+
+    /// It would not come back.
+    #[cfg(unix)]
+    #[test]
+    fn a_device_without_end_is_refused() {
+        let endless = read_text("--force-file", Path::new("/dev/zero"), 1 << 20).unwrap_err();
+        assert!(endless.to_string().contains("larger than"), "{endless}");
+    }
+}

@@ -1,0 +1,110 @@
+//! What a dimensionless number is a multiple of.
+
+use super::KnownScales;
+
+/// Nanometres in a metre, nanonewtons in a newton.
+const NANO: f64 = 1e9;
+
+/// Powers of σ, Γ/k, kσ²/a and kσ, the model's units of length, time, height and force. Heights are lengths, but in a
+/// unit of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dimension {
+    length: i32,
+    time: i32,
+    height: i32,
+    force: i32,
+}
+
+const fn of(length: i32, time: i32, height: i32, force: i32) -> Dimension {
+    Dimension { length, time, height, force }
+}
+
+impl Dimension {
+    pub(super) const LENGTH: Self = of(1, 0, 0, 0);
+    pub(super) const TIME: Self = of(0, 1, 0, 0);
+    pub(super) const HEIGHT: Self = of(0, 0, 1, 0);
+    pub(crate) const FORCE: Self = of(0, 0, 0, 1);
+    pub(super) const VELOCITY: Self = of(1, -1, 0, 0);
+    pub(super) const RATE: Self = of(0, -1, 0, 0);
+    pub(super) const WAVE_NUMBER: Self = of(-1, 0, 0, 0);
+    pub(super) const AREA: Self = of(2, 0, 0, 0);
+    pub(super) const WORK: Self = of(1, 0, 0, 1);
+    pub(super) const VOLUME: Self = of(2, 0, 1, 0);
+    pub(super) const LYAPUNOV: Self = of(-2, -1, 0, 0);
+    /// Γ²/k is (kσ) (Γ/k)²/σ.
+    pub(super) const INERTIA: Self = of(-1, 2, 0, 1);
+    /// αs are rates of indentation: N is α in units of (kσ²/a)/(Γ/k).
+    pub(super) const INDENTATION: Self = of(0, -1, 1, 0);
+
+    /// Of a unit as labels and descriptions write it, such as `kσ²/a`.
+    pub fn of_unit(unit: &str) -> Option<Self> {
+        Some(match unit {
+            "σ" => Self::LENGTH,
+            "Γ/k" => Self::TIME,
+            "kσ²/a" => Self::HEIGHT,
+            "kσ" => Self::FORCE,
+            "kσ/Γ" => Self::VELOCITY,
+            "k/Γ" => Self::RATE,
+            "1/σ" => Self::WAVE_NUMBER,
+            "σ²" => Self::AREA,
+            "σ⁻²" => of(-2, 0, 0, 0),
+            "kσ²" => Self::WORK,
+            "kσ⁴/a" => Self::VOLUME,
+            "k/(Γσ²)" => Self::LYAPUNOV,
+            "Γ²/k" => Self::INERTIA,
+            _ => return None,
+        })
+    }
+
+    /// One of the model's unit in nm, s and nN; `None` where a scale that it needs is not known.
+    pub fn factor(self, scales: &KnownScales) -> Option<f64> {
+        let KnownScales { length, time, height, force } = *scales;
+        let parts = [
+            (self.length, length.map(|metres| metres * NANO)),
+            (self.time, time),
+            (self.height, height.map(|metres| metres * NANO)),
+            (self.force, force.map(|newtons| newtons * NANO)),
+        ];
+        let factor = parts.into_iter().filter(|(power, _)| *power != 0);
+        let factor = factor.map(|(power, scale)| scale.map(|scale| scale.powi(power)));
+        factor.product::<Option<f64>>().filter(|factor| factor.is_finite() && *factor > 0.0)
+    }
+
+    /// Powers of nm, s and nN.
+    fn powers(self) -> [(&'static str, i32); 3] {
+        [("nN", self.force), ("nm", self.length + self.height), ("s", self.time)]
+    }
+
+    /// What a name ends with that holds such a number, such as `nm_per_s`.
+    pub fn suffix(self) -> String {
+        let written = |(unit, power): (&str, i32)| match power.abs() {
+            1 => unit.to_owned(),
+            power => format!("{unit}{power}"),
+        };
+        let above = self.powers().into_iter().filter(|(_, power)| *power > 0).map(written);
+        let below = self.powers().into_iter().filter(|(_, power)| *power < 0).map(written);
+        let below = below.map(|unit| format!("per_{unit}"));
+        above.chain(below).collect::<Vec<_>>().join("_")
+    }
+
+    /// Its unit as people write it, such as `nm/s`.
+    pub fn unit(self) -> String {
+        let written = |(unit, power): (&str, i32)| match power.abs() {
+            1 => unit.to_owned(),
+            2 => format!("{unit}²"),
+            3 => format!("{unit}³"),
+            power => format!("{unit}^{power}"),
+        };
+        let part = |sign: i32| {
+            let powers = self.powers().into_iter().filter(|(_, power)| power * sign > 0);
+            powers.map(written).collect::<Vec<_>>()
+        };
+        let (above, below) = (part(1).join(" "), part(-1));
+        let above = if above.is_empty() { "1".to_owned() } else { above };
+        match below.len() {
+            0 => above,
+            1 => format!("{above}/{}", below[0]),
+            _ => format!("{above}/({})", below.join(" ")),
+        }
+    }
+}

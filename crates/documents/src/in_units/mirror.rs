@@ -1,0 +1,91 @@
+//! The numbers of a document again, in nm, s and nN.
+
+use super::names::{DIMENSIONLESS, dimension};
+use super::{Dimension, KnownScales};
+use serde_json::{Map, Number, Value};
+
+/// The part called `part`, with what has a dimension alone, under names with units.
+pub(super) fn mirror(
+    part: &str,
+    fields: &Map<String, Value>,
+    scales: &KnownScales,
+) -> Map<String, Value> {
+    let mut values = Map::new();
+    for (name, value) in fields.iter().filter(|(name, _)| !DIMENSIONLESS.contains(&&***name)) {
+        if !is_numbers(value) {
+            if let Some(below) = below(name, value, scales) {
+                values.insert(name.clone(), below);
+            }
+            continue;
+        }
+        let mut put = |name: &str, dimension: Dimension| {
+            if let Some(factor) = dimension.factor(scales) {
+                values.insert(format!("{name}_{}", dimension.suffix()), times(value, factor));
+            }
+        };
+        if let Some(dimension) = dimension(part, name) {
+            put(name, dimension);
+        }
+        if name == "lag" {
+            put("lateral_force", Dimension::FORCE);
+        }
+    }
+    values
+}
+
+/// v0 and N, where r and α are one number each.
+pub(super) fn of_parameters(
+    fields: &Map<String, Value>,
+    scales: &KnownScales,
+) -> Map<String, Value> {
+    let named = [
+        ("r", "support_velocity", Dimension::VELOCITY),
+        ("alpha", "indentation_rate", Dimension::INDENTATION),
+    ];
+    let one = |(name, called, dimension): (&str, &str, Dimension)| {
+        let value = fields.get(name)?.as_f64()? * dimension.factor(scales)?;
+        let value = Number::from_f64(value)?;
+        Some((format!("{called}_{}", dimension.suffix()), Value::Number(value)))
+    };
+    named.into_iter().filter_map(one).collect()
+}
+
+/// Of what has parts of its own; `None` where no number in it has a dimension.
+fn below(name: &str, value: &Value, scales: &KnownScales) -> Option<Value> {
+    match value {
+        Value::Object(fields) => {
+            let values = mirror(name, fields, scales);
+            (!values.is_empty()).then_some(Value::Object(values))
+        }
+        // Entries keep their places.
+        Value::Array(entries) => {
+            let of =
+                |entry: &Value| below(name, entry, scales).unwrap_or_else(|| Map::new().into());
+            let values: Vec<Value> = entries.iter().map(of).collect();
+            let is_empty = |value: &Value| value.as_object().is_some_and(Map::is_empty);
+            (!values.iter().all(is_empty)).then_some(Value::Array(values))
+        }
+        _ => None,
+    }
+}
+
+/// A number, or nothing but numbers and gaps between them.
+fn is_numbers(value: &Value) -> bool {
+    match value {
+        Value::Number(_) => true,
+        Value::Array(entries) => {
+            !entries.is_empty() && entries.iter().all(|entry| entry.is_null() || is_numbers(entry))
+        }
+        _ => false,
+    }
+}
+
+fn times(value: &Value, factor: f64) -> Value {
+    match value {
+        Value::Array(entries) => entries.iter().map(|entry| times(entry, factor)).collect(),
+        value => {
+            let product = value.as_f64().and_then(|number| Number::from_f64(number * factor));
+            product.map_or(Value::Null, Value::Number)
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Which number of a document, or column of a table, has which dimension.
+
+use super::Dimension;
+
+/// Parts of documents that stay as they are: what was asked for, what is there to compute with, what it took.
+pub(super) const DIMENSIONLESS: [&str; 7] =
+    ["parameters", "history", "work", "software", "verification", "physical", "floquet"];
+
+/// The dimension of the number, or of the numbers, called `name` in the part called `part` (empty for a column of a
+/// table); `None` where it has none.
+pub fn dimension(part: &str, name: &str) -> Option<Dimension> {
+    of_part(part, name).or_else(|| of_name(name))
+}
+
+/// Where the name alone does not tell.
+fn of_part(part: &str, name: &str) -> Option<Dimension> {
+    Some(match (part, name) {
+        ("residue", "re" | "im") => Dimension::LENGTH,
+        ("creep_roots", "re" | "im") => Dimension::WAVE_NUMBER,
+        ("loops", "work") => Dimension::WORK,
+        ("loops", "from" | "to") | ("transient", "time") => Dimension::TIME,
+        // Of the quantity that they are statistics of.
+        (_, "mean" | "least" | "median" | "largest" | "error" | "deviation") => {
+            return of_name(part);
+        }
+        _ => return None,
+    })
+}
+
+fn of_name(name: &str) -> Option<Dimension> {
+    Some(match name {
+        "x" | "x0" | "y" | "l" | "lag" | "wavelength" | "wavelength_error" | "wavelength_x"
+        | "amplitude_x0" | "amplitude_x0_error" | "deviation" | "mean_l" | "deviation_l"
+        | "memory_length" | "pitch" | "width" | "start_position" | "kick" | "noise_spacing"
+        | "residue_re" | "residue_im" | "grid" | "closed" | "grid_x0" | "closed_x0" => {
+            Dimension::LENGTH
+        }
+        "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "amplitude_u_error"
+        | "least_depth_limit" | "depth_limit" | "noise" | "grid_u" | "closed_u" => {
+            Dimension::HEIGHT
+        }
+        "t" | "period" | "period_error" | "period_slope" | "origin" | "valid_from"
+        | "healing_time" => Dimension::TIME,
+        "velocity" | "speed" | "residual" | "start_velocity" => Dimension::VELOCITY,
+        "omega" | "omega_slope" | "growth_slope" | "re" | "im" | "re_min" | "re_max" | "im_max"
+        | "largest_error" | "lambda_re" | "lambda_im" => Dimension::RATE,
+        "Omega" | "q" | "kappa" | "rate" | "attracting" | "creep_rates" => Dimension::WAVE_NUMBER,
+        "amplitude_squared_slope" => Dimension::AREA,
+        "lyapunov" => Dimension::LYAPUNOV,
+        "volume" => Dimension::VOLUME,
+        "inertia" => Dimension::INERTIA,
+        _ => return None,
+    })
+}

@@ -1,0 +1,85 @@
+//! A finished figure with its axes in nm, s and nN: what an axis is a multiple of stands in its label.
+
+use super::View;
+use stickslip_documents::{CurveDocument, Dimension, FigureDocument, KnownScales, PanelDocument};
+
+/// By what the numbers along an axis are multiplied, and its label then.
+struct Axis {
+    factor: f64,
+    label: String,
+}
+
+impl Axis {
+    fn of(label: &str, scales: &KnownScales) -> Self {
+        scaled(label, scales).unwrap_or_else(|| Self { factor: 1.0, label: label.into() })
+    }
+
+    fn one(&self, value: &mut f64) {
+        *value *= self.factor;
+    }
+
+    fn all(&self, values: &mut [f64]) {
+        values.iter_mut().for_each(|value| self.one(value));
+    }
+
+    fn some(&self, values: &mut [Option<f64>]) {
+        values.iter_mut().flatten().for_each(|value| self.one(value));
+    }
+}
+
+/// `None` of a label without a unit, or of one that the scales do not tell.
+fn scaled(label: &str, scales: &KnownScales) -> Option<Axis> {
+    let (name, unit) = label.strip_suffix(')')?.rsplit_once(" (")?;
+    let dimension = Dimension::of_unit(unit)?;
+    let label = format!("{name} ({})", dimension.unit());
+    Some(Axis { factor: dimension.factor(scales)?, label })
+}
+
+/// What is asked of a figure in units, in the model's own: of its first panel's axes.
+pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View) -> View {
+    let along = |label: &str, range: Option<[f64; 2]>| {
+        range.map(|ends| ends.map(|end| end / Axis::of(label, scales).factor))
+    };
+    View {
+        x_range: along(&panel.x_label, view.x_range),
+        y_range: along(&panel.y_label, view.y_range),
+        ..*view
+    }
+}
+
+/// The figure in nm, s and nN, as far as the scales are known.
+pub(super) fn in_units(mut figure: FigureDocument, scales: &KnownScales) -> FigureDocument {
+    figure.panels.iter_mut().for_each(|panel| convert(panel, scales));
+    figure
+}
+
+fn convert(panel: &mut PanelDocument, scales: &KnownScales) {
+    let (x, y) = (Axis::of(&panel.x_label, scales), Axis::of(&panel.y_label, scales));
+    let PanelDocument { curves, map, cells, notes, shades, .. } = panel;
+    for CurveDocument { x: abscissas, y: ordinates, low, .. } in curves {
+        x.all(abscissas);
+        y.some(ordinates);
+        low.iter_mut().for_each(|low| y.some(low));
+    }
+    if let Some(map) = map {
+        let z = Axis::of(&map.z_label, scales);
+        x.all(&mut map.x);
+        y.all(&mut map.y);
+        map.z.iter_mut().for_each(|row| z.all(row));
+        map.z_range.iter_mut().for_each(|range| z.all(range));
+        map.z_label = z.label;
+    }
+    if let Some(cells) = cells {
+        x.all(&mut cells.x);
+        y.all(&mut cells.y);
+    }
+    for note in notes {
+        x.one(&mut note.x);
+        y.one(&mut note.y);
+    }
+    shades.iter_mut().for_each(|shade| x.all(shade));
+    panel.x_range.iter_mut().for_each(|range| x.all(range));
+    panel.y_range.iter_mut().for_each(|range| y.all(range));
+    panel.natural.iter_mut().for_each(|natural| y.one(natural));
+    (panel.x_label, panel.y_label) = (x.label, y.label);
+}

@@ -1,0 +1,51 @@
+//! Is it told what the noise of a raw table does to αc? Judged by αc of the footprint that was put in.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use stickslip_measurement::{Verdict, judge};
+use stickslip_stability::critical;
+use stickslip_tip::TipFunction;
+
+/// Relative errors of αc that are told, and from which on a table is refused.
+const TOLD: f64 = 0.02;
+const REFUSED: f64 = 0.1;
+
+/// A Gaussian in this many rows, each off by up to `noise`, the last one 0.
+fn table(rows: u32, noise: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
+    let x: Vec<f64> = (0..rows).map(|i| 8.0 * f64::from(i) / f64::from(rows - 1)).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut more = || noise * random.random_range(-1.0..=1.0);
+    let mut f: Vec<f64> = x.iter().map(|x| (-0.5 * x * x).exp() + more()).collect();
+    f[rows as usize - 1] = 0.0;
+    (x, f)
+}
+
+/// αc(1) of the Gaussian is 1.879427, DESIGN's reference value to 30 digits.
+#[test]
+fn noise_that_decides_is_seen_whenever_it_does() {
+    let (mut decided, mut sound) = (0, 0);
+    for (i, rows) in [20, 40, 60, 120, 200].into_iter().cycle().take(28).enumerate() {
+        let noise = [0.0, 1e-3, 0.02, 0.03][i % 4];
+        let (x, f) = table(rows, noise, i as u64);
+        let tip = TipFunction::table(&x, &f).unwrap();
+        let off = (critical(&tip, 1.0).unwrap().alpha / 1.879_427).ln().abs();
+        let verdict = judge((&x, &f), &tip);
+        match verdict {
+            Verdict::Sound => assert!(off < 2.0 * TOLD, "{rows} {noise}: off by {off}"),
+            Verdict::Felt { .. } => assert!(off < 1.2 * REFUSED, "{rows} {noise}: {off}"),
+            Verdict::Decided { fitted, .. } => {
+                let fitted = fitted.unwrap();
+                assert!((fitted / 1.879_427 - 1.0).abs() < REFUSED, "{rows} {noise}: {fitted}");
+            }
+            Verdict::Few { .. } => panic!("{rows} rows"),
+        }
+        decided += usize::from(matches!(verdict, Verdict::Decided { .. }));
+        sound += usize::from(verdict == Verdict::Sound);
+        assert!(noise > 0.0 || verdict == Verdict::Sound, "{rows}: {verdict:?}");
+    }
+    assert!(decided >= 5 && sound >= 10, "{decided} {sound}");
+    let (x, f) = table(12, 0.0, 0);
+    let few = judge((&x, &f), &TipFunction::table(&x, &f).unwrap());
+    assert_eq!(few, Verdict::Few { rows: 12 });
+}

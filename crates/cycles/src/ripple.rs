@@ -142,9 +142,9 @@ impl Waves {
 
     fn sum(&self, weights: &[f64; LANES]) -> Complex<f64> {
         let (mut re, mut im) = (0.0, 0.0);
-        for i in 0..LANES {
-            re += weights[i] * self.re[i];
-            im += weights[i] * self.im[i];
+        for (i, weight) in weights.iter().enumerate() {
+            re += weight * self.re[i];
+            im += weight * self.im[i];
         }
         Complex::new(re, im)
     }

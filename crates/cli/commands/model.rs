@@ -19,29 +19,6 @@ pub(crate) fn dragged_model(arguments: &ModelArguments) -> Result<Model, Failure
     wide_model(arguments)
 }
 
-/// Refuses the options of the wider law.
-pub(crate) fn only_papers(
-    tip: &TipArguments,
-    wider: &WiderArguments,
-    command: &str,
-) -> Result<(), Failure> {
-    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *wider;
-    let given = [
-        ("--depth-limit", depth_limit),
-        ("--healing-time", healing_time),
-        ("--inertia", inertia),
-        ("--no-spring", no_spring.then_some(0.0)),
-        ("--tip cosine", (tip.tip == Some(TipName::Cosine)).then_some(0.0)),
-    ];
-    match given.into_iter().find(|(_, value)| value.is_some()) {
-        None => Ok(()),
-        Some((option, _)) => Err(Failure::input(
-            option,
-            format!("`{command}` knows the paper's law only: leave it out"),
-        )),
-    }
-}
-
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
     if wider.no_spring {

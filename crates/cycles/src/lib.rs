@@ -251,8 +251,7 @@ impl Cycle {
 
     /// In the unit of [`solve::MOST_WORK`].
     fn work(&self) -> f64 {
-        let state = self.closed.equation.state_len() as f64;
-        (self.iterations() * self.steps()) as f64 * state * state
+        self.closed.equation.work((self.iterations() * self.steps()) as f64)
     }
 
     /// Linearisations that it took.

@@ -4,6 +4,7 @@ use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
+use stickslip_tip::exponential::exponentials as fill;
 use stickslip_tip::memory::{Fit, Term};
 use stickslip_tip::stop;
 
@@ -12,6 +13,8 @@ pub(super) struct Past<'a> {
     terms: &'a [Term],
     /// `e^{s_j d_i}` by step and term.
     exponentials: Vec<[Complex<f64>; STAGES]>,
+    /// `e^{-s_j d_i}`
+    inverses: Vec<[Complex<f64>; STAGES]>,
     /// `ζ_j` by step, the end of the last included, and term.
     zeta: Vec<Complex<f64>>,
     /// What is left of it at the nodes of each step.
@@ -24,6 +27,8 @@ pub(super) struct PastOfStep<'a> {
     pub(super) terms: &'a [Term],
     /// `e^{s_j d_i}`
     pub(super) exponentials: &'a [[Complex<f64>; STAGES]],
+    /// `e^{-s_j d_i}`
+    pub(super) inverses: &'a [[Complex<f64>; STAGES]],
     /// ζ where the step starts.
     pub(super) zeta: &'a [Complex<f64>],
     /// ζ where it ends.
@@ -38,20 +43,26 @@ impl<'a> Past<'a> {
     /// Over a step ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
     pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
         let terms = fit.terms();
-        let (mut exponentials, mut spent) = (vec![], vec![]);
+        let count = orbit.stages.len() * terms.len();
+        let (mut exponentials, mut inverses) =
+            (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut spent = Vec::with_capacity(count);
         for (d, carved) in orbit.stages.iter().zip(carved) {
             if stop::is_asked() {
                 return None;
             }
             let stays = carved.weighted()[STAGES - 1];
-            for term in terms {
-                let e = d.map(|d| (term.exponent * d).exp());
-                spent.push(term.weight * spent_in(&e, &stays) * carved.times);
-                exponentials.push(e);
+            let from = inverses.len();
+            let exponents = terms.iter().map(|term| term.exponent);
+            fill(exponents, d, &mut exponentials, &mut inverses);
+            for (term, inverse) in terms.iter().zip(&inverses[from..]) {
+                spent.push(term.weight * spent_in(inverse, &stays) * carved.times);
             }
         }
         let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
-        let mut past = Self { terms, exponentials, zeta: vec![Complex::ZERO; terms.len()], left };
+        let mut zeta = Vec::with_capacity(count + terms.len());
+        zeta.resize(terms.len(), Complex::ZERO);
+        let mut past = Self { terms, exponentials, inverses, zeta, left };
         past.follow(&spent);
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
         let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
@@ -59,7 +70,9 @@ impl<'a> Past<'a> {
         let settled = |(added, term): (&Complex<f64>, &Term)| {
             added / (1.0 - (term.exponent * moved).exp() * kept)
         };
-        past.zeta = added.iter().zip(terms).map(settled).collect();
+        let start: Vec<_> = added.iter().zip(terms).map(settled).collect();
+        past.zeta.clear();
+        past.zeta.extend(start);
         past.follow(&spent);
         Some(past)
     }
@@ -77,6 +90,7 @@ impl<'a> Past<'a> {
         PastOfStep {
             terms: self.terms,
             exponentials: &self.exponentials[of(n)],
+            inverses: &self.inverses[of(n)],
             zeta: &self.zeta[of(n)],
             after: &self.zeta[of(n + 1)],
             left: &self.left[n],
@@ -85,8 +99,8 @@ impl<'a> Past<'a> {
 }
 
 /// `Σ_k b_k e^{-s d_k}`
-fn spent_in(e: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
-    e.iter().zip(b).map(|(e, b)| e.inv() * *b).sum()
+fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
+    inverse.iter().zip(b).map(|(e, b)| e * *b).sum()
 }
 
 impl PastOfStep<'_> {

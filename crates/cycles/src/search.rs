@@ -4,7 +4,7 @@ use super::asked::{dragged, embedding, judge};
 use super::embedding::Embedding;
 use super::orbit::{Orbit, Profile};
 use super::solve::{Condition, MOST_WORK, NotClosed, close};
-use super::start::{from_onset, from_runs, part, small_cycle_exists};
+use super::start::{from_onset, from_run, part, small_cycle_exists};
 use super::steady::SteadyMotion;
 use super::{Continuation, End};
 use super::{Cycle, CycleError, Ended, Tried};
@@ -149,7 +149,7 @@ const MOST_COARSE: usize = 3;
 struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
-    /// The longest run, if one was needed.
+    /// The run, if one was needed.
     ended: Option<Tried>,
     /// There is a cycle, but none to the residual asked for.
     coarse: Option<CycleError>,
@@ -189,7 +189,7 @@ impl Search {
         if !small.is_some_and(&mut take) {
             let width = equation.as_ref().map_or(model.tip().widths(1.0), Embedding::width);
             let period = critical.map_or(0.0, |at| at.period);
-            found.ended = from_runs(model, (width, period), take)?;
+            found.ended = Some(from_run(model, (width, period), take)?);
         }
         unless_stopped(Self { coarse, ..found })
     }

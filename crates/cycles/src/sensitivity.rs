@@ -1,5 +1,6 @@
 //! How quantities along the orbit depend on its unknowns: rows of derivatives.
 
+use multiversion::multiversion;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
@@ -77,38 +78,15 @@ impl Sensitivity {
 
     /// One row per stage: `Σ_j factors[j][k]` times row j of these.
     pub(super) fn contracted(&self, factors: &[Stages]) -> Self {
-        let stride = self.stride();
         let mut stages = Self::zeros(STAGES, self.columns);
-        for column in (0..stride).step_by(LANES) {
-            let mut sums = [[0.0; LANES]; STAGES];
-            for (factors, row) in factors.iter().zip(self.entries.chunks_exact(stride)) {
-                let row: [f64; LANES] = std::array::from_fn(|c| row[column + c]);
-                for (sum, factor) in sums.iter_mut().zip(factors) {
-                    (0..LANES).for_each(|c| sum[c] += factor * row[c]);
-                }
-            }
-            for (to, sum) in stages.entries.chunks_exact_mut(stride).zip(&sums) {
-                to[column..column + LANES].copy_from_slice(sum);
-            }
-        }
+        contract(&self.entries, self.stride(), factors, &mut stages.entries);
         stages
     }
 
     /// Adds `Σ_k factors[j][k]` times the row of stage k to each row j.
     pub(super) fn add_expanded(&mut self, factors: &[Stages], stages: &Self) {
         let stride = self.stride();
-        for column in (0..stride).step_by(LANES) {
-            let stage = |k: usize, c: usize| stages.entries[k * stride + column + c];
-            let block: [[f64; LANES]; STAGES] =
-                std::array::from_fn(|k| std::array::from_fn(|c| stage(k, c)));
-            for (factors, row) in factors.iter().zip(self.entries.chunks_exact_mut(stride)) {
-                let mut sum = [0.0; LANES];
-                for (factor, stage) in factors.iter().zip(&block) {
-                    (0..LANES).for_each(|c| sum[c] += factor * stage[c]);
-                }
-                (0..LANES).for_each(|c| row[column + c] += sum[c]);
-            }
-        }
+        expand(&stages.entries, stride, factors, &mut self.entries);
     }
 
     /// Multiplies rows that are the real and imaginary part of one quantity.
@@ -124,5 +102,52 @@ impl Sensitivity {
     /// Row i times the changes of the unknowns, 1 for the correction.
     pub(super) fn change(&self, i: usize, unknowns: &[f64]) -> f64 {
         self.row(i).iter().zip(unknowns).map(|(s, u)| s * u).sum()
+    }
+}
+
+/// Row k of `sums`, of this stride, is `Σ_j factors[j][k]` times row j.
+///
+/// Compiled for wider vectors too: lanes and the order of sums are the same.
+#[multiversion(targets("x86_64+avx2"))]
+fn contract(rows: &[f64], stride: usize, factors: &[Stages], into: &mut [f64]) {
+    for column in (0..stride).step_by(LANES) {
+        let mut sums = [[0.0; LANES]; STAGES];
+        for (factors, row) in factors.iter().zip(rows.chunks_exact(stride)) {
+            let row: &[f64; LANES] = row[column..].first_chunk().expect("strides are whole lanes");
+            for (sum, factor) in sums.iter_mut().zip(factors) {
+                for c in 0..LANES {
+                    sum[c] += factor * row[c];
+                }
+            }
+        }
+        for (to, sum) in into.chunks_exact_mut(stride).zip(&sums) {
+            to[column..column + LANES].copy_from_slice(sum);
+        }
+    }
+}
+
+/// Adds `Σ_k factors[j][k]` times row k of the stages to each row j.
+///
+/// Compiled for wider vectors too: lanes and the order of sums are the same.
+#[multiversion(targets("x86_64+avx2"))]
+fn expand(stages: &[f64], stride: usize, factors: &[Stages], rows: &mut [f64]) {
+    for column in (0..stride).step_by(LANES) {
+        let mut block = [[0.0; LANES]; STAGES];
+        for (block, stage) in block.iter_mut().zip(stages.chunks_exact(stride)) {
+            block.copy_from_slice(&stage[column..column + LANES]);
+        }
+        for (factors, row) in factors.iter().zip(rows.chunks_exact_mut(stride)) {
+            let mut sum = [0.0; LANES];
+            for (factor, stage) in factors.iter().zip(&block) {
+                for c in 0..LANES {
+                    sum[c] += factor * stage[c];
+                }
+            }
+            let row: &mut [f64; LANES] =
+                row[column..].first_chunk_mut().expect("strides are whole lanes");
+            for c in 0..LANES {
+                row[c] += sum[c];
+            }
+        }
     }
 }

@@ -70,6 +70,12 @@ const LONGEST_CORRECTION: f64 = 1.0;
 const LARGEST_CHANGE_OF_PERIOD: f64 = 0.2;
 /// And no height by more than this, over the depth limit: w depends on them as an exponential does.
 const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
+/// A guess is given up after so many corrections in turn that hardly change and are longer than all that are left together.
+const TOO_FAR: usize = 3;
+/// Corrections below this that are no smaller part of the last show that the rough sum does not do: motions that amplify
+/// deviations amplify its errors.
+const SLOW: f64 = 0.1;
+const NEAR: f64 = 1e-3;
 
 /// The cycle near a guess.
 pub(super) fn close(
@@ -83,22 +89,24 @@ pub(super) fn close(
     }
     orbit.take_heights(&equation).ok_or(NotClosed::Lost)?;
     let (short, fine) = (Arc::clone(&equation.short), Arc::clone(&equation.fine));
+    // The mesh is found with the short sum, if it is good enough and any shorter, and the solution on it with the fine one.
+    let is_shorter = short.terms().len() < fine.terms().len();
+    let first = if equation.short_is_precise && is_shorter { &short } else { &fine };
+    equation.short = Arc::clone(&equation.rough);
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
-    let state = equation.state_len() as f64;
     let meshes = if equation.wider.is_papers() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
     let mut short_of_it = 0;
     for _ in 0..meshes {
-        // The mesh is found with the short sum, if it is good enough, and the solution on it with the fine one.
-        let first = if equation.short_is_precise { &short } else { &fine };
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
-            let mut newton = Newton { equation: &mut equation, orbit: &mut orbit, condition };
-            let (linearisation, count) = newton.solve(solved, enough)?;
+            let (e, o) = (&mut equation, &mut orbit);
+            let mut newton = Newton { equation: e, orbit: o, condition, precise: &short };
+            let Converged { stiffness, count, size } = newton.solve(solved, enough)?;
             iterations += count;
-            work += (count * orbit.stages.len()) as f64 * state * state;
+            work += equation.work((count * orbit.stages.len()) as f64);
             if work > MOST_WORK || stop::is_asked() {
                 return Err(NotClosed::Lost);
             }
-            let residuals = residuals(&orbit, &linearisation.stiffness);
+            let residuals = residuals(&orbit, &stiffness);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             reached = residual;
             let corners = orbit.corners(equation.r);
@@ -116,8 +124,11 @@ pub(super) fn close(
                 orbit = orbit.on_mesh(equation.r, mesh);
                 break;
             }
-            if enough <= ENOUGH {
-                let linearisation = Arc::new(linearisation);
+            if enough <= ENOUGH || (Arc::ptr_eq(first, &fine) && size <= ENOUGH) {
+                equation.short = Arc::clone(&short);
+                let linearisation = Linearisation::new(&equation, &orbit, condition.free, &fine);
+                let linearisation = Arc::new(linearisation.map_err(|_| NotClosed::Lost)?);
+                iterations += 1;
                 return Ok(Closed { equation, orbit, linearisation, residual, iterations });
             }
         }
@@ -143,24 +154,46 @@ struct Newton<'a> {
     equation: &'a mut Embedding,
     orbit: &'a mut Orbit,
     condition: Condition,
+    /// What to go by where the rough sum leads nowhere.
+    precise: &'a Arc<Fit>,
+}
+
+/// Where Newton's method ended.
+struct Converged {
+    /// About the last iterate but one, by step.
+    stiffness: Vec<f64>,
+    /// Linearisations that it took.
+    count: usize,
+    /// The last correction.
+    size: f64,
 }
 
 impl Newton<'_> {
-    /// Solves the equations in one of the sums until a correction is below `enough`. Returns the
-    /// linearisation about the last iterate but one, and how many it took.
-    fn solve(&mut self, solved: &Fit, enough: f64) -> Result<(Linearisation, usize), NotClosed> {
+    /// Solves the equations in one of the sums until a correction is below `enough`.
+    fn solve(&mut self, solved: &Fit, enough: f64) -> Result<Converged, NotClosed> {
         let free = self.condition.free;
-        let mut last = f64::INFINITY;
-        for iteration in 1..=MOST_ITERATIONS {
+        let (mut last, mut far) = (f64::INFINITY, 0);
+        for count in 1..=MOST_ITERATIONS {
             let linearisation = Linearisation::new(self.equation, self.orbit, free, solved);
             let linearisation = linearisation.map_err(|_| NotClosed::Lost)?;
             let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed::Lost)?;
             self.apply(&change)?;
             let limit = self.equation.wider.depth_limit.unwrap_or(1.0);
             let size = change.size().max(change.of_heights() / limit.max(1.0));
-            let settled = size > 0.5 * last && size < ROUND_OFF;
+            let slow = size > SLOW * last && size < NEAR;
+            let is_rough = !Arc::ptr_eq(&self.equation.short, self.precise);
+            let settled = size > 0.5 * last && size < ROUND_OFF && !is_rough;
             if size <= enough || settled {
-                return Ok((linearisation, iteration));
+                return Ok(Converged { stiffness: linearisation.stiffness, count, size });
+            }
+            if slow && is_rough {
+                self.equation.short = Arc::clone(self.precise);
+            }
+            let reach = (MOST_ITERATIONS - count) as f64 * LONGEST_CORRECTION;
+            let stays = size > 0.5 * last && size < 2.0 * last;
+            far = if stays && size > reach * self.equation.width() { far + 1 } else { 0 };
+            if far == TOO_FAR {
+                break;
             }
             last = size;
         }

@@ -60,51 +60,57 @@ pub(super) fn small_cycle_exists(equation: &Embedding, onset: &Onset) -> bool {
     above == (onset.criticality == Criticality::Supercritical)
 }
 
-/// Lengths of the runs tried, in turn; where the oscillation that is born has a longer period than
-/// [`USUAL_PERIOD`], as many times as long.
-const RUNS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
+/// When a run is looked at, from its start; where the oscillation that is born has a longer period than
+/// [`USUAL_PERIOD`], as many times as late.
+const LOOKS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
 const USUAL_PERIOD: f64 = 10.0;
-/// A run of more steps is cut off, and none follows.
+/// A run of more steps is cut off.
 const MOST_STEPS_OF_A_RUN: usize = 200_000;
 const TOLERANCE_OF_A_RUN: f64 = 1e-6;
 /// What sets the tip going, in widths.
 const KICK: f64 = 0.3;
 
-/// Offers the last period of ever longer runs until `take` is content; the last of them. The kick is in these
+/// Offers the last period of a run, the longer it lasts, until `take` is content; what was run. The kick is in these
 /// widths, and `born` the period of the oscillation that is born at onset.
-pub(super) fn from_runs(
+pub(super) fn from_run(
     model: &Model,
     (width, born): (f64, f64),
     mut take: impl FnMut(Orbit) -> bool,
-) -> Result<Option<Tried>, CycleError> {
+) -> Result<Tried, CycleError> {
     let mut scenario = Scenario::new(model.clone(), 0.0);
     scenario.kick = KICK * width;
     scenario.tolerance = TOLERANCE_OF_A_RUN;
-    let mut ended = None;
-    for length in RUNS {
-        scenario.until = scenario.start_time() + length * (born / USUAL_PERIOD).max(1.0);
-        let mut steps = 0;
-        let run = run_observed(&scenario, |_| {
-            steps += 1;
-            if steps < MOST_STEPS_OF_A_RUN {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
-        })?;
-        let cut_off = run.interrupted;
-        let trajectory = &run.trajectory;
-        // Where none is seen yet, a period may have one slip or two.
-        let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
-        let slips = repeats.map_or(1..=2, |o| o.slips..=o.slips);
-        let periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
-        let taken = periods.into_iter().any(|(from, to)| take(part(trajectory, from, to)));
-        ended = Some(Tried { scenario: scenario.clone(), run });
-        if taken || cut_off {
-            break;
+    let start = scenario.start_time();
+    let mut looks = LOOKS.map(|length| start + length * (born / USUAL_PERIOD).max(1.0)).into_iter();
+    scenario.until = looks.next_back().unwrap_or(start);
+    let mut look = looks.next().unwrap_or(f64::INFINITY);
+    let (mut steps, mut taken) = (vec![], false);
+    let run = run_observed(&scenario, |step| {
+        steps.push(*step);
+        if step.end() >= look {
+            look = looks.next().unwrap_or(f64::INFINITY);
+            let so_far = Trajectory::under(*model.wider(), scenario.support(), steps.clone());
+            taken = offer(&so_far, &mut take);
         }
+        if taken || steps.len() == MOST_STEPS_OF_A_RUN {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    })?;
+    if !taken {
+        offer(&run.trajectory, &mut take);
     }
-    Ok(ended)
+    scenario.until = scenario.until.min(run.trajectory.end());
+    Ok(Tried { scenario, run })
+}
+
+/// Whether the last period of a run is taken.
+fn offer(trajectory: &Trajectory, take: impl FnMut(Orbit) -> bool) -> bool {
+    // Where none is seen yet, a period may have one slip or two.
+    let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
+    let slips = repeats.map_or(1..=2, |o| o.slips..=o.slips);
+    let periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
+    periods.into_iter().map(|(from, to)| part(trajectory, from, to)).any(take)
 }
 
 /// Between two maxima a period apart: the highest within the period, and the one before it.

@@ -223,7 +223,7 @@ impl<'a> LinearStep<'a> {
             let (re, im) = (1 + j, 1 + modes + j);
             state.multiply_pair(re, im, e[STAGES - 1] * left);
             let weight = term.weight * e[STAGES - 1];
-            let visit = e.map(|e| weight * e.inv());
+            let visit = self.past.inverses[j].map(|e| weight * e);
             let spent =
                 |b: &Stages| -> [Complex<f64>; STAGES] { std::array::from_fn(|k| visit[k] * b[k]) };
             let stays = spent(&stays);

@@ -12,6 +12,7 @@
 //! so that θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p) with c = p Ĥ(p)/(α Q'(p)): what is to come follows
 //! from the surface as it is. The tip is held for ever if this stays positive, and slips where it reaches 0.
 
+use crate::ahead::Ahead;
 use crate::thinned::Thinned;
 use gauss_quad::legendre::GaussLegendre;
 use num_complex::Complex64;
@@ -47,6 +48,8 @@ const ADDS_UP: f64 = 0.2;
 const COARSE: f64 = 1e-3;
 /// Of an error of the position most shifts all that is ahead alike; this part of it does not.
 const DISPLACED: f64 = 0.2;
+/// Errors of the groove below this part of the velocity are not seen.
+const UNSEEN: f64 = 0.003;
 /// A coefficient is known to so many times what the velocity and the tolerance may make of it.
 const MARGIN: f64 = 10.0;
 
@@ -93,17 +96,14 @@ impl Exponentials {
         let (end, r) = (tail.end(), tail.r());
         let extension = last.extension_at_end(r);
         let at = r * end - extension;
-        let (mut positions, mut weights) = tail.residence(end);
-        positions.iter_mut().for_each(|x| *x = at - *x);
+        let (positions, weights) = tail.residence(end);
         // Those within reach of a place ahead.
-        let mut near = positions.iter().map(|x| x.abs() < reach);
-        weights.retain(|_| near.next().unwrap_or(false));
-        positions.retain(|x| x.abs() < reach);
+        let visits = positions.iter().map(|x| at - x).zip(weights);
+        let visits = visits.filter(|(x, _)| x.abs() < reach).collect();
+        let allowed = UNSEEN * tail.velocity(end).abs() / model.alpha();
+        let groove = Ahead::new(model.tip(), reach, visits, allowed);
         let push = |ahead: f64| {
-            let slope = |(x, weight): (&f64, &f64)| weight * model.tip().slope(ahead + x);
-            let felt = positions.iter().zip(&weights).filter(|(x, _)| ahead + **x < reach);
-            let carved: f64 = felt.map(slope).sum();
-            model.alpha() * carved - surface.slope_and_curvature(at + ahead).0
+            model.alpha() * groove.slope(ahead) - surface.slope_and_curvature(at + ahead).0
         };
         let largest = creep.roots.iter().map(|p| p.norm()).fold(0.0, f64::max);
         let nodes = nodes(reach, LONGEST_PANEL / model.tip().band(), 1.0 / largest);

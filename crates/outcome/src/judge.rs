@@ -5,6 +5,7 @@ use crate::linear::{Linear, Slowest};
 use crate::reference::Reference;
 use crate::sequence::Sequence;
 use crate::{Observer, Oscillation, Outcome, Prospect, Regime, Remark};
+use std::cell::OnceCell;
 use stickslip_cycles::{DEFAULT_TOLERANCE, small_cycle};
 use stickslip_stability::{Criticality, creep, onset};
 use stickslip_tip::motion::{self, Extremum};
@@ -13,6 +14,7 @@ use stickslip_tip::{InitialSurface, Scenario, Start, Step, Support, Trajectory, 
 mod extrapolated;
 mod free;
 mod remarks;
+mod steady;
 
 /// The last fifth of a run must be near steady motion for the run to count as steady.
 const STEADY_SHARE: f64 = 0.2;
@@ -34,11 +36,6 @@ const AS_FORETOLD: f64 = 0.2;
 const NOISE: f64 = 30.0;
 /// A deviation of l below this is round-off, in σ.
 const ROUND_OFF: f64 = 1e-12;
-/// Errors of steps push l away from steady motion by this part of the tolerance in a period.
-const PUSHED: f64 = 0.6;
-/// Below this part of the tolerance l is steady motion itself, where that is stable: what steps by series leave of it hovers
-/// at up to 0.24.
-const UNDISTURBED: f64 = 0.5;
 /// Multipliers closer to the unit circle than this cannot be told from it.
 const ON_THE_CIRCLE: f64 = 1e-7;
 
@@ -51,8 +48,7 @@ pub fn judge(scenario: &Scenario, surface: &InitialSurface, observer: &Observer)
     let last = observer.last().expect("a run has at least one step");
     let tail = observer.tail().expect("a run has at least one step");
     let extrema = observer.extrema();
-    // Nobody waits for what linear theory takes on a table.
-    let linear = if stop::is_asked() { Linear::Unknown } else { Linear::of(&scenario.model) };
+    let linear = OnceCell::new();
     let end = End { scenario, surface, observer, last, tail, extrema, linear };
     let mut outcome = end.outcome();
     outcome.remarks.extend(end.remarks(outcome.regime));
@@ -67,7 +63,7 @@ struct End<'a> {
     tail: Trajectory,
     /// Latest first.
     extrema: Vec<Extremum>,
-    linear: Linear,
+    linear: OnceCell<Linear>,
 }
 
 impl Outcome {
@@ -134,23 +130,6 @@ impl End<'_> {
         swings.map(|e| (e.l - steady).abs()).fold(now, f64::max)
     }
 
-    fn is_steady(&self) -> bool {
-        let (start, end) = (self.start(), self.last.end());
-        let share = self.observer.steady_since() < end - STEADY_SHARE * (end - start);
-        let deviation = self.deviation();
-        let near = deviation <= self.observer.near_steady();
-        let itself = deviation <= UNDISTURBED * self.scenario.tolerance;
-        let stable = matches!(self.linear, Linear::Stable(_));
-        let kept = self.is_kept_steady() || (stable && itself);
-        share && near && kept && !self.grows()
-    }
-
-    /// Whether steady motion is stable, and attracts by more than the errors of steps push away.
-    fn is_kept_steady(&self) -> bool {
-        let Linear::Stable(Slowest { rate, period }) = self.linear else { return false };
-        PUSHED * self.scenario.tolerance / (rate * period).min(1.0) < self.observer.near_steady()
-    }
-
     /// Whether swings above the tolerance grow.
     fn grows(&self) -> bool {
         let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
@@ -196,7 +175,7 @@ impl End<'_> {
     fn oscillates(&self) -> Option<Outcome> {
         let sequence = Sequence(&self.extrema);
         let (swing, _) = sequence.swing()?;
-        if swing <= self.scenario.tolerance && !matches!(self.linear, Linear::Unstable(_)) {
+        if swing <= self.scenario.tolerance && !matches!(self.linear(), Linear::Unstable(_)) {
             return None;
         }
         if self.is_linear() {
@@ -241,7 +220,7 @@ impl End<'_> {
         let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
         let agrees = |expected: f64| (rate / expected - 1.0).abs() < AS_FORETOLD;
         swing < self.small()
-            && match self.linear {
+            && match self.linear() {
                 Linear::Stable(slowest) => agrees(-slowest.rate),
                 Linear::Unstable(slowest) => agrees(slowest.rate),
                 Linear::Unknown => false,
@@ -285,7 +264,7 @@ impl End<'_> {
     fn beside_unstable(&self, near: &Reference) -> Outcome {
         let inside = near.measured.amplitude_x0 < near.cycle.amplitude_x0();
         let flips = near.cycle.nontrivial_multipliers().any(|m| m.re < -1.0);
-        match self.linear {
+        match self.linear() {
             Linear::Stable(_) if inside && !self.grows() => {
                 Outcome::transient(Some(Regime::Steady), None)
             }
@@ -298,7 +277,7 @@ impl End<'_> {
     /// Neither on a cycle nor stuck: on the way to steady motion or away from it.
     fn beside_steady(&self) -> Outcome {
         let (deviation, near) = (self.deviation(), self.observer.near_steady());
-        match self.linear {
+        match self.linear() {
             Linear::Stable(_) if deviation <= near.min(self.small()) && !self.is_kept_steady() => {
                 Outcome::transient(Some(Regime::Steady), None).remarked(Remark::TooCoarse)
             }

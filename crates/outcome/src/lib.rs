@@ -7,6 +7,7 @@
 //! there is none (J0 has no cycles), the changes from period to period are extrapolated. `docs/regimes.md` derives
 //! the criteria.
 
+mod ahead;
 mod creep;
 mod judge;
 mod linear;

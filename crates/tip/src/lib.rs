@@ -14,6 +14,7 @@
 //! `docs/mathematics.md` derives them again.
 
 pub mod collocation;
+pub mod exponential;
 pub mod friction;
 pub mod memory;
 pub mod motion;

@@ -19,7 +19,7 @@ impl End<'_> {
         // Near onset a cycle attracts at twice the rate at which steady motion repels or attracts, and beyond a
         // period doubling at twice that at which the old one repels.
         let (Linear::Stable(Slowest { rate, .. }) | Linear::Unstable(Slowest { rate, .. })) =
-            self.linear
+            self.linear()
         else {
             return None;
         };
@@ -36,7 +36,7 @@ impl End<'_> {
         };
         let amplitude = found.amplitude_x0;
         // Swings about stable steady motion decay, however slowly.
-        let decays = matches!(self.linear, Linear::Stable(_)) && growth < 0.0 && change > noise;
+        let decays = matches!(self.linear(), Linear::Stable(_)) && growth < 0.0 && change > noise;
         if rest > SETTLED * amplitude || decays || !self.may_be_a_cycle(amplitude) {
             return None;
         }

@@ -7,12 +7,13 @@ impl End<'_> {
         let Scenario { model, force, .. } = self.scenario;
         let mut remarks = vec![];
         let is_papers = model.wider().is_papers();
-        if let (Linear::Unstable(Slowest { rate, .. }), true) = (self.linear, self.is_undisturbed())
+        if self.is_undisturbed()
+            && let Linear::Unstable(Slowest { rate, .. }) = self.linear()
         {
             remarks.push(Remark::RoundOffGrows { rate });
         }
         match regime {
-            Regime::StickSlip if matches!(self.linear, Linear::Stable(_)) => {
+            Regime::StickSlip if matches!(self.linear(), Linear::Stable(_)) => {
                 remarks.push(Remark::SteadyToo);
             }
             Regime::StickSlip

@@ -1,0 +1,103 @@
+//! The slope that a tip has left ahead of it.
+
+use num_complex::Complex64;
+use std::sync::Arc;
+use stickslip_tip::TipFunction;
+use stickslip_tip::exponential::exponentials;
+use stickslip_tip::memory::Fit;
+
+/// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f', where one is good enough,
+/// else visit by visit.
+pub(crate) struct Ahead<'a> {
+    tip: &'a TipFunction,
+    reach: f64,
+    /// How far behind the tip visits were, and how long they lasted.
+    visits: Vec<(f64, f64)>,
+    sum: Option<Sum>,
+}
+
+/// `Σ_j Re(z_j e^{s_j ξ})`
+struct Sum {
+    fit: Arc<Fit>,
+    states: Vec<Complex64>,
+}
+
+/// No sum of exponentials is asked to be better; on tables it might be sought in vain.
+const FINEST: f64 = 1e-12;
+
+impl<'a> Ahead<'a> {
+    /// Of visits so far behind the tip, so long, within reach of a place ahead; the sum may err by as much as `allowed`.
+    pub(crate) fn new(
+        tip: &'a TipFunction,
+        reach: f64,
+        visits: Vec<(f64, f64)>,
+        allowed: f64,
+    ) -> Self {
+        let lasted: f64 = visits.iter().map(|(_, weight)| weight).sum();
+        let nearest = visits.iter().fold(0.0, |m: f64, (x, _)| m.min(*x));
+        let wanted = 10_f64.powf((allowed / lasted).log10().floor());
+        let fit = if wanted >= FINEST { Fit::cached(tip, wanted).ok() } else { None };
+        let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));
+        Self { tip, reach, visits, sum }
+    }
+
+    /// At this distance ahead.
+    pub(crate) fn slope(&self, ahead: f64) -> f64 {
+        self.sum.as_ref().map_or_else(|| self.visit_by_visit(ahead), |sum| sum.at(ahead))
+    }
+
+    fn visit_by_visit(&self, ahead: f64) -> f64 {
+        let felt = self.visits.iter().filter(|(x, _)| ahead + *x < self.reach);
+        felt.map(|(x, weight)| weight * self.tip.slope(ahead + x)).sum()
+    }
+}
+
+impl Sum {
+    fn new(fit: Arc<Fit>, visits: &[(f64, f64)]) -> Self {
+        let mut states: Vec<_> = fit.terms().iter().map(|_| Complex64::ZERO).collect();
+        let (mut e, mut inverse) = (vec![], vec![]);
+        for (x, weight) in visits {
+            e.clear();
+            inverse.clear();
+            exponentials(fit.terms().iter().map(|t| t.exponent), &[*x], &mut e, &mut inverse);
+            states.iter_mut().zip(&e).for_each(|(state, [e])| *state += e * *weight);
+        }
+        states.iter_mut().zip(fit.terms()).for_each(|(state, term)| *state *= term.weight);
+        Self { fit, states }
+    }
+
+    fn at(&self, ahead: f64) -> f64 {
+        let (mut e, mut inverse) = (vec![], vec![]);
+        let exponents = self.fit.terms().iter().map(|term| term.exponent);
+        exponentials(exponents, &[ahead], &mut e, &mut inverse);
+        self.states.iter().zip(&e).map(|(state, [e])| (state * e).re).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum of exponentials beside the definition, visit by visit.
+    #[test]
+    fn the_sum_of_exponentials_is_the_sum_over_visits() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let reach = tip.reach().unwrap();
+        let visits: Vec<_> =
+            (0..200).map(|i| (0.04 * f64::from(i), 1.0 + f64::from(i).sin())).collect();
+        let lasted: f64 = visits.iter().map(|v| v.1).sum();
+        for allowed in [1e-3, 1e-6, 1e-8] {
+            let ahead = Ahead::new(&tip, reach, visits.clone(), allowed);
+            assert!(ahead.sum.is_some());
+            for i in 0..50 {
+                let at = 0.2 * f64::from(i);
+                let off = (ahead.slope(at) - ahead.visit_by_visit(at)).abs();
+                assert!(off <= allowed, "{off:e} at {at}, allowed {allowed:e}");
+            }
+        }
+        // What no sum is good enough for is added up visit by visit.
+        assert!(Ahead::new(&tip, reach, visits.clone(), 1e-13 * lasted).sum.is_none());
+        let retreated = visits.iter().map(|(x, w)| (x - 3.0, *w)).collect();
+        assert!(Ahead::new(&tip, reach, retreated, 1e-6).sum.is_none());
+    }
+}

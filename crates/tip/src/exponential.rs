@@ -1,0 +1,215 @@
+//! `e^{s x}` for many complex s at once.
+//!
+//! Half of what a cycle takes is exponentials, each for some forty instructions of the libraries' functions and as many
+//! again for the sine and cosine. Side by side in the lanes of the machine they take a quarter of that, by the usual
+//! reductions, x = k ln 2 + ρ and y = q π/2 + ρ in parts that leave nothing of x or y (Cody & Waite, *Software Manual for
+//! the Elementary Functions*, 1980), and polynomials in ρ: that of e^ρ is its Taylor series, those of sin and cos are
+//! the ones of fdlibm. Nothing is fused, so that all machines agree to the last bit.
+
+use multiversion::multiversion;
+use num_complex::Complex;
+use std::f64::consts::{FRAC_2_PI, LOG2_E};
+
+/// Side by side: some vectors of the machine, so that their loops are worth making vectors of.
+const LANES: usize = 12;
+type Lane = [f64; LANES];
+
+/// Phases beyond are left to the library: π/2 is subtracted in parts of 33 bits, at most this often.
+const LARGEST_PHASE: f64 = 1e6;
+/// Exponents are held within these, where neither e^x nor its inverse leaves the range of f64.
+const LARGEST_EXPONENT: f64 = 700.0;
+/// Added to a number it leaves the nearest whole one in the last bits.
+const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;
+/// ln 2 and π/2 in parts, of few bits but the last.
+const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+const HALF_PI: [f64; 3] =
+    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
+
+/// 1/m!
+const EXP: [f64; 14] = {
+    let mut inverse = [1.0; 14];
+    let mut m = 1;
+    while m < 14 {
+        inverse[m] = inverse[m - 1] / m as f64;
+        m += 1;
+    }
+    inverse
+};
+/// (sin ρ - ρ)/ρ³ in ρ², and (cos ρ - 1 + ρ²/2)/ρ⁴.
+const SIN: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const COS: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// Appends e^{s x} at each of these x, exponent by exponent, and e^{-s x}. Both are true to some four roundings of the
+/// larger of 1 and the phase; real parts of s x are held within ±700.
+///
+/// ```
+/// use num_complex::Complex;
+/// use stickslip_tip::exponential::exponentials;
+///
+/// let (mut e, mut inverse) = (vec![], vec![]);
+/// exponentials([Complex::new(-1.0, 2.0)].into_iter(), &[0.5, 1.5], &mut e, &mut inverse);
+/// assert!((e[0][1] - Complex::new(-1.5, 3.0).exp()).norm() < 1e-15);
+/// assert!((e[0][1] * inverse[0][1] - 1.0).norm() < 1e-15);
+/// ```
+pub fn exponentials<const N: usize>(
+    exponents: impl Iterator<Item = Complex<f64>>,
+    x: &[f64; N],
+    into: &mut Vec<[Complex<f64>; N]>,
+    inverse: &mut Vec<[Complex<f64>; N]>,
+) {
+    let from = into.len();
+    into.extend(exponents.map(|s| x.map(|x| s * x)));
+    inverse.resize(into.len(), [Complex::ZERO; N]);
+    all(into[from..].as_flattened_mut(), inverse[from..].as_flattened_mut());
+}
+
+/// From arguments to their exponentials, and the inverses of these.
+///
+/// Compiled for wider vectors too: lanes do not know of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
+    let (whole, rest) = values.as_chunks_mut();
+    let (whole_inverses, rest_inverses) = inverses.as_chunks_mut();
+    for (values, inverses) in whole.iter_mut().zip(whole_inverses) {
+        some(values, inverses);
+    }
+    if rest.is_empty() {
+        return;
+    }
+    let (mut values, mut inverses) = ([Complex::ZERO; LANES], [Complex::ZERO; LANES]);
+    values[..rest.len()].copy_from_slice(rest);
+    some(&mut values, &mut inverses);
+    rest.copy_from_slice(&values[..rest.len()]);
+    rest_inverses.copy_from_slice(&inverses[..rest.len()]);
+}
+
+#[inline(always)]
+fn some(values: &mut [Complex<f64>; LANES], inverses: &mut [Complex<f64>; LANES]) {
+    let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
+    for i in 0..LANES {
+        (x[i], y[i]) = (values[i].re, values[i].im);
+    }
+    let size = exp(x);
+    let (sin, cos) = sin_cos(y);
+    for i in 0..LANES {
+        let left = 1.0 / size[i];
+        values[i] = Complex::new(size[i] * cos[i], size[i] * sin[i]);
+        inverses[i] = Complex::new(left * cos[i], -(left * sin[i]));
+    }
+}
+
+#[inline(always)]
+fn exp(x: Lane) -> Lane {
+    let mut e = [0.0; LANES];
+    for i in 0..LANES {
+        let x = x[i].clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
+        let rounded = x * LOG2_E + ROUNDS;
+        let k = rounded - ROUNDS;
+        let rest = (x - k * LN_2[0]) - k * LN_2[1];
+        let mut sum = EXP[13];
+        for m in (0..13).rev() {
+            sum = sum * rest + EXP[m];
+        }
+        // 2^k: the last bits of what was rounded, as an exponent.
+        let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1023 << 52));
+        e[i] = sum * power;
+    }
+    e
+}
+
+#[inline(always)]
+fn sin_cos(y: Lane) -> (Lane, Lane) {
+    let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+    let mut beyond = false;
+    for i in 0..LANES {
+        beyond |= y[i].abs() > LARGEST_PHASE;
+        let rounded = y[i] * FRAC_2_PI + ROUNDS;
+        let (q, quarter) = (rounded - ROUNDS, rounded.to_bits());
+        let rest = ((y[i] - q * HALF_PI[0]) - q * HALF_PI[1]) - q * HALF_PI[2];
+        let square = rest * rest;
+        let (mut s, mut c) = (SIN[5], COS[5]);
+        for m in (0..5).rev() {
+            s = s * square + SIN[m];
+            c = c * square + COS[m];
+        }
+        let s = rest + rest * (square * s);
+        let c = 1.0 - (0.5 * square - square * (square * c));
+        let (first, second) = if quarter & 1 == 0 { (s, c) } else { (c, s) };
+        // Signs: of the sine in the third and fourth quarter, of the cosine in the second and third.
+        sin[i] = f64::from_bits(first.to_bits() ^ ((quarter & 2) << 62));
+        cos[i] = f64::from_bits(second.to_bits() ^ (((quarter + 1) & 2) << 62));
+    }
+    if beyond {
+        for i in 0..LANES {
+            (sin[i], cos[i]) = y[i].sin_cos();
+        }
+    }
+    (sin, cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The functions of the C library, correct to a rounding, are the oracle; arguments over all that is allowed.
+    #[test]
+    fn they_are_those_of_the_library_to_some_roundings() {
+        let parts = |i: u32| f64::from(i).mul_add(0.618_033_988_749_895, 0.1).fract() - 0.5;
+        for size in [1e-12, 1e-3, 1.0, 20.0, 1400.0] {
+            let s: Vec<_> = (0..500).map(|i| Complex::new(parts(i), parts(7 * i + 3))).collect();
+            let x = [size, 0.37 * size, -0.8 * size, 0.999 * size, 0.0];
+            let (mut e, mut inverse) = (vec![], vec![]);
+            exponentials(s.iter().copied(), &x, &mut e, &mut inverse);
+            for ((s, e), inverse) in s.iter().zip(&e).zip(&inverse) {
+                for ((x, e), inverse) in x.iter().zip(e).zip(inverse) {
+                    let argument = s * x;
+                    let right = Complex::from_polar(argument.re.exp(), argument.im);
+                    let allowed = 8.0 * f64::EPSILON;
+                    assert!((e - right).norm() <= allowed * right.norm(), "{argument} {e} {right}");
+                    assert!((e * inverse - 1.0).norm() <= allowed, "{argument} {e} {inverse}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_leaves_the_range_is_held_within_it() {
+        let (mut e, mut inverse) = (vec![], vec![]);
+        let s = [Complex::new(-1e5, 1e9), Complex::new(3e5, f64::NAN)];
+        exponentials(s.into_iter(), &[1.0], &mut e, &mut inverse);
+        assert!((e[0][0].norm() / (-700.0_f64).exp() - 1.0).abs() < 1e-15);
+        assert!((e[0][0].arg() - Complex::from_polar(1.0, 1e9).arg()).abs() < 1e-15);
+        assert!(inverse[0][0].is_finite() && !e[1][0].is_finite());
+    }
+
+    /// Lanes, whoever compiled them: single numbers, of which each is a lane beside idle ones, are the same to the last
+    /// bit.
+    #[test]
+    fn lanes_do_not_know_of_each_other() {
+        let s: Vec<_> = (0..9).map(|i| Complex::new(-0.3 * f64::from(i), f64::from(i))).collect();
+        let (mut e, mut inverse) = (vec![], vec![]);
+        exponentials(s.iter().copied(), &[0.7], &mut e, &mut inverse);
+        for (s, e) in s.iter().zip(e) {
+            let (x, y) = (exp([s.re * 0.7; LANES])[1], sin_cos([s.im * 0.7; LANES]));
+            let plain = Complex::new(x * y.1[2], x * y.0[2]);
+            assert_eq!(
+                (plain.re.to_bits(), plain.im.to_bits()),
+                (e[0].re.to_bits(), e[0].im.to_bits())
+            );
+        }
+    }
+}

@@ -255,7 +255,7 @@ fn any_sweep_is_taken_or_refused() {
     fuzz("sweep", |text| {
         let sweep = stickslip_documents::read::<SweepDocument>(text, SweepDocument::FORMAT);
         let Ok(sweep) = sweep else { return false };
-        let _ = merge::complete(&sweep.parameters, &sweep.points);
+        let _ = merge::complete(&sweep);
         if let Ok(figure) = figures::of(&sweep, &View::default()) {
             figures::svg(&figure, &Size::default()).unwrap();
         }

@@ -30,6 +30,31 @@ fn every_point_is_the_raster_of_its_own_command() {
 }
 
 #[test]
+fn parts_merge_to_the_same_bytes() {
+    let folder = Folder::new("raster_sweep_parts");
+    let grid = GRID.replace("--lines 50 --length 40", "--lines 12 --length 20");
+    let alone = folder.prints(&grid);
+    for part in 1..=4 {
+        folder
+            .prints(&format!("{grid} --shard {part}/4 -o part-{part}.json --plot part-{part}.svg"));
+    }
+    assert_eq!(folder.json("part-3.json")["points"].as_array().unwrap().len(), 1);
+    assert_eq!(folder.prints("sweep merge part-4.json part-2.json part-1.json part-3.json"), alone);
+    folder.refuses("sweep merge part-1.json part-3.json", &["--array=2,4", "slurm/4"]);
+    folder.refuses(
+        "sweep merge part-1.json part-1.json part-2.json part-3.json",
+        &["more than one part"],
+    );
+    folder.prints("sweep --r 1 --alpha 0.3:0.9:3 -o other.json");
+    folder.refuses("sweep merge part-1.json other.json", &["other.json", "stickslip/raster-sweep"]);
+    let changed = String::from_utf8(folder.read("part-2.json"))
+        .unwrap()
+        .replace("\"alpha\":0.6", "\"alpha\":0.7");
+    folder.write("changed.json", changed);
+    folder.refuses("sweep merge part-1.json changed.json", &["changed.json", "checksum"]);
+}
+
+#[test]
 fn it_is_written_drawn_and_taken_up_again() {
     let folder = Folder::new("raster_sweep_files");
     folder.prints(&format!("{GRID} -o a.json --plot a.svg --threads 1"));

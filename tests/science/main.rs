@@ -11,6 +11,7 @@ mod convergence;
 mod corrections;
 mod cycles;
 mod documents;
+mod examples;
 mod grids_converge;
 mod memories_agree;
 mod properties;

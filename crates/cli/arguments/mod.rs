@@ -21,6 +21,7 @@ mod response;
 mod run;
 mod sampling;
 mod scan;
+mod shard;
 mod stability;
 mod start;
 mod surface;

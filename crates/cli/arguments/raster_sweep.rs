@@ -3,6 +3,7 @@
 use super::examples::examples;
 use super::named::named;
 use super::range::Range;
+use super::shard::Shard;
 use super::{InUnitsArguments, OutletArguments, TipArguments, WiderArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -69,6 +70,11 @@ pub(crate) struct RasterSweepArguments {
     /// Points computed side by side [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
+
+    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together. `slurm`, or slurm/N: the
+    /// part of this task of an array job, as for `stickslip sweep`.
+    #[arg(long, value_name = "I/N", help_heading = "Work")]
+    pub(crate) shard: Option<Shard>,
 
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use stickslip_documents::{KeptLine, Software, SweepPoint};
 
 /// A part of long work.
-pub(super) trait Part: Clone + Serialize + DeserializeOwned {
+pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
     /// Such as "point", a word of small letters.
     const NAME: &'static str;
     /// Whose parts they are, such as "sweep".

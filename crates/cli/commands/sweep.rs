@@ -1,6 +1,7 @@
 //! `stickslip sweep`.
 
 mod axes;
+mod divided;
 mod grid;
 pub(crate) mod merge;
 mod point;
@@ -10,18 +11,15 @@ mod work;
 
 use super::finished::Finished;
 use super::job::{Job, judge_places};
-use crate::arguments::{OutletArguments, SweepArguments, SweepThen};
+use crate::arguments::{SweepArguments, SweepThen};
 use crate::arithmetic::arithmetic;
 use crate::commands::in_units::scales;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use divided::Divided;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
-use stickslip_documents::{
-    EnsembleDocument, FORMAT_VERSION, Physical, Software, SweepDocument, SweepParameters,
-    SweepPoint,
-};
+use stickslip_documents::{FORMAT_VERSION, Physical, Software, SweepDocument, SweepPoint};
 use stickslip_figures::judge_sweep;
 use work::compute;
 
@@ -37,9 +35,13 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip_file.as_deref())];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let grid = Grid::asked(arguments)?;
-    let r = Some(&*grid.parameters.r).filter(|r| r.len() == 1).map(|r| r[0]);
-    let scales = scales(&arguments.in_units, arguments.tip_file.as_deref(), r)?;
-    let job = job(&arguments.outlet, arguments.plot.as_deref(), &grid.parameters)?;
+    let tip_file = arguments.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, grid.parameters.velocity())?;
+    if arguments.plot.is_some() {
+        // Before hours of work.
+        judge_sweep(&grid.parameters).map_err(|error| Failure::input("--plot", error))?;
+    }
+    let job = Job::open::<SweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
         None => Finished::in_memory(),
@@ -47,50 +49,20 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = grid.indices().collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
-    let document = sealed(grid.parameters, finished.in_order(), Some(arithmetic()))?;
-    job.finish(document.in_units(scales.as_ref()))?;
-    finished.remove();
-    Ok(())
-}
-
-/// Where a sweep goes, which is found out before hours of work.
-fn job(
-    outlet: &OutletArguments,
-    plot: Option<&Path>,
-    parameters: &SweepParameters,
-) -> Result<Job, Failure> {
-    if plot.is_some() {
-        judge_sweep(parameters).map_err(|error| Failure::input("--plot", error))?;
-    }
-    Job::open::<SweepDocument>(outlet, plot)
-}
-
-/// The document of a finished sweep, with its checksum.
-fn sealed(
-    parameters: SweepParameters,
-    points: Vec<SweepPoint>,
-    arithmetic: Option<String>,
-) -> Result<SweepDocument, Failure> {
-    let mut document = SweepDocument {
+    let document = SweepDocument {
         format: SweepDocument::FORMAT.into(),
         format_version: FORMAT_VERSION,
         software: Software::this(),
         physical: None,
-        ensembles: EnsembleDocument::all(&parameters, &points),
-        parameters,
-        points,
-        arithmetic,
+        parameters: grid.parameters,
+        points: finished.in_order(),
+        ensembles: None,
+        arithmetic: Some(arithmetic()),
         crc32: None,
     };
-    document.crc32 = Some(checksum(&document)?);
-    Ok(document)
-}
-
-/// CRC-32 of parameters, points and how the machine rounds, as this program writes them, however the document is
-/// laid out.
-fn checksum(document: &SweepDocument) -> Result<u32, Failure> {
-    let text = serde_json::to_vec(&(&document.parameters, &document.points, &document.arithmetic));
-    Ok(crc32fast::hash(&text.map_err(|error| Failure::Run(error.to_string()))?))
+    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
+    finished.remove();
+    Ok(())
 }
 
 /// 0: as many as there are cores.

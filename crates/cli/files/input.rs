@@ -130,6 +130,17 @@ pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
         .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 
+/// What the document in a file says it is; `None` where it does not.
+pub(crate) fn format_of(
+    option: &str,
+    path: &Path,
+    wanted: &str,
+) -> Result<Option<String>, Failure> {
+    let kind = documents::kind_of(open(option, path)?, wanted);
+    let refused = |error| Failure::input(format!("{option} {}", path.display()), error);
+    kind.map(|kind| kind.format).map_err(refused)
+}
+
 /// The stream of a document (`-`: standard input), which ends where it would be larger than any.
 pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
     if let Some(bytes) = host::bytes(path) {

@@ -2,10 +2,12 @@
 
 mod axis;
 mod ensemble;
+mod shard;
 mod start;
 
 pub use axis::{AxisDocument, AxisName};
 pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
+pub use shard::ShardDocument;
 pub use start::{SweepRunParameters, SweepStartName};
 
 use crate::table::{Column, Named, Tabular};
@@ -88,16 +90,6 @@ pub struct SweepParameters {
     /// The run that each point is, where it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run: Option<SweepRunParameters>,
-}
-
-/// Part `index` of `of`: the points whose index is `index` - 1 modulo `of`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ShardDocument {
-    /// From 1 to `of`.
-    pub index: usize,
-    /// Number of parts.
-    pub of: usize,
 }
 
 /// How a point was found.
@@ -189,15 +181,19 @@ impl SweepParameters {
         Wider { depth_limit, healing_time, inertia, spring: true }
     }
 
+    /// The one r of all points, if there is one.
+    pub fn velocity(&self) -> Option<f64> {
+        if let [r] = self.r.as_slice() { Some(*r) } else { None }
+    }
+
     /// The part that is here, be it the whole.
     pub fn part(&self) -> ShardDocument {
-        self.shard.unwrap_or(ShardDocument { index: 1, of: 1 })
+        self.shard.unwrap_or(ShardDocument::WHOLE)
     }
 
     /// Whether the point of this index is one of this part.
     pub fn has(&self, index: usize) -> bool {
-        let ShardDocument { index: part, of } = self.part();
-        index < self.points() && index.checked_rem(of).is_some_and(|rest| rest + 1 == part)
+        index < self.points() && self.part().has(index)
     }
 
     /// Points of the whole grid.

@@ -6,8 +6,8 @@ use crate::svg::{Paint, Svg, number};
 use std::fmt::Write;
 use stickslip_documents::CellsDocument;
 
-/// The cells, a path for each kind. Each reaches half-way to its neighbours; those at the ends are cut by the axes,
-/// which reach from the first middle to the last.
+/// The cells, a path for each kind. Each reaches half-way to its neighbours, those at the ends as far to either side, where
+/// the axes do not cut them.
 pub(crate) fn draw(cells: &CellsDocument, frame: Frame, svg: &mut Svg) {
     let (x, y) = (edges(&cells.x), edges(&cells.y));
     for (kind, name) in cells.colours.iter().enumerate() {
@@ -37,11 +37,23 @@ fn push(frame: Frame, x: (f64, f64), y: (f64, f64), path: &mut String) {
     let _ = write!(path, "M{left} {bottom}H{right}V{top}H{left}Z");
 }
 
-/// Between the middles, and at the first and the last.
-fn edges(middles: &[f64]) -> Vec<f64> {
-    let between = middles.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-    let ends = (middles.first().copied(), middles.last().copied());
-    ends.0.into_iter().chain(between).chain(ends.1).collect()
+/// Values from the lowest to the highest, and the place where each was.
+pub(crate) fn ascending(values: &[f64]) -> (Vec<f64>, Vec<usize>) {
+    let mut places: Vec<usize> = (0..values.len()).collect();
+    places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    (places.iter().map(|place| values[*place]).collect(), places)
+}
+
+/// Where cells about these middles begin and end; none begins below 0 that is about more.
+pub(crate) fn edges(middles: &[f64]) -> Vec<f64> {
+    let between: Vec<f64> = middles.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let beyond = |end: f64, edge: Option<&f64>| end + edge.map_or(0.0, |edge| end - edge);
+    let first = middles.first().map(|low| {
+        let edge = beyond(*low, between.first());
+        if *low > 0.0 { edge.max(0.0) } else { edge }
+    });
+    let last = middles.last().map(|high| beyond(*high, between.last()));
+    first.into_iter().chain(between).chain(last).collect()
 }
 
 #[cfg(test)]
@@ -49,7 +61,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cells_meet_half_way_and_do_not_reach_beyond_what_was_computed() {
-        assert_eq!(edges(&[0.5, 1.5, 3.5]), [0.5, 1.0, 2.5, 3.5]);
+    fn cells_meet_half_way_and_reach_as_far_at_the_ends() {
+        assert_eq!(edges(&[0.75, 1.5, 3.5]), [0.375, 1.125, 2.5, 4.5]);
+        assert_eq!(edges(&[0.25, 1.5]), [0.0, 0.875, 2.125]);
+        assert_eq!(edges(&[-1.0, 1.0]), [-2.0, 0.0, 2.0]);
+        assert_eq!(edges(&[2.0]), [2.0, 2.0]);
     }
 }

@@ -3,7 +3,7 @@ the shape of t followed by that of x."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, SupportsFloat, TypeAlias
+from typing import Any, NamedTuple, SupportsFloat, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -105,6 +105,7 @@ class ResponseResult(Result): ...
 class RasterResult(Result): ...
 class SurfaceResult(Result): ...
 class SweepResult(Result): ...
+class RasterSweepResult(Result): ...
 
 class FitResult(Result):
     @property
@@ -217,6 +218,7 @@ def boundary(
     pitch_range: str | tuple[_Number, _Number] | tuple[_Number, _Number, int] | None = None,
     r: _Number | None = None,
     width_y: _Number | None = None,
+    length: _Number | None = None,
     points: _Number | None = None,
     logarithmic: bool = False,
     units: _Path | _Columns | None = None,
@@ -350,8 +352,22 @@ def sweep(
     plot: _Path | None = None,
     progress: _Progress = None,
 ) -> SweepResult: ...
+@overload
 def sweep_merge(
-    *parts: _Path | Result,
+    *parts: RasterSweepResult,
+    units: _Path | _Columns | None = None,
+    sigma: str | None = None,
+    stiffness: str | None = None,
+    damping: str | None = None,
+    velocity: str | None = None,
+    slope_force: str | None = None,
+    output: _Path | None = None,
+    plot: _Path | None = None,
+    progress: _Progress = None,
+) -> RasterSweepResult: ...
+@overload
+def sweep_merge(
+    *parts: _Path | SweepResult,
     units: _Path | _Columns | None = None,
     sigma: str | None = None,
     stiffness: str | None = None,
@@ -381,6 +397,7 @@ def sweep_raster(
     path: str | None = None,
     tolerance: _Number | None = None,
     threads: _Number | None = None,
+    shard: str | tuple[int, int] | None = None,
     units: _Path | _Columns | None = None,
     sigma: str | None = None,
     stiffness: str | None = None,
@@ -390,7 +407,7 @@ def sweep_raster(
     output: _Path | None = None,
     plot: _Path | None = None,
     progress: _Progress = None,
-) -> Result: ...
+) -> RasterSweepResult: ...
 def raster(
     *,
     tip: str | _Columns | None = None,

@@ -8,6 +8,7 @@ from ._results import (
     CycleResult,
     FitResult,
     RasterResult,
+    RasterSweepResult,
     ResponseResult,
     Result,
     RunResult,
@@ -105,14 +106,14 @@ def sweep():
     call goes on after an interrupt."""
 
 
-@command("sweep", "merge", returns=SweepResult)
+@command("sweep", "merge")
 def sweep_merge():
-    """Puts the parts of a sweep together, results or .json files in any order: what one sweep would have given."""
+    """Puts the parts of a sweep or a sweep_raster together, results or .json files in any order: what one sweep would have given."""
 
 
-@command("sweep", "raster")
+@command("sweep", "raster", returns=RasterSweepResult)
 def sweep_raster():
-    """The pattern of a raster over pitch and alpha."""
+    """The pattern of a raster over pitch and alpha; ``to_xarray()`` is a Dataset over these."""
 
 
 @command("raster", returns=RasterResult)

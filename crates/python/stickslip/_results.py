@@ -223,7 +223,19 @@ class SweepResult(Result):
 
     def to_xarray(self):
         """An xarray Dataset over the axes of the grid; points of other parts are NaN."""
-        return grid(self)
+        parameters = self.parameters
+        alphas = "alpha" if parameters.get("alpha") is not None else "alpha_above"
+        axes = {name: parameters.get(name) for name in ("width", "beta", "r", alphas)}
+        axes.update((axis.name.replace("-", "_"), axis["values"]) for axis in parameters.get("axes", []))
+        return grid(self, {name: values for name, values in axes.items() if values is not None})
+
+
+class RasterSweepResult(Result):
+    """The pattern of rasters over pitch and alpha: ``columns()`` has a row for each point."""
+
+    def to_xarray(self):
+        """An xarray Dataset over pitch and alpha; points of other parts are NaN."""
+        return grid(self, {name: self.parameters[name] for name in ("pitch", "alpha")})
 
 
 class FitResult(Result):
@@ -245,6 +257,7 @@ KINDS = {
     "stickslip/raster": RasterResult,
     "stickslip/surface": SurfaceResult,
     "stickslip/sweep": SweepResult,
+    "stickslip/raster-sweep": RasterSweepResult,
     "stickslip/fit": FitResult,
 }
 
@@ -284,16 +297,11 @@ def attributes(result):
     return {name: value for name, value in parameters if isinstance(value, (int, float, str))}
 
 
-def grid(result):
+def grid(result, axes):
     """The points of a sweep over its axes."""
     import numpy as np
     import xarray
 
-    parameters = result.parameters
-    alphas = "alpha" if parameters.get("alpha") is not None else "alpha_above"
-    axes = {name: parameters.get(name) for name in ("width", "beta", "r", alphas)}
-    axes.update((axis.name.replace("-", "_"), axis["values"]) for axis in parameters.get("axes", []))
-    axes = {name: values for name, values in axes.items() if values is not None}
     shape = tuple(len(values) for values in axes.values())
     places = np.array([point["index"] for point in result.points])
     data = {}

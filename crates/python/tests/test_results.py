@@ -100,6 +100,18 @@ def test_parts_of_a_sweep_merge_to_the_whole():
     assert stickslip.sweep_merge(*parts).to_json() == stickslip.sweep(r=1, alpha=(1, 2, 5)).to_json()
 
 
+def test_parts_of_a_sweep_of_rasters_merge_and_are_a_dataset_over_pitch_and_alpha():
+    pytest.importorskip("xarray")
+    grid = dict(tip="gaussian", r=1, pitch=(0.5, 1, 2), alpha=(0.3, 0.9, 3), lines=8, length=15)
+    whole = stickslip.sweep_raster(**grid)
+    parts = [stickslip.sweep_raster(**grid, shard=(i, 2)) for i in (2, 1)]
+    assert stickslip.sweep_merge(*parts).to_json() == whole.to_json()
+    data = whole.to_xarray()
+    assert dict(data.sizes) == {"pitch": 2, "alpha": 3}
+    place = data.sel(pitch=1.0, alpha=0.6)
+    assert place["regime"].item() == whole.points[4].regime and place["critical_alpha"].item() == whole.points[4].critical_alpha
+
+
 def test_units_and_stability_have_their_fields():
     found = stickslip.stability(r=1)
     assert abs(found.critical.alpha - 1.0690361749) < 1e-10 and found.critical["omega"] == found.critical.omega

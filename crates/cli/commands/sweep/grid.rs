@@ -5,7 +5,7 @@ use crate::arguments::{Range, SweepArguments, TipArguments, WiderArguments};
 use crate::commands::model::{refuse_endless, refused_wider, tip};
 use crate::failure::{Failure, Typed};
 use stickslip_cycles::TOLERANCES;
-use stickslip_documents::{ShardDocument, SweepParameters, SweepPoint, SweepRunParameters};
+use stickslip_documents::{SweepParameters, SweepPoint, SweepRunParameters};
 use stickslip_tip::{Model, TipFunction, Wider};
 
 /// More than a cluster does in a year; their document would take gigabytes.
@@ -80,7 +80,7 @@ impl Grid {
                 alpha: alpha.map(Range::values),
                 alpha_above: above.map(Range::values),
                 tolerance: arguments.tolerance,
-                shard: arguments.shard.map(|s| ShardDocument { index: s.index, of: s.of }),
+                shard: arguments.shard.map(Into::into),
                 depth_limit: law.depth_limit,
                 healing_time: law.healing_time,
                 inertia: law.inertia,
@@ -108,8 +108,7 @@ impl Grid {
 
     /// The indices of this part of the points.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
-        let shard = self.parameters.part();
-        (shard.index - 1..self.parameters.points()).step_by(shard.of)
+        self.parameters.part().indices(self.parameters.points())
     }
 
     pub(super) fn place(&self, index: usize) -> Place<'_> {

@@ -1,53 +1,68 @@
 //! `stickslip sweep merge`.
 
-use super::{checksum, job, sealed};
+use super::divided::Divided;
 use crate::arguments::MergeArguments;
+use crate::commands::finished::Part;
 use crate::commands::in_units::scales;
-use crate::commands::job::judge_places;
+use crate::commands::job::{Job, judge_places};
 use crate::failure::Failure;
 use crate::files::distinct::Named;
-use crate::files::input::read_document;
+use crate::files::input::{format_of, read_document};
 use crate::message::say;
 use std::collections::HashSet;
-use std::path::Path;
-use stickslip_documents::{Physical, ShardDocument, SweepDocument, SweepParameters, SweepPoint};
+use std::path::{Path, PathBuf};
+use stickslip_documents::{RasterSweepDocument, ShardDocument, SweepDocument};
+
+const PART: &str = "PART.json";
+
+/// The whole from its parts, of which the first one tells what it is.
+pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+    let named: Vec<Named> = arguments.parts.iter().map(|part| (PART, Some(&**part))).collect();
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
+    let first = arguments.parts.iter().find(|part| *part != Path::new("-"));
+    let format = first.map_or(Ok(None), |path| format_of(PART, path, SweepDocument::FORMAT))?;
+    match format.as_deref() {
+        Some(RasterSweepDocument::FORMAT) => merged::<RasterSweepDocument>(arguments),
+        _ => merged::<SweepDocument>(arguments),
+    }
+}
 
 /// The whole from its parts, which must be all of it, once.
-pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
-    let named: Vec<Named> =
-        arguments.parts.iter().map(|part| ("PART.json", Some(&**part))).collect();
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
-    let mut parts = arguments.parts.iter().map(|path| read(path).map(|part| (path, part)));
+fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
+    let read = |path: &PathBuf| read::<D>(path).map(|part| (path.clone(), part));
+    let mut parts = arguments.parts.iter().map(read);
     let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
-        Failure::input("PART.json", "no part was given: name the documents of all of them")
+        Failure::input(PART, "no part was given: name the documents of all of them")
     })?;
-    let mut shards: Vec<ShardDocument> = whole.parameters.shard.take().into_iter().collect();
+    let mut shards: Vec<ShardDocument> = whole.held().shard.take().into_iter().collect();
     for part in parts {
         let (path, mut part) = part?;
-        shards.extend(part.parameters.shard.take());
-        if part.parameters != whole.parameters || part.software != whole.software {
+        shards.extend(part.held().shard.take());
+        if !part.is_of(&whole) {
             return Err(Failure::input(
-                format!("PART.json {}", path.display()),
+                format!("{PART} {}", path.display()),
                 "is of another sweep, or another version, than the first one",
             ));
         }
-        if part.arithmetic != whole.arithmetic && whole.arithmetic.take().is_some() {
+        let (part, all) = (part.held(), whole.held());
+        if part.arithmetic != all.arithmetic && all.arithmetic.take().is_some() {
             let path = path.display();
             say(format_args!(
                 "stickslip: {path} was computed by a machine that rounds otherwise: one machine alone would give other \
                  last digits"
             ));
         }
-        whole.points.append(&mut part.points);
+        all.points.append(part.points);
     }
-    whole.points.sort_by_key(|point| point.index);
+    whole.held().points.sort_by_key(Part::index);
     judge_parts(&shards)?;
-    complete(&whole.parameters, &whole.points)?;
-    let r = Some(&*whole.parameters.r).filter(|r| r.len() == 1).map(|r| r[0]);
-    let scales = scales(&arguments.in_units, None, r)?;
-    let whole = sealed(whole.parameters, whole.points, whole.arithmetic)?;
-    let job = job(&arguments.outlet, arguments.plot.as_deref(), &whole.parameters)?;
-    job.finish(whole.in_units(scales.as_ref()))
+    complete(&whole)?;
+    if arguments.plot.is_some() {
+        whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
+    }
+    let scales = scales(&arguments.in_units, None, whole.velocity())?;
+    let job = Job::open::<D>(&arguments.outlet, arguments.plot.as_deref())?;
+    job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 
 /// Names the parts that are missing, as an array job of Slurm takes them.
@@ -67,7 +82,7 @@ fn judge_parts(shards: &[ShardDocument]) -> Result<(), Failure> {
         missing.len(),
         missing[0]
     );
-    Err(Failure::input("PART.json", message))
+    Err(Failure::input(PART, message))
 }
 
 /// Rising numbers as `1,4-6`.
@@ -79,11 +94,12 @@ fn runs(numbers: &[usize]) -> String {
     runs.collect::<Vec<_>>().join(",")
 }
 
-fn read(path: &Path) -> Result<SweepDocument, Failure> {
-    let part: SweepDocument = read_document("PART.json", path, SweepDocument::FORMAT)?;
-    let refused = |message| Err(Failure::input(format!("PART.json {}", path.display()), message));
-    match part.crc32 {
-        Some(sum) if sum == checksum(&part)? => Ok(part),
+fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
+    let mut part: D = read_document(PART, path, D::FORMAT)?;
+    let refused = |message| Err(Failure::input(format!("{PART} {}", path.display()), message));
+    let kept = *part.held().crc32;
+    match kept {
+        Some(sum) if sum == part.checksum()? => Ok(part),
         Some(_) => refused("was changed since it was written: its checksum does not match"),
         None => {
             refused("has no checksum `crc32`: it is not as this version writes it, sweep it again")
@@ -92,13 +108,14 @@ fn read(path: &Path) -> Result<SweepDocument, Failure> {
 }
 
 /// Every point of the grid, once.
-pub(crate) fn complete(parameters: &SweepParameters, points: &[SweepPoint]) -> Result<(), Failure> {
-    let refused = |message: String| Err(Failure::input("PART.json", message));
-    if let Some(pair) = points.windows(2).find(|pair| pair[0].index == pair[1].index) {
-        return refused(format!("point {} is in more than one part", pair[0].index));
+pub(crate) fn complete(whole: &impl Divided) -> Result<(), Failure> {
+    let refused = |message: String| Err(Failure::input(PART, message));
+    let points = whole.points();
+    if let Some(pair) = points.windows(2).find(|pair| pair[0].index() == pair[1].index()) {
+        return refused(format!("point {} is in more than one part", pair[0].index()));
     }
-    let count = parameters.points();
-    if let Some(missing) = (0..count).find(|i| points.get(*i).map(|p| p.index) != Some(*i)) {
+    let count = whole.count();
+    if let Some(missing) = (0..count).find(|i| points.get(*i).map(Part::index) != Some(*i)) {
         let (found, advice) = (points.len(), "name the documents of all parts");
         return refused(format!(
             "point {missing} is missing ({found} of {count} are there): {advice}"

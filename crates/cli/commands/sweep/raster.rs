@@ -1,8 +1,10 @@
 //! `stickslip sweep raster`: the pattern of a raster over pitch and α.
 
+use super::divided::Divided;
 use super::threads;
 use super::work::compute;
 use crate::arguments::RasterSweepArguments;
+use crate::arithmetic::arithmetic;
 use crate::commands::finished::{Finished, Part};
 use crate::commands::footprint::footprint;
 use crate::commands::in_units::scales;
@@ -45,13 +47,14 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let tip_file = arguments.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, Some(grid.parameters.r))?;
     let job = Job::open::<RasterSweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let count = grid.parameters.points();
+    let (count, part) = (grid.parameters.points(), grid.parameters.part());
+    let has = |index| index < count && part.has(index);
     let finished = match job.file() {
-        Some(file) => Finished::beside(file, &grid.parameters, |index| index < count)?,
+        Some(file) => Finished::beside(file, &grid.parameters, has)?,
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let indices: Vec<usize> = (0..count).collect();
+    let indices: Vec<usize> = part.indices(count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
     let document = RasterSweepDocument {
         format: RasterSweepDocument::FORMAT.into(),
@@ -60,8 +63,10 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
         physical: None,
         parameters: grid.parameters,
         points: finished.in_order(),
+        arithmetic: Some(arithmetic()),
+        crc32: None,
     };
-    job.finish(document.in_units(scales.as_ref()))?;
+    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())
 }
@@ -94,6 +99,7 @@ impl Grid {
             lines: arguments.lines,
             length: arguments.length,
             tolerance: arguments.tolerance,
+            shard: arguments.shard.map(Into::into),
         };
         let grid = Self { tip, footprint, law, parameters };
         // Both ends: what is wrong with any is wrong with one of them.

@@ -2,7 +2,7 @@
 
 use super::{PathName, RasterRegimeName};
 use crate::table::{Column, Named, Tabular};
-use crate::{InUnits, PatternDocument, Software, TipDocument};
+use crate::{InUnits, PatternDocument, ShardDocument, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
@@ -21,6 +21,12 @@ pub struct RasterSweepDocument {
     pub parameters: RasterSweepParameters,
     /// The points, by rising index.
     pub points: Vec<RasterSweepPoint>,
+    /// How the machine that computed the points rounds, as for `stickslip/sweep`.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
+    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
+    #[serde(default)]
+    pub crc32: Option<u32>,
     /// Numbers of it in nm, s and nN, where it was asked for these.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub physical: Option<InUnits>,
@@ -62,13 +68,22 @@ pub struct RasterSweepParameters {
     pub length: f64,
     /// Error of x0 on each line asked for, in σ.
     pub tolerance: f64,
+    /// Part of the points that is here, all without.
+    #[serde(default)]
+    pub shard: Option<ShardDocument>,
 }
 
 impl RasterSweepParameters {
-    /// How many.
+    /// The part that is here, be it the whole.
+    #[must_use]
+    pub fn part(&self) -> ShardDocument {
+        self.shard.unwrap_or(ShardDocument::WHOLE)
+    }
+
+    /// Points of the whole grid.
     #[must_use]
     pub fn points(&self) -> usize {
-        self.pitch.len() * self.alpha.len()
+        self.pitch.len().saturating_mul(self.alpha.len())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::drawn::{Drawn, View};
 use super::tip::tip_name;
+use crate::cells::{ascending, edges};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip_documents::{
@@ -61,12 +62,20 @@ fn map(document: &RasterSweepDocument) -> PanelDocument {
     };
     let mut kinds = vec![vec![None; parameters.pitch.len()]; columns];
     for point in &document.points {
-        kinds[point.index % columns][point.index / columns] = kind(point);
+        let row = kinds.get_mut(point.index % columns);
+        if let Some(cell) = row.and_then(|row| row.get_mut(point.index / columns)) {
+            *cell = kind(point);
+        }
     }
+    let (x, pitches) = ascending(&parameters.pitch);
+    let (y, alphas) = ascending(&parameters.alpha);
+    let row = |alpha: &usize| pitches.iter().map(|pitch| kinds[*alpha][*pitch]).collect();
+    // Whole cells, for what is written in them.
+    (panel.x_range, panel.y_range) = (ends(&x), ends(&y));
     panel.cells = Some(CellsDocument {
-        x: parameters.pitch.clone(),
-        y: parameters.alpha.clone(),
-        kinds,
+        kinds: alphas.iter().map(row).collect(),
+        x,
+        y,
         names: REGIMES.iter().map(|(name, _)| name.to_string()).collect(),
         colours: REGIMES.iter().map(|(_, colour)| *colour).collect(),
     });
@@ -75,6 +84,11 @@ fn map(document: &RasterSweepDocument) -> PanelDocument {
     }
     panel.curves.extend(threshold(document));
     panel
+}
+
+fn ends(values: &[f64]) -> Option<[f64; 2]> {
+    let edges = edges(values);
+    Some([*edges.first()?, *edges.last()?])
 }
 
 /// That of what is ordered.
@@ -88,14 +102,15 @@ fn angle(point: &RasterSweepPoint) -> Option<NoteDocument> {
 
 /// αc from line to line over the pitch; none where it lies beyond the axes.
 fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
-    let alpha = &document.parameters.alpha;
-    let (low, high) = (*alpha.first()?, *alpha.last()?);
-    let first = document.points.iter().filter(|point| point.index % alpha.len() == 0);
-    let seen = |point: &RasterSweepPoint| {
-        let critical = point.critical_alpha.filter(|at| (low..=high).contains(at));
-        (point.pitch, critical.unwrap_or(f64::NAN))
+    let parameters = &document.parameters;
+    let (x, pitches) = ascending(&parameters.pitch);
+    let [low, high] = ends(&ascending(&parameters.alpha).0)?;
+    // The first point of each pitch has it as well as any.
+    let of = |pitch: usize| {
+        let first = document.points.iter().find(|p| p.index == pitch * parameters.alpha.len())?;
+        first.critical_alpha.filter(|at| (low..=high).contains(at))
     };
-    let (x, y): (Vec<f64>, Vec<f64>) = first.map(seen).unzip();
+    let y: Vec<f64> = pitches.iter().map(|pitch| of(*pitch).unwrap_or(f64::NAN)).collect();
     let mut curve = CurveDocument::new(StyleName::Line, "α_c from line to line", &x, &y);
     curve.colour = Some(ColourName::Black);
     y.iter().any(|y| y.is_finite()).then_some(curve)
@@ -114,7 +129,13 @@ fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<Panel
             Some(pattern) if point.regime == Some(regime) => measure(pattern),
             _ => f64::NAN,
         };
-        let y: Vec<f64> = document.points.iter().map(value).collect();
+        // Points of other parts are not here.
+        let mut y = vec![f64::NAN; values.len()];
+        for point in &document.points {
+            if let Some(here) = y.get_mut(point.index) {
+                *here = value(point);
+            }
+        }
         let name = regime.to_string();
         let mut curve = CurveDocument::new(StyleName::Dots, &name, values, &y);
         curve.colour = Some(colour);

@@ -1,6 +1,7 @@
 //! The phase diagram: what the motion comes to, over two parameters.
 
 use super::varied::{Phase, Varied};
+use crate::cells::ascending;
 use crate::compose::labels::{ALPHA, R};
 use stickslip_documents::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
@@ -31,13 +32,6 @@ pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> Pan
     });
     panel.curves = lines(document, slow, fast);
     panel
-}
-
-/// Values from the lowest to the highest, and the place where each was.
-fn ascending(values: &[f64]) -> (Vec<f64>, Vec<usize>) {
-    let mut places: Vec<usize> = (0..values.len()).collect();
-    places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    (places.iter().map(|place| values[*place]).collect(), places)
 }
 
 fn ends(values: &[f64]) -> Option<[f64; 2]> {

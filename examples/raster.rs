@@ -1,0 +1,23 @@
+//! An area scanned line by line, and the pattern that it comes to, beside linear theory.
+
+use std::error::Error;
+use stickslip_raster::{Path, Plan, Regime, Scanning, pattern};
+use stickslip_stability::{Raster, RasterPath};
+use stickslip_tip::{Footprint, Model, Scenario, TipFunction};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let footprint = Footprint::separable(TipFunction::gaussian(1.0)?, 1.0)?; // exp(-(x² + y²)/2)
+    let theory = Raster::new(&footprint, 1.0, 1.0)?.critical(RasterPath::OneWay)?; // r = 1, pitch 1
+    println!("αc = {:.6}, q = {:.4}", theory.alpha, theory.q);
+    let model = Model::new(footprint.path().clone(), 1.1 * theory.alpha, 1.0)?;
+    let mut plan = Plan::new(footprint, model, Path::OneWay, 1.0, 120, 100.0); // 120 lines of 100
+    plan.law = Scenario { tolerance: 1e-6, ..plan.law };
+    let mut scanning = Scanning::new(&plan)?;
+    while scanning.next_line()?.is_some() {}
+    let (regime, found) = pattern(&plan, scanning.lines());
+    let found = found.ok_or("no pattern")?;
+    println!("{regime:?}: wavelength {:.3}, crests at {:.1}°", found.wavelength, found.crest_angle);
+    assert_eq!(regime, Regime::Ripples);
+    assert!((found.q / theory.q - 1.0).abs() < 0.15);
+    Ok(())
+}

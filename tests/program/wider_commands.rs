@@ -66,8 +66,56 @@ fn a_boundary_without_onset_is_said_and_not_drawn() {
     folder.refuses("boundary --depth-limit 0 --r-range 0.5:1.5:3", &["--depth-limit 0", "above 0"]);
     folder
         .refuses("boundary --tip cosine --r-range 0.5:1.5:3", &["--tip cosine", "--healing-time"]);
-    let raster = "boundary --depth-limit 5 --pitch-range 0.5:1:2 --r 1";
-    folder.refuses(raster, &["--depth-limit", "boundary --pitch-range"]);
+}
+
+/// The points of `boundary --pitch-range` are the thresholds of `stability --pitch`; a limit that never bites is the paper's law.
+#[test]
+fn thresholds_of_rasters_over_pitch_are_those_of_stability() {
+    let folder = Folder::new("wider_raster_boundary");
+    for law in
+        ["--tip gaussian --depth-limit 8", "--beta 0.5 --healing-time 40 --length 30 --inertia 0.3"]
+    {
+        let line = format!("boundary {law} --pitch-range 0.5:1:2 --r 1");
+        let over = folder.prints_json(&line);
+        for (n, pitch) in [0.5, 1.0].into_iter().enumerate() {
+            let alone = folder.prints_json(&format!("stability {law} --pitch {pitch} --r 1"));
+            for name in ["alpha", "q", "kappa", "crest_angle"] {
+                assert_eq!(over[name][n], alone["critical"][name], "{law} {name}");
+            }
+            assert_eq!(over["alpha_zigzag"][n], Value::Null);
+        }
+    }
+    let deep = "boundary --tip gaussian --pitch-range 0.5:1:2 --r 1";
+    let papers = folder.prints_json(deep);
+    let limited = folder.prints_json(&format!("{deep} --depth-limit 1e12"));
+    for n in 0..2 {
+        let [one, other] = [&papers, &limited].map(|b| b["alpha"][n].as_f64().unwrap());
+        assert!((one - other).abs() < 1e-9, "{one} {other}");
+    }
+    folder.prints("boundary --tip gaussian --depth-limit 8 --pitch-range 0.5:1:2 --r 1 -o p.json --plot p.svg");
+    // A single line is steady at any alpha under so low a limit: far lines are too.
+    let shallow =
+        folder.prints_json("boundary --tip gaussian --depth-limit 1 --pitch-range 0.25:6:2 --r 1");
+    assert_eq!(shallow["pitch"], serde_json::json!([0.25]));
+    assert!(shallow["remarks"][0].as_str().unwrap().contains("1 pitches from 6"), "{shallow}");
+    for (line, words) in [
+        ("boundary --depth-limit 3 --pitch-range 0.5:1:2 --r 1", ["--depth-limit", "corner"]),
+        ("boundary --no-spring --pitch-range 0.5:1:2 --r 1", ["--no-spring", "support"]),
+        (
+            "boundary --tip gaussian --healing-time 9 --pitch-range 0.5:1:2 --r 1",
+            ["--length", "heals"],
+        ),
+        (
+            "boundary --tip gaussian --length 9 --pitch-range 0.5:1:2 --r 1",
+            ["--length", "healing-time"],
+        ),
+        (
+            "stability --tip gaussian --depth-limit 8 --pitch 1 --r 1 --path zigzag",
+            ["--path", "one-way"],
+        ),
+    ] {
+        folder.refuses(line, &words);
+    }
 }
 
 /// A reference of the law's prototypes: period 51.2220627(2).

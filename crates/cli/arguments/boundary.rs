@@ -58,6 +58,16 @@ pub(crate) struct BoundaryArguments {
     )]
     pub(crate) width_y: Option<f64>,
 
+    /// How far the support goes along each line, in σ, for a surface that heals meanwhile.
+    #[arg(
+        long,
+        value_name = "X",
+        allow_hyphen_values = true,
+        requires = "pitch_range",
+        help_heading = "Raster"
+    )]
+    pub(crate) length: Option<f64>,
+
     /// Number of values, where the range does not say it [default: 200].
     #[arg(long, value_name = "N")]
     pub(crate) points: Option<usize>,

@@ -6,7 +6,7 @@ mod wider;
 use super::figure::{Figure, undrawn};
 use super::in_units::scales;
 use super::job::Job;
-use super::model::{only_papers, refuse_endless, tip, wider};
+use super::model::{refuse_endless, tip, wider};
 use super::progress::Progress;
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::failure::Failure;
@@ -33,7 +33,6 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     distinct(&written, &read)?;
     let tip = tip(&arguments.tip)?;
     if let Some(pitches) = &arguments.pitch_range {
-        only_papers(&arguments.tip, &arguments.wider, "boundary --pitch-range")?;
         return raster::boundary(arguments, pitches, tip);
     }
     let scales = scales(&arguments.in_units, arguments.tip.tip_file.as_deref(), arguments.r)?;

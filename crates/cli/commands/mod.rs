@@ -23,6 +23,7 @@ mod fields;
 mod figure;
 mod finished;
 mod footprint;
+mod grooves;
 mod in_units;
 mod job;
 mod judged;

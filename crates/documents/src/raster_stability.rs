@@ -160,7 +160,7 @@ pub struct RasterBoundaryDocument {
     pub software: Software,
     /// What was asked for.
     pub parameters: RasterBoundaryParameters,
-    /// Distances of the lines, in σ.
+    /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
     pub pitch: Vec<f64>,
     /// Critical α of one-way lines.
     pub alpha: Vec<f64>,
@@ -170,7 +170,7 @@ pub struct RasterBoundaryDocument {
     pub kappa: Vec<f64>,
     /// Between crests and scan axis, in degrees.
     pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null where none was found.
+    /// Critical α of a zigzag; null where none was found, and under a wider law, which linear theory of a zigzag leaves out.
     pub alpha_zigzag: Vec<Option<f64>>,
     /// What a reader should know; empty if there is nothing.
     pub remarks: Vec<String>,
@@ -200,6 +200,18 @@ pub struct RasterBoundaryParameters {
     pub points: usize,
     /// How they lie.
     pub spacing: SpacingName,
+    /// b of (61), in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T, in Γ/k, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k, where the tip has inertia.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// X, how far the support goes along each line, in σ, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
 }
 
 impl Tabular for RasterBoundaryDocument {

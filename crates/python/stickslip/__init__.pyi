@@ -218,6 +218,7 @@ def boundary(
     pitch_range: str | tuple[_Number, _Number] | tuple[_Number, _Number, int] | None = None,
     r: _Number | None = None,
     width_y: _Number | None = None,
+    length: _Number | None = None,
     points: _Number | None = None,
     logarithmic: bool = False,
     units: _Path | _Columns | None = None,

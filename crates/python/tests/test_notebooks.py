@@ -6,7 +6,7 @@ import pytest
 from conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
-NEEDS = {"side_by_side": ["scipy", "jitcdde"], "own_tip": ["pandas"], "phase_diagram": ["xarray", "pandas"]}
+NEEDS = {"side_by_side": ["scipy", "jitcdde"], "own_tip": ["pandas"], "fitting": ["pandas"], "phase_diagram": ["xarray", "pandas"]}
 # Characters.
 HEAVIEST = 400_000
 
@@ -32,4 +32,4 @@ def test_a_notebook_is_committed_with_what_it_shows(path):
 
 
 def test_there_are_notebooks():
-    assert len(NOTEBOOKS) >= 5
+    assert len(NOTEBOOKS) >= 6

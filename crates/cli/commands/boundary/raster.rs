@@ -3,16 +3,18 @@
 use super::{abscissas, range};
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::commands::footprint::footprint;
+use crate::commands::grooves::left;
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
+use crate::commands::model::wider;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
     FORMAT_VERSION, Physical, RasterBoundaryDocument, RasterBoundaryParameters, Software,
     SpacingName,
 };
-use stickslip_stability::{Raster, RasterPath, StabilityError};
-use stickslip_tip::TipFunction;
+use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError, WiderRaster};
+use stickslip_tip::{Footprint, TipFunction, Wider};
 
 const OPTION: &str = "--pitch-range";
 
@@ -24,6 +26,8 @@ pub(super) fn boundary(
     let r = arguments.r.ok_or_else(|| Failure::input("--r", "give the support velocity, --r R"))?;
     let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
     let (ends, points) = range(OPTION, typed, arguments.points)?;
+    let law = wider(&arguments.wider);
+    let left = left(arguments.length, &law, r)?;
     let tip_file = arguments.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, Some(r))?;
     let job = Job::open::<RasterBoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
@@ -41,8 +45,12 @@ pub(super) fn boundary(
             pitch_range: ends,
             points,
             spacing,
+            depth_limit: law.depth_limit,
+            healing_time: law.healing_time,
+            inertia: law.inertia,
+            length: arguments.length,
         },
-        pitch: abscissas(ends, points, spacing),
+        pitch: vec![],
         alpha: vec![],
         q: vec![],
         kappa: vec![],
@@ -50,21 +58,59 @@ pub(super) fn boundary(
         alpha_zigzag: vec![],
         remarks: vec![],
     };
-    let refused = |error: StabilityError| match error {
-        StabilityError::R(_) => Failure::input(format!("--r {}", Typed(r)), error),
-        error => typed.refused(OPTION, error),
-    };
     let mut progress = Progress::new(0.0, points as f64).at_every_call();
-    for (n, pitch) in document.pitch.iter().enumerate() {
-        let raster = Raster::new(&footprint, r, *pitch).map_err(refused)?;
-        let one_way = raster.critical(RasterPath::OneWay).map_err(refused)?;
-        document.alpha.push(one_way.alpha);
-        document.q.push(one_way.q);
-        document.kappa.push(one_way.kappa.unwrap_or_default());
-        document.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
-        let zigzag = raster.critical(RasterPath::Zigzag);
-        document.alpha_zigzag.push(zigzag.ok().map(|at| at.alpha));
+    let (pitches, mut left_out) = (abscissas(ends, points, spacing), vec![]);
+    for (n, pitch) in pitches.into_iter().enumerate() {
+        match thresholds(&footprint, law, (r, pitch), left) {
+            Ok((one_way, zigzag)) => {
+                document.pitch.push(pitch);
+                document.alpha.push(one_way.alpha);
+                document.q.push(one_way.q);
+                document.kappa.push(one_way.kappa.unwrap_or_default());
+                document.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
+                document.alpha_zigzag.push(zigzag);
+            }
+            // That nothing grows is an answer of the wider law.
+            Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
+            Err(error) => return Err(refused(error, r, typed)),
+        }
         progress.counted(n as f64 + 1.0, || format!("{} of {points} pitches", n + 1));
     }
+    document.remarks.extend(remark(&left_out));
     job.finish(document.in_units(scales.as_ref()))
+}
+
+/// Where ripples of lines that go one way begin to grow, and the α of a zigzag, of which linear theory knows the paper's law
+/// alone.
+fn thresholds(
+    footprint: &Footprint,
+    law: Wider,
+    (r, pitch): (f64, f64),
+    left: f64,
+) -> Result<(RasterCritical, Option<f64>), StabilityError> {
+    if !law.is_papers() {
+        let raster = WiderRaster::new(footprint, law, (r, pitch), left)?;
+        return Ok((raster.critical()?, None));
+    }
+    let raster = Raster::new(footprint, r, pitch)?;
+    let one_way = raster.critical(RasterPath::OneWay)?;
+    Ok((one_way, raster.critical(RasterPath::Zigzag).ok().map(|at| at.alpha)))
+}
+
+fn remark(left_out: &[f64]) -> Option<String> {
+    let (first, last) = (left_out.first()?, left_out.last()?);
+    Some(format!(
+        "{} pitches from {first} to {last} are left out: no ripple grows there, however large alpha",
+        left_out.len()
+    ))
+}
+
+fn refused(error: StabilityError, r: f64, typed: &Interval) -> Failure {
+    match error {
+        StabilityError::R(_) => Failure::input(format!("--r {}", Typed(r)), error),
+        StabilityError::NoSupport => Failure::input("--no-spring", error),
+        StabilityError::Corner => Failure::input("--depth-limit", error),
+        StabilityError::PapersLawOnly(_) => Failure::input("--tip", error),
+        error => typed.refused(OPTION, error),
+    }
 }

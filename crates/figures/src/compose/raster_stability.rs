@@ -40,13 +40,24 @@ impl Drawn for RasterStabilityDocument {
 impl Drawn for RasterBoundaryDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
-        let title = format!("{}, r = {}", tip_name(&parameters.tip), short(parameters.r));
+        let wider = [
+            (", b = ", parameters.depth_limit),
+            (", T = ", parameters.healing_time),
+            (", M = ", parameters.inertia),
+        ];
+        let wider =
+            wider.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
+        let law = wider.collect::<String>();
+        let title = format!("{}, r = {}{law}", tip_name(&parameters.tip), short(parameters.r));
         let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);
         let mut threshold = PanelDocument::new("", ("pitch (σ)", "critical α"));
         let one_way = CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha);
         let mut zigzag = CurveDocument::new(StyleName::Dashed, "zigzag", &self.pitch, &[]);
         zigzag.y = self.alpha_zigzag.clone();
-        threshold.curves = vec![one_way, zigzag];
+        threshold.curves = vec![one_way];
+        if self.alpha_zigzag.iter().any(Option::is_some) {
+            threshold.curves.push(zigzag);
+        }
         let mut angle = PanelDocument::new("", ("pitch (σ)", "crest to scan axis (°)"));
         angle.curves =
             vec![CurveDocument::new(StyleName::Line, "", &self.pitch, &self.crest_angle)];

@@ -4,6 +4,7 @@ use super::growth_of;
 use super::scales_of;
 use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
+use crate::commands::grooves::left;
 use crate::commands::job::Job;
 use crate::commands::model::{tip, wide_model, wider as wider_law};
 use crate::failure::{Failure, Typed};
@@ -11,7 +12,7 @@ use stickslip_documents::{
     ModelParameters, PathName, Physical, RasterStabilityDocument, RasterStabilityParameters,
 };
 use stickslip_stability::{RasterCritical, StabilityError, WiderRaster};
-use stickslip_tip::{Model, Wider};
+use stickslip_tip::Model;
 
 pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
     let (law, tip) = (wider_law(&arguments.model.wider), tip(&arguments.model.tip)?);
@@ -30,7 +31,7 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         .pitch
         .ok_or_else(missing("--pitch", "give the distance of the lines, --pitch D"))?;
     let at = (r, pitch);
-    let left = left(arguments, &law, r)?;
+    let left = left(arguments.length, &law, r)?;
     let raster = WiderRaster::new(&footprint, law, at, left).map_err(|error| refused(error, at))?;
     let scales = scales_of(arguments)?;
     let job = Job::open::<RasterStabilityDocument>(&arguments.outlet, arguments.plot.as_deref())?;
@@ -63,28 +64,6 @@ pub(super) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
         none.into_iter().collect(),
     );
     job.finish(document.in_units(scales.as_ref()))
-}
-
-/// What is left of a groove after another line.
-fn left(arguments: &StabilityArguments, law: &Wider, r: f64) -> Result<f64, Failure> {
-    match (arguments.length, law.healing_time) {
-        (None, None) => Ok(1.0),
-        (Some(length), Some(_)) if length.is_finite() && length > 0.0 => {
-            Ok(law.left_after(length / r))
-        }
-        (Some(length), Some(_)) => Err(Failure::input(
-            format!("--length {}", Typed(length)),
-            "must be a finite number above 0",
-        )),
-        (None, Some(_)) => Err(Failure::input(
-            "--length",
-            "give the length of the lines, --length X: a surface heals while the support goes along them",
-        )),
-        (Some(_), None) => Err(Failure::input(
-            "--length",
-            "counts for nothing where the surface does not heal: leave it out, or give --healing-time T",
-        )),
-    }
 }
 
 fn refused(error: StabilityError, (r, pitch): (f64, f64)) -> Failure {

@@ -19,6 +19,86 @@ fn profile(rows: i32, heading: &str) -> String {
     text
 }
 
+/// An image in metres, 2 nm a pixel along x and 3 nm across, of a pit of width 20 nm and 35 nm.
+fn image(noise: f64) -> Vec<u8> {
+    let (columns, rows) = (100_i32, 90_i32);
+    let mut header = String::from("Gwyddion Simple Field 1.0\n");
+    for (name, value) in [
+        ("XRes", columns.to_string()),
+        ("YRes", rows.to_string()),
+        ("XReal", "2e-7".into()),
+        ("YReal", "2.7e-7".into()),
+        ("XYUnits", "m".into()),
+        ("ZUnits", "m".into()),
+    ] {
+        header += &format!("{name} = {value}\n");
+    }
+    let mut bytes = header.into_bytes();
+    bytes.resize((bytes.len() / 4 + 1) * 4, 0);
+    let mut state = 1_u32;
+    for j in 0..rows {
+        for i in 0..columns {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let random = 12_f64.sqrt() * (f64::from(state) / f64::from(u32::MAX) - 0.5);
+            let (x, y) = (2.0 * f64::from(i) + 1.0 - 104.0, 3.0 * f64::from(j) + 1.5 - 130.0);
+            let pit = (-0.5 * ((x / 20.0).powi(2) + (y / 35.0).powi(2))).exp();
+            let height = 4.0 + 0.01 * x - 9.0 * (pit + noise * random);
+            bytes.extend(((1e-9 * height) as f32).to_le_bytes());
+        }
+    }
+    bytes
+}
+
+#[test]
+fn an_image_becomes_a_tip_of_two_dimensions() {
+    let folder = Folder::new("tip_image");
+    folder.write("pit.gsf", image(0.02));
+    folder.prints("tip pit.gsf --resamples 40 -o tip.json --plot tip.svg");
+    let tip = folder.json("tip.json");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let sigma = number(&tip["sigma"]["value"]);
+    assert!((sigma - 20.0).abs() < 0.6, "{sigma}");
+    assert!((number(&tip["sigma_metres"]) * 1e9 / sigma - 1.0).abs() < 1e-12);
+    assert!((number(&tip["image"]["centre"]) - 130.0).abs() < 1.0, "{}", tip["image"]);
+    for width in tip["image"]["widths"].as_array().unwrap() {
+        assert!((number(width) * sigma - 35.0).abs() < 1.0, "{}", tip["image"]);
+    }
+    // It is f(x,y) to every command, so that none asks for --width-y.
+    let line = "raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 1 --lines 3 --length 20";
+    folder.prints(&format!("{line} -o raster.json"));
+    folder.refuses(&format!("{line} --width-y 2"), &["--width-y 2", "its own"]);
+    folder.write("pit.gsf", &image(0.02)[..5000]);
+    folder.refuses("tip pit.gsf", &["pit.gsf", "100 × 90"]);
+}
+
+/// Of a table f(x,y) the noise on the path of the tip is judged, as it is of one f(x).
+#[test]
+fn a_noisy_table_of_two_dimensions_is_refused() {
+    let folder = Folder::new("noisy_table_2d");
+    let table = |noise: f64| {
+        let mut state = 7_u32;
+        let mut text = String::from("x,y,f\n");
+        for i in 0..40 {
+            for j in 0..12 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let random = f64::from(state) / f64::from(u32::MAX) - 0.5;
+                let (x, y) = (0.15 * f64::from(i), 0.5 * f64::from(j));
+                // A table must decay.
+                let within = if x < 4.0 && y < 4.0 { 1.0 } else { 0.0 };
+                text += &format!(
+                    "{x},{y},{}\n",
+                    (-0.5 * (x * x + y * y)).exp() + within * noise * random
+                );
+            }
+        }
+        text
+    };
+    folder.write("clean.csv", table(0.0));
+    folder.prints("stability --tip-file clean.csv --r 1");
+    folder.write("noisy.csv", table(0.1));
+    folder.refuses("stability --tip-file noisy.csv --r 1", &["noisy.csv", "noise decides", ".gsf"]);
+}
+
 #[test]
 fn a_profile_becomes_a_tip_file_that_every_command_takes() {
     let folder = Folder::new("tip_command");

@@ -13,6 +13,8 @@ pub(crate) enum Kind {
     Lobes(usize),
     /// A table of so many rows of a smooth shape, measured with this noise, in parts of its height.
     Table(usize, f64),
+    /// The same of both halves, of which `stickslip tip` makes a tip file.
+    Profile(usize, f64),
 }
 
 /// A footprint, and the file that holds it.
@@ -37,6 +39,20 @@ pub(crate) fn tips(count: usize) -> Vec<Brought> {
     tips
 }
 
+/// So many tables, always the same: 8 to 2,000 rows, every second one noisy, every third one of both halves.
+pub(crate) fn tables(count: usize) -> Vec<Brought> {
+    let mut rng = ChaCha20Rng::seed_from_u64(17);
+    let mut tables = vec![];
+    while tables.len() < count {
+        let i = tables.len();
+        tables.extend(match i % 3 {
+            2 => Some(profile(&mut rng, i.is_multiple_of(2))),
+            _ => table(&mut rng, i.is_multiple_of(2)),
+        });
+    }
+    tables
+}
+
 fn lobed(rng: &mut ChaCha20Rng) -> Option<Brought> {
     let pairs = rng.random_range(1..=3);
     let mut terms = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
@@ -55,28 +71,62 @@ fn lobed(rng: &mut ChaCha20Rng) -> Option<Brought> {
     Some(Brought { kind: Kind::Lobes(pairs), name: "tip.json", contents })
 }
 
-fn table(rng: &mut ChaCha20Rng, is_noisy: bool) -> Option<Brought> {
-    let rows = (8.0 * 250_f64.powf(rng.random::<f64>())) as usize;
-    let (shape, length) = (rng.random_range(0..5), rng.random_range(4.0..12.0));
+/// A shape with up to two lobes at either side, and how far out it is sampled.
+fn shape(rng: &mut ChaCha20Rng) -> (impl Fn(f64) -> f64 + use<>, f64) {
+    let (shape, length) = (rng.random_range(0..6), rng.random_range(4.0..12.0));
     let (lobe, at) = (rng.random_range(-0.3..0.5), rng.random_range(1.0..3.0));
-    let f = |x: f64| match shape {
+    let (far, further) = (rng.random_range(-0.2..0.3), rng.random_range(2.5..5.0));
+    let twins = |x: f64, at: f64, width: f64| {
+        let bell = |away: f64| (-0.5 * (away / width).powi(2)).exp();
+        bell(x - at) + bell(x + at)
+    };
+    let f = move |x: f64| match shape {
         0 => (-0.5 * x * x).exp(),
         1 => (1.0 + x * x).powi(-4),
         2 => 1.0 / x.cosh(),
-        3 => {
-            (-0.5 * x * x).exp()
-                + lobe * ((-2.0 * (x - at).powi(2)).exp() + (-2.0 * (x + at).powi(2)).exp())
-        }
+        3 => (-0.5 * x * x).exp() + lobe * twins(x, at, 0.5),
+        4 => (-0.5 * x * x).exp() + lobe * twins(x, at, 0.6) + far * twins(x, further, 0.4),
         _ => (1.0 - (x / 3.0).powi(2)).max(0.0).powi(3),
     };
-    let x: Vec<f64> = (0..rows).map(|i| length * i as f64 / (rows - 1) as f64).collect();
-    let mut f: Vec<f64> = x.iter().map(|x| f(*x)).collect();
-    let noise = if is_noisy { 1e-5 * 2000_f64.powf(rng.random::<f64>()) } else { 0.0 };
-    if is_noisy {
-        f.iter_mut().for_each(|f| *f += noise * rng.random_range(-1.0..1.0));
-    }
-    TipFunction::table(&x, &f).ok()?;
+    (f, length)
+}
+
+/// Rows, and noise in parts of the height.
+fn sampling(rng: &mut ChaCha20Rng, is_noisy: bool) -> (usize, f64) {
+    let rows = (8.0 * 250_f64.powf(rng.random::<f64>())) as usize;
+    (rows, if is_noisy { 1e-5 * 2000_f64.powf(rng.random::<f64>()) } else { 0.0 })
+}
+
+/// Rows from one end to the other.
+fn sampled(
+    rng: &mut ChaCha20Rng,
+    f: impl Fn(f64) -> f64,
+    (rows, noise): (usize, f64),
+    (from, to): (f64, f64),
+) -> (Vec<f64>, Vec<f64>) {
+    let x: Vec<f64> =
+        (0..rows).map(|i| from + (to - from) * i as f64 / (rows - 1) as f64).collect();
+    let f = x.iter().map(|x| f(*x) + noise * rng.random_range(-1.0..1.0)).collect();
+    (x, f)
+}
+
+fn written((x, f): &(Vec<f64>, Vec<f64>)) -> String {
     let mut contents = String::new();
-    x.iter().zip(&f).for_each(|(x, f)| writeln!(contents, "{x},{f}").unwrap());
-    Some(Brought { kind: Kind::Table(rows, noise), name: "tip.csv", contents })
+    x.iter().zip(f).for_each(|(x, f)| writeln!(contents, "{x},{f}").unwrap());
+    contents
+}
+
+fn table(rng: &mut ChaCha20Rng, is_noisy: bool) -> Option<Brought> {
+    let ((f, length), sampling) = (shape(rng), sampling(rng, is_noisy));
+    let columns = sampled(rng, f, sampling, (0.0, length));
+    TipFunction::table(&columns.0, &columns.1).ok()?;
+    let kind = Kind::Table(sampling.0, sampling.1);
+    Some(Brought { kind, name: "tip.csv", contents: written(&columns) })
+}
+
+fn profile(rng: &mut ChaCha20Rng, is_noisy: bool) -> Brought {
+    let ((f, length), sampling) = (shape(rng), sampling(rng, is_noisy));
+    let columns = sampled(rng, f, sampling, (-length, length));
+    let kind = Kind::Profile(sampling.0, sampling.1);
+    Brought { kind, name: "profile.csv", contents: written(&columns) }
 }

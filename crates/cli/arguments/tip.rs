@@ -15,7 +15,8 @@ use std::path::PathBuf;
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct MeasuredTipArguments {
     /// Positions and heights, in two columns with any separator, by a heading such as `x_nm,z_nm`; rows in any order,
-    /// at any distance. A pit has its heights below its surroundings. `-` is standard input.
+    /// at any distance. A pit has its heights below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
+    /// f(x,y): the profile along x through its middle, and how wide each Gaussian is across.
     #[arg(value_name = "MEASURED.csv")]
     pub(crate) measured: PathBuf,
 
@@ -69,5 +70,8 @@ const EXAMPLES: &str = "Examples:
     stickslip stability --tip-file tip.json --r 0.8
   One without a heading, in micrometres, by two Gaussians of which σ is to be 30 nm:
     stickslip tip pit.txt --unit um --terms 2 --sigma 30nm -o tip.json
+  An image, for f(x,y) of a raster:
+    stickslip tip pit.gsf -o tip.json
+    stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 --lines 64 --length 60 -o raster.json
   What the noise leaves open of the onset at r = 0.5, for a script:
     stickslip tip pit.csv --r 0.5 --print critical_alpha.low --print critical_alpha.high";

@@ -12,6 +12,7 @@ use stickslip_measurement::{
 };
 use stickslip_stability::critical;
 use stickslip_tip::TipFunction;
+use stickslip_units::Unit;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let tip_file = arguments.tip.tip_file.as_deref();
@@ -115,54 +116,86 @@ type Given = Vec<(String, Data)>;
 
 /// What was measured, and the unit of lengths.
 fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
-    let mut unit = arguments.unit.clone();
+    let mut files = Files { unit: arguments.unit.clone() };
     let mut found = vec![];
-    let mut read = |option: &str, path: &Path, counts: &[usize], of_length: usize| {
-        let Measured { mut headings, mut columns } = read_measured(option, path)?;
+    let mut give = |option: &str, path: &Path, data: Data| {
+        found.push((format!("{option} {}", path.display()), data));
+    };
+    for path in &arguments.ripple {
+        give("--ripple", path, files.ripple(path, arguments.height_gain)?);
+    }
+    for path in &arguments.friction {
+        give("--friction", path, files.friction(path, arguments.force_gain)?);
+    }
+    if let Some(path) = &arguments.onsets {
+        let [velocity, load] = taken("--onsets", path, read_measured("--onsets", path)?.columns)?;
+        give("--onsets", path, Data::Onsets { velocity, load });
+    }
+    if let Some(path) = &arguments.wavelengths {
+        let Measured { headings, columns } = read_measured("--wavelengths", path)?;
+        files.unit_is_that_of(headings.get(2));
+        let [velocity, load, wavelength] = taken("--wavelengths", path, columns)?;
+        give("--wavelengths", path, Data::Wavelengths { velocity, load, wavelength });
+    }
+    Ok((found, files.unit))
+}
+
+/// Files of data, all in one unit of lengths.
+struct Files {
+    /// That asked for, or that of the first heading which has one.
+    unit: Option<String>,
+}
+
+impl Files {
+    fn unit_is_that_of(&mut self, heading: Option<&String>) {
+        if self.unit.is_none() {
+            self.unit = heading.and_then(|heading| unit_of(heading)).map(str::to_owned);
+        }
+    }
+
+    fn ripple(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
+        let Measured { mut headings, mut columns } = read_measured("--ripple", path)?;
         // As `stickslip surface` writes it.
-        if option == "--ripple" && headings == ["t", "x", "u"] {
+        let is_surface = |names: &[&str]| headings.iter().zip(names).all(|(a, b)| a == b);
+        if columns.len() == 3
+            && (is_surface(&["t", "x", "u"]) || is_surface(&["t_s", "x_nm", "u_nm"]))
+        {
             headings.remove(0);
             columns.remove(0);
         }
-        if !counts.contains(&columns.len()) {
-            let wanted: Vec<String> = counts.iter().map(usize::to_string).collect();
-            let message = format!("{} columns; {} are needed", columns.len(), wanted.join(" or "));
-            return Err(Failure::input(format!("{option} {}", path.display()), message));
-        }
-        if unit.is_none() {
-            unit = headings.get(of_length).and_then(|h| unit_of(h)).map(str::to_owned);
-        }
-        Ok(columns.into_iter())
-    };
-    let source = |option: &str, path: &Path| format!("{option} {}", path.display());
-    let mut next = Vec::new;
-    for path in &arguments.ripple {
-        let mut columns = read("--ripple", path, &[2], 0)?;
-        let mut column = || columns.next().unwrap_or_else(&mut next);
-        let track = Track { x: column(), y: column(), gain: arguments.height_gain };
-        found.push((source("--ripple", path), Data::Ripple(track)));
-    }
-    for path in &arguments.friction {
-        let mut columns = read("--friction", path, &[2, 3], 0)?;
-        let mut column = || columns.next().unwrap_or_else(&mut next);
-        let track = Track { x: column(), y: column(), gain: arguments.force_gain };
-        let data = match columns.next() {
-            Some(back) => Data::Loop(track, back),
-            None => Data::Friction(track),
+        self.unit_is_that_of(headings.first());
+        let [x, mut y] = taken("--ripple", path, columns)?;
+        // Heights in the unit of the positions, of which a gain k/a is, where both are known.
+        let metres = |heading: Option<&String>| {
+            let unit = heading.and_then(|heading| unit_of(heading))?;
+            Unit::Length.parse(&format!("1 {unit}")).ok()
         };
-        found.push((source("--friction", path), data));
+        if let Some((along, height)) = metres(headings.first()).zip(metres(headings.get(1))) {
+            y.iter_mut().for_each(|y| *y *= height / along);
+        }
+        Ok(Data::Ripple(Track { x, y, gain }))
     }
-    if let Some(path) = &arguments.onsets {
-        let mut columns = read("--onsets", path, &[2], usize::MAX)?;
-        let mut column = || columns.next().unwrap_or_else(&mut next);
-        let data = Data::Onsets { velocity: column(), load: column() };
-        found.push((source("--onsets", path), data));
+
+    fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
+        let Measured { headings, columns } = read_measured("--friction", path)?;
+        self.unit_is_that_of(headings.first());
+        if columns.len() == 3 {
+            let [x, y, back] = taken("--friction", path, columns)?;
+            return Ok(Data::Loop(Track { x, y, gain }, back));
+        }
+        let [x, y] = taken("--friction", path, columns)?;
+        Ok(Data::Friction(Track { x, y, gain }))
     }
-    if let Some(path) = &arguments.wavelengths {
-        let mut columns = read("--wavelengths", path, &[3], 2)?;
-        let mut column = || columns.next().unwrap_or_else(&mut next);
-        let data = Data::Wavelengths { velocity: column(), load: column(), wavelength: column() };
-        found.push((source("--wavelengths", path), data));
-    }
-    Ok((found, unit))
+}
+
+/// Just so many columns.
+fn taken<const N: usize>(
+    option: &str,
+    path: &Path,
+    columns: Vec<Vec<f64>>,
+) -> Result<[Vec<f64>; N], Failure> {
+    columns.try_into().map_err(|columns: Vec<Vec<f64>>| {
+        let message = format!("{} columns; {N} are needed", columns.len());
+        Failure::input(format!("{option} {}", path.display()), message)
+    })
 }

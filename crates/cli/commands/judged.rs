@@ -13,10 +13,13 @@ pub(super) fn judge_table(
     tip: &TipFunction,
 ) -> Result<(), Failure> {
     let option = format!("--tip-file {}", path.display());
-    let advice = format!(
-        "fit it: `stickslip tip {} --half --sigma 1 -o tip.json`, then --tip-file tip.json",
-        path.display()
-    );
+    let advice = match tip.footprint() {
+        Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` of the image that it is from, then --tip-file tip.json".into(),
+        None => format!(
+            "fit it: `stickslip tip {} --half --sigma 1 -o tip.json`, then --tip-file tip.json",
+            path.display()
+        ),
+    };
     match judge((x, f), tip) {
         Verdict::Sound => Ok(()),
         Verdict::Few { rows } => {

@@ -138,6 +138,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         let file = read_tip(path)?;
         let table = match &file {
             TipFile::Table(table) => Some(table.clone()),
+            TipFile::Table2d(columns) => Some(on_path(columns)),
             _ => None,
         };
         let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
@@ -179,6 +180,16 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
     }
 }
 
+/// The rows of f(x,y) with x ≥ 0 that are on the path of the tip, by ascending x.
+fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
+    let nearest = y.iter().fold(f64::INFINITY, |least: f64, y| least.min(y.abs()));
+    let rows = x.iter().zip(y).zip(f).filter(|((x, y), _)| **x >= 0.0 && y.abs() <= nearest);
+    let mut rows: Vec<(f64, f64)> = rows.map(|((x, _), f)| (*x, *f)).collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows.dedup_by_key(|row| row.0.to_bits());
+    rows.into_iter().unzip()
+}
+
 /// Half-waves at the band limit of f within its reach.
 fn details(tip: &TipFunction) -> f64 {
     tip.reach().map_or(0.0, |reach| reach * tip.band())
@@ -189,6 +200,21 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
         TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
+        TipFile::Measured(measured) if measured.image.is_some() => {
+            let widths = measured.image.iter().flat_map(|image| &image.widths);
+            let terms = measured.gaussians.iter().zip(widths).map(|(g, width_y)| Gaussian2d {
+                amplitude: g.amplitude,
+                center: g.center,
+                width: g.width,
+                center_y: 0.0,
+                width_y: *width_y,
+            });
+            let terms: Vec<Gaussian2d> = terms.collect();
+            if terms.len() < measured.gaussians.len() {
+                return Err("image: a width is missing".into());
+            }
+            Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
+        }
         TipFile::Measured(measured) => {
             let gaussians = measured.gaussians.iter().map(Gaussian::from).collect();
             TipFunction::gaussian_sum(gaussians)

@@ -3,9 +3,10 @@
 use super::job::{Job, judge_places};
 use crate::arguments::MeasuredTipArguments;
 use crate::failure::{Failure, Typed};
+use crate::files::gsf::read_gsf;
 use crate::files::measured::{Measured, read_measured, unit_of};
 use stickslip_documents::{MeasuredTipDocument, MeasuredTipParameters};
-use stickslip_measurement::{Profile, Request, TipError, tip};
+use stickslip_measurement::{Image, Profile, Request, TipError, tip};
 use stickslip_units::Unit;
 
 const OPTION: &str = "MEASURED.csv";
@@ -16,14 +17,8 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
     let read = [(OPTION, Some(&*arguments.measured))];
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
     let named = || format!("{OPTION} {}", arguments.measured.display());
-    let Measured { headings, columns } = read_measured(OPTION, &arguments.measured)?;
-    let [x, f] = <[Vec<f64>; 2]>::try_from(columns).map_err(|columns| {
-        let message = "two columns are needed, positions and heights: cut out those two";
-        Failure::input(named(), format!("{} columns; {message}", columns.len()))
-    })?;
-    let unit = unit(arguments, headings.first().map(String::as_str))?;
+    let Given { profile, image, unit } = given(arguments)?;
     let metres = unit.as_deref().map(metres).transpose()?;
-    let profile = Profile::new(x, f).map_err(|error| Failure::input(named(), error))?;
     let half = arguments.half || !arguments.both && arguments.centre.is_none() && profile.is_half();
     let request = Request {
         centre: if half { Some(0.0) } else { judged("--centre", arguments.centre, f64::MIN)? },
@@ -51,7 +46,43 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
         resamples: request.resamples,
         seed: request.seed,
     };
-    job.finish(MeasuredTipDocument::of(&found, parameters, metres))
+    let document = MeasuredTipDocument::of(&found, parameters, metres);
+    let across = image.map(|image| image.across(&found)).transpose();
+    let across = across.map_err(|error| Failure::input(named(), error))?;
+    job.finish(match across {
+        Some(across) => document.with_image(&across),
+        None => document,
+    })
+}
+
+/// What was measured.
+struct Given {
+    profile: Profile,
+    /// Which the profile goes through the middle of.
+    image: Option<Image>,
+    /// Of the positions.
+    unit: Option<String>,
+}
+
+fn given(arguments: &MeasuredTipArguments) -> Result<Given, Failure> {
+    let path = &arguments.measured;
+    let named = || format!("{OPTION} {}", path.display());
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf")) {
+        let read = read_gsf(OPTION, path)?;
+        let image = Image::new(read.x, read.y, read.rows);
+        let image = image.map_err(|error| Failure::input(named(), error))?;
+        let profile = image.profile().map_err(|error| Failure::input(named(), error))?;
+        let unit = unit(arguments, read.in_nanometres.then_some("x_nm"))?;
+        return Ok(Given { profile, image: Some(image), unit });
+    }
+    let Measured { headings, columns } = read_measured(OPTION, path)?;
+    let [x, f] = <[Vec<f64>; 2]>::try_from(columns).map_err(|columns| {
+        let message = "two columns are needed, positions and heights: cut out those two";
+        Failure::input(named(), format!("{} columns; {message}", columns.len()))
+    })?;
+    let unit = unit(arguments, headings.first().map(String::as_str))?;
+    let profile = Profile::new(x, f).map_err(|error| Failure::input(named(), error))?;
+    Ok(Given { profile, image: None, unit })
 }
 
 /// Unit of the positions.

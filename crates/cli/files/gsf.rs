@@ -3,7 +3,10 @@
 //! row, as little-endian single-precision numbers.
 //! <http://gwyddion.net/documentation/user-guide-en/gsf.html>
 
+use super::text::read_bytes;
+use crate::failure::Failure;
 use std::fmt::Write;
+use std::path::Path;
 
 /// An evenly spaced image.
 pub(crate) struct Field<'a> {
@@ -50,9 +53,97 @@ pub(crate) fn gsf(field: &Field) -> Vec<u8> {
     bytes
 }
 
+/// An image that was read; in nm where it was in metres.
+#[derive(Debug)]
+pub(crate) struct Image {
+    /// Centres of the columns.
+    pub(crate) x: Vec<f64>,
+    /// Centres of the rows.
+    pub(crate) y: Vec<f64>,
+    /// Heights, a row for each y.
+    pub(crate) rows: Vec<Vec<f64>>,
+    /// Whether positions are.
+    pub(crate) in_nanometres: bool,
+}
+
+/// Of an image of 4,096 × 4,096 pixels, and its header.
+const LARGEST: u64 = (4 << 24) + (1 << 16);
+
+/// The image of a file.
+pub(crate) fn read_gsf(option: &str, path: &Path) -> Result<Image, Failure> {
+    let bytes = read_bytes(option, path, LARGEST)?;
+    parse_gsf(&bytes)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
+    const MAGIC: &[u8] = b"Gwyddion Simple Field 1.0\n";
+    let end = bytes.iter().position(|byte| *byte == 0).filter(|_| bytes.starts_with(MAGIC));
+    let end =
+        end.ok_or("no Gwyddion Simple Field: its first line or the end of its header is missing")?;
+    let header = str::from_utf8(&bytes[..end]).map_err(|_| "its header is no text in UTF-8")?;
+    let field = |name: &str| {
+        let lines = header.lines().filter_map(|line| line.split_once('='));
+        lines.filter(|(key, _)| key.trim() == name).map(|(_, value)| value.trim()).next_back()
+    };
+    let count = |name: &str| {
+        let count = field(name).and_then(|text| text.parse::<usize>().ok());
+        count.filter(|n| (1..=1 << 16).contains(n)).ok_or(format!("{name} is missing, or no count"))
+    };
+    let number = |name: &str, otherwise: f64| match field(name) {
+        Some(text) => text.parse().map_err(|_| format!("{name} is no number: {text}")),
+        None => Ok(otherwise),
+    };
+    let (columns, rows) = (count("XRes")?, count("YRes")?);
+    let data = &bytes[((end / 4 + 1) * 4).min(bytes.len())..];
+    if data.len() != 4 * columns * rows {
+        return Err(format!("{} bytes of pixels for {columns} × {rows} of four", data.len()));
+    }
+    let nano = |name: &str| if field(name) == Some("m") { 1e9 } else { 1.0 };
+    let (scale, height) = (nano("XYUnits"), nano("ZUnits"));
+    let centres = |name: &str, count: usize| -> Result<Vec<f64>, String> {
+        let spacing = number(&format!("{name}Real"), 1.0)? / count as f64;
+        let offset = number(&format!("{name}Offset"), 0.0)?;
+        Ok((0..count).map(|i| scale * (offset + spacing * (i as f64 + 0.5))).collect())
+    };
+    let (words, _) = data.as_chunks::<4>();
+    let heights: Vec<f64> =
+        words.iter().map(|word| height * f64::from(f32::from_le_bytes(*word))).collect();
+    Ok(Image {
+        x: centres("X", columns)?,
+        y: centres("Y", rows)?,
+        rows: heights.chunks(columns).map(<[f64]>::to_vec).collect(),
+        in_nanometres: scale > 1.0,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let rows = [vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.5]];
+        let field = Field {
+            title: "t",
+            first: [10e-9, -1e-9],
+            spacing: [0.5e-9, 2e-9],
+            unit: "m",
+            rows: &rows,
+            factor: 1e-9,
+        };
+        let bytes = gsf(&field);
+        let read = parse_gsf(&bytes).unwrap();
+        let close = |found: &[f64], wanted: &[f64]| {
+            found.len() == wanted.len()
+                && found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6)
+        };
+        assert!(close(&read.x, &[10.0, 10.5, 11.0]) && close(&read.y, &[-1.0, 1.0]), "{read:?}");
+        assert!(read.in_nanometres && close(&read.rows[1], &rows[1]), "{read:?}");
+        for cut in [0, 20, 30, bytes.len() - 1] {
+            assert!(parse_gsf(&bytes[..cut]).is_err(), "{cut}");
+        }
+    }
 
     #[test]
     fn the_header_is_padded_with_one_to_four_zeros_to_a_multiple_of_four() {

@@ -8,29 +8,35 @@ use std::path::Path;
 
 /// Measured series are small; this is a million rows and more.
 pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
+
 /// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    let text = if let Some(bytes) = host::bytes(path) {
-        text_of(&*bytes, most)
-    } else if path == Path::new("-") {
-        text_of(io::stdin().lock(), most)
-    } else {
-        File::open(path).map_err(unreadable).and_then(|file| text_of(file, most))
-    };
-    text.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    String::from_utf8(read_bytes(option, path, most)?).map_err(|_| {
+        let message = "cannot be read: it is no text in UTF-8";
+        Failure::input(format!("{option} {}", path.display()), message)
+    })
 }
 
-fn text_of(reader: impl Read, most: u64) -> Result<String, String> {
-    let mut text = String::new();
-    match reader.take(most + 1).read_to_string(&mut text) {
-        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
-            Err("cannot be read: it is no text in UTF-8".into())
-        }
+/// The bytes of a file, in the same way.
+pub(super) fn read_bytes(option: &str, path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
+    let bytes = if let Some(bytes) = host::bytes(path) {
+        bytes_of(&*bytes, most)
+    } else if path == Path::new("-") {
+        bytes_of(io::stdin().lock(), most)
+    } else {
+        File::open(path).map_err(unreadable).and_then(|file| bytes_of(file, most))
+    };
+    bytes.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+fn bytes_of(reader: impl Read, most: u64) -> Result<Vec<u8>, String> {
+    let mut bytes = vec![];
+    match reader.take(most + 1).read_to_end(&mut bytes) {
         Err(error) => Err(unreadable(error)),
-        Ok(_) if text.len() as u64 > most => {
+        Ok(_) if bytes.len() as u64 > most => {
             Err(format!("larger than {} MB, the most that is read", most >> 20))
         }
-        Ok(_) => Ok(text),
+        Ok(_) => Ok(bytes),
     }
 }
 

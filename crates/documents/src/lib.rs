@@ -75,7 +75,8 @@ pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
 pub use history::{FARTHEST, History};
 pub use in_units::{Dimension, InUnits, KnownScales, dimension};
 pub use measured_tip::{
-    CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument, MeasuredTipParameters,
+    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
+    MeasuredTipParameters,
 };
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{

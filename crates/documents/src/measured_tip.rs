@@ -4,7 +4,7 @@ use crate::table::{Column, Named, Tabular};
 use crate::{FORMAT_VERSION, GaussianDocument, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_measurement::{Candidate, Estimate, MeasuredTip};
+use stickslip_measurement::{Across, Candidate, Estimate, MeasuredTip};
 
 /// A footprint from a measured profile, which is a tip file too: `gaussians` is f with f(0) = 1, lengths in σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -50,6 +50,9 @@ pub struct MeasuredTipDocument {
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
     pub profile: FittedDocument,
+    /// What an image tells beside the profile through its middle: f(x,y).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<AcrossDocument>,
     /// What should be known before it is believed.
     pub remarks: Vec<String>,
 }
@@ -76,6 +79,27 @@ pub struct MeasuredTipParameters {
     pub resamples: usize,
     /// Of the draws.
     pub seed: u64,
+}
+
+/// f(x,y): each Gaussian of f(x) times exp(-y²/(2v²)), as all pixels of an image have it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AcrossDocument {
+    /// v of each of `gaussians`, in σ.
+    pub widths: Vec<f64>,
+    /// Where f is even about across, in the unit of the positions.
+    pub centre: f64,
+    /// Standard deviation of what the fit leaves of all pixels, in the unit of the heights.
+    pub residual: f64,
+    /// Standard deviation of what is not smooth from pixel to pixel along the rows, in the unit of the heights.
+    pub noise: f64,
+}
+
+impl From<&Across> for AcrossDocument {
+    fn from(across: &Across) -> Self {
+        let Across { widths, centre, residual, noise } = across;
+        Self { widths: widths.clone(), centre: *centre, residual: *residual, noise: *noise }
+    }
 }
 
 /// A value with its 95 % interval.
@@ -166,10 +190,28 @@ impl MeasuredTipDocument {
                 f: found.fitted.f.clone(),
                 fit: found.fitted.fit.clone(),
             },
+            image: None,
             remarks: found.remarks(),
         }
     }
+
+    /// With what the image tells that the profile is of.
+    #[must_use]
+    pub fn with_image(mut self, across: &Across) -> Self {
+        if across.residual > ABOVE_NOISE * across.noise {
+            self.remarks.push(format!(
+                "what the fit leaves of the image, {:.2e}, is more than its noise, {:.2e}: the ground is no plane, or f(x,y) is no sum \
+                 of Gaussians across, even about its path",
+                across.residual, across.noise
+            ));
+        }
+        self.image = Some(across.into());
+        self
+    }
 }
+
+/// A residual so many times the noise is remarked on.
+const ABOVE_NOISE: f64 = 1.3;
 
 impl FittedDocument {
     /// What the fit leaves.

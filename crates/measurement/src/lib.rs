@@ -19,6 +19,7 @@
 //! ```
 
 mod fit;
+mod image;
 mod interval;
 mod judge;
 mod least_squares;
@@ -29,6 +30,7 @@ mod tip;
 pub use fit::{
     Data, DataError, Fit, FitError, FitRequest, FittedNumber, Name, Part, Shape, Track, Values, fit,
 };
+pub use image::{Across, Image, ImageError};
 pub use interval::Estimate;
 pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};

@@ -3,6 +3,7 @@
 //! Judge: ripples carved by the full PDE (`stickslip_grid`, order 8 in time, exact in space), which shares no code with
 //! the cycles that are fitted to them. Noise of 1 to 5 % of the ripple's amplitude, offset, slope, an unknown phase.
 
+use crate::noise::normal;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -66,12 +67,6 @@ impl Truth {
         let y = y.collect();
         Track { x: x.iter().map(|x| self.width * (x - first)).collect(), y, gain: Some(gain) }
     }
-}
-
-/// A normal deviate, by Box and Muller.
-fn normal(random: &mut ChaCha8Rng) -> f64 {
-    let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random());
-    (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
 }
 
 fn request() -> FitRequest {

@@ -3,5 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod fitted_ripples;
+mod freed_numbers;
 mod judged_tables;
+mod measured_images;
 mod measured_tips;
+mod noise;

@@ -1,0 +1,242 @@
+//! A measured image of a footprint: how wide each Gaussian of its profile is across the way of the tip.
+//!
+//! ```text
+//! z(x,y) = ground + apex Σ_k a_k exp(-(x - c_k)²/(2 w_k²)) exp(-(y - y0)²/(2 v_k²))
+//! ```
+//!
+//! a, c and w are those of the profile along x through the middle, as [`tip`](crate::tip) finds them; v and y0 are fitted to all
+//! pixels, the ground and the height projected out.
+
+use crate::least_squares::{Minimum, Residuals, forward, minimum};
+use crate::profile::{Profile, ProfileError};
+use crate::projection::project;
+use crate::tip::MeasuredTip;
+use stickslip_tip::Gaussian;
+use thiserror::Error;
+
+/// Heights over an even grid, a row for each y, in any units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// Why there is no footprint in an image.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ImageError {
+    /// Too few rows or columns, or not as many as there are positions.
+    #[error(
+        "{columns} × {rows} pixels: at least {FEWEST} either way are needed, and rows of equal length"
+    )]
+    Size {
+        /// Pixels in a row.
+        columns: usize,
+        /// Rows.
+        rows: usize,
+    },
+    /// Heights that are not finite, or all the same.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// Nothing was found.
+    #[error("no footprint stands out of its ground")]
+    Nothing,
+}
+
+/// What an image tells beyond the profile through its middle, in its units but for the widths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Across {
+    /// v, in σ: one for each Gaussian of the tip.
+    pub widths: Vec<f64>,
+    /// y0, where f is even about across.
+    pub centre: f64,
+    /// Standard deviation of what the fit leaves of all pixels.
+    pub residual: f64,
+    /// Standard deviation of what is not smooth from pixel to pixel along a row.
+    pub noise: f64,
+}
+
+/// Fewest pixels either way.
+const FEWEST: usize = 12;
+/// Pixels that are enough for a fit.
+const ENOUGH: usize = 20_000;
+/// Part of an image at each side that is taken for ground.
+const FRAME: f64 = 0.1;
+/// Rows are averaged for a profile within this part of the half width across: f falls by 0.1 % there.
+const BAND: f64 = 0.05;
+/// Step of y0/σ and ln v.
+const STEP: f64 = 1e-5;
+
+impl Image {
+    /// # Errors
+    /// Too small, not even rows, or not finite.
+    pub fn new(x: Vec<f64>, y: Vec<f64>, rows: Vec<Vec<f64>>) -> Result<Self, ImageError> {
+        let size = ImageError::Size { columns: x.len(), rows: rows.len() };
+        let is_even = rows.len() == y.len() && rows.iter().all(|row| row.len() == x.len());
+        if !is_even || x.len() < FEWEST || y.len() < FEWEST {
+            return Err(size);
+        }
+        let finite = |row: &Vec<f64>| row.iter().all(|v| v.is_finite());
+        if let Some(row) = rows.iter().position(|row| !finite(row)) {
+            return Err(ProfileError::NotFinite { row: row + 1 }.into());
+        }
+        Ok(Self { x, y, rows })
+    }
+
+    /// Every `every`th pixel either way: x, y and height.
+    fn pixels(&self, every: usize) -> impl Iterator<Item = [f64; 3]> {
+        let rows = self.y.iter().zip(&self.rows).step_by(every);
+        rows.flat_map(move |(y, row)| {
+            self.x.iter().zip(row).step_by(every).map(|(x, z)| [*x, *y, *z])
+        })
+    }
+
+    /// Heights less the plane through the frame.
+    fn above_ground(&self) -> Option<Vec<[f64; 3]>> {
+        let within = |at: f64, ends: &[f64]| {
+            let (first, last) = (ends[0], ends[ends.len() - 1]);
+            let margin = FRAME * (last - first).abs();
+            (at - first).abs().min((last - at).abs()) > margin
+        };
+        let is_frame = |p: &[f64; 3]| !(within(p[0], &self.x) && within(p[1], &self.y));
+        let frame: Vec<[f64; 3]> = self.pixels(1).filter(is_frame).collect();
+        let column = |i: usize| frame.iter().map(|p| p[i]).collect::<Vec<f64>>();
+        let plane = project(&[vec![1.0; frame.len()], column(0), column(1)], &column(2))?;
+        let [c, a, b] = <[f64; 3]>::try_from(plane.coefficients).ok()?;
+        Some(self.pixels(1).map(|[x, y, z]| [x, y, z - c - a * x - b * y]).collect())
+    }
+
+    /// The profile along x through the middle of the footprint.
+    ///
+    /// # Errors
+    /// Nothing stands out of the ground.
+    pub fn profile(&self) -> Result<Profile, ImageError> {
+        let above = self.above_ground().ok_or(ImageError::Nothing)?;
+        let extreme = above.iter().map(|p| p[2]).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let extreme = extreme.filter(|z| *z != 0.0).ok_or(ImageError::Nothing)?;
+        // More than half as high: the middle of a footprint, whatever its ground.
+        let high = above.iter().filter(|p| p[2] / extreme > 0.5);
+        let (count, sum, square) =
+            high.fold((0.0, 0.0, 0.0), |(n, s, q), [_, y, _]| (n + 1.0, s + y, q + y * y));
+        let middle: f64 = sum / count;
+        let spread = (square / count - middle * middle).max(0.0).sqrt();
+        let apart = |y: &f64| (y - middle).abs();
+        let nearest = self.y.iter().map(apart).fold(f64::INFINITY, f64::min);
+        let band = nearest.max(2.0 * BAND * spread);
+        let rows: Vec<&Vec<f64>> = self
+            .y
+            .iter()
+            .zip(&self.rows)
+            .filter(|(y, _)| apart(y) <= band)
+            .map(|(_, row)| row)
+            .collect();
+        let mean = |i: usize| rows.iter().map(|row| row[i]).sum::<f64>() / rows.len() as f64;
+        Ok(Profile::new(self.x.clone(), (0..self.x.len()).map(mean).collect())?)
+    }
+
+    /// How wide its Gaussians are across; `tip` is that of [`Image::profile`].
+    ///
+    /// # Errors
+    /// No fit was found.
+    pub fn across(&self, tip: &MeasuredTip) -> Result<Across, ImageError> {
+        let every = ((self.x.len() * self.y.len()) as f64 / ENOUGH as f64).sqrt().ceil().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let pixels: Vec<[f64; 3]> = self.pixels(every as usize).collect();
+        let problem = Problem::of(pixels, tip, self.middle());
+        let alike = problem.widths.iter().map(|w| w.ln());
+        let starts = [1.0, 0.5, 2.0].map(|times: f64| {
+            std::iter::once(0.0).chain(alike.clone().map(|w| w + times.ln())).collect::<Vec<f64>>()
+        });
+        let best = starts.iter().filter_map(|start| minimum(&problem, start));
+        let best: Minimum =
+            best.min_by(|a, b| a.sum.total_cmp(&b.sum)).ok_or(ImageError::Nothing)?;
+        let widths = problem.group.iter().map(|k| best.parameters[1 + k].exp()).collect();
+        let freedom = best.residuals.len() as f64 - best.parameters.len() as f64 - 4.0;
+        Ok(Across {
+            widths,
+            centre: problem.middle + tip.sigma.value * best.parameters[0],
+            residual: (best.sum / freedom).sqrt(),
+            noise: self.noise(),
+        })
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * (self.y[0] + self.y[self.y.len() - 1])
+    }
+
+    /// The median of what [`Profile::noise`] is of each row.
+    fn noise(&self) -> f64 {
+        let of = |row: &Vec<f64>| Profile::new(self.x.clone(), row.clone()).ok().map(|p| p.noise());
+        let mut noises: Vec<f64> = self.rows.iter().filter_map(of).collect();
+        noises.sort_by(f64::total_cmp);
+        noises.get(noises.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+/// Pixels, and what of the model stays as it is.
+struct Problem {
+    pixels: Vec<[f64; 3]>,
+    /// Of each Gaussian its part at every pixel along x, amplitude and all.
+    along: Vec<Vec<f64>>,
+    /// To which width across it belongs: twins share theirs.
+    group: Vec<usize>,
+    /// Along x, of each group.
+    widths: Vec<f64>,
+    middle: f64,
+    sigma: f64,
+}
+
+impl Problem {
+    fn of(pixels: Vec<[f64; 3]>, tip: &MeasuredTip, middle: f64) -> Self {
+        let sigma = tip.sigma.value;
+        let along = tip.gaussians.iter().map(|g| {
+            let at = |p: &[f64; 3]| {
+                let away = ((p[0] - tip.centre) / sigma - g.center) / g.width;
+                g.amplitude * (-0.5 * away * away).exp()
+            };
+            pixels.iter().map(at).collect()
+        });
+        let along = along.collect();
+        let (mut group, mut first): (Vec<usize>, Vec<&Gaussian>) = (vec![], vec![]);
+        for g in &tip.gaussians {
+            let twin = |other: &&Gaussian| {
+                let near = |a: f64, b: f64| (a.abs() - b.abs()).abs() < 1e-9 * (1.0 + b.abs());
+                near(other.center, g.center) && near(other.width, g.width)
+            };
+            group.push(first.iter().position(twin).unwrap_or_else(|| {
+                first.push(g);
+                first.len() - 1
+            }));
+        }
+        let widths = first.iter().map(|g| g.width).collect();
+        Self { pixels, along, group, widths, middle, sigma }
+    }
+}
+
+/// Widths across beyond these, in σ, are none.
+const WIDTHS: std::ops::RangeInclusive<f64> = 0.02..=50.0;
+
+impl Residuals for Problem {
+    /// Of y0, in σ from the middle, and ln v of each group.
+    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let (centre, widths) = (parameters[0], &parameters[1..]);
+        if !widths.iter().all(|w| WIDTHS.contains(&w.exp())) {
+            return None;
+        }
+        let mut model = vec![0.0; self.pixels.len()];
+        for (along, k) in self.along.iter().zip(&self.group) {
+            let width = widths[*k].exp();
+            for ((sum, part), [_, y, _]) in model.iter_mut().zip(along).zip(&self.pixels) {
+                let away = ((y - self.middle) / self.sigma - centre) / width;
+                *sum += part * (-0.5 * away * away).exp();
+            }
+        }
+        let column = |i: usize| self.pixels.iter().map(|p| p[i]).collect::<Vec<f64>>();
+        let columns = [vec![1.0; self.pixels.len()], column(0), column(1), model];
+        Some(project(&columns, &column(2))?.residuals)
+    }
+
+    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
+        forward(self, (here, parameters), STEP)
+    }
+}

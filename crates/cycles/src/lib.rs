@@ -57,6 +57,7 @@ use multipliers::multipliers;
 use num_complex::Complex;
 use ripple::Ripple;
 use solve::Closed;
+use std::sync::OnceLock;
 use stickslip_tip::memory::displacement;
 use stickslip_tip::motion::latest_extrema;
 use stickslip_tip::{Model, Support, Trajectory};
@@ -92,6 +93,8 @@ pub struct Cycle {
     multipliers: Vec<Complex<f64>>,
     extremes: (f64, f64),
     slips: usize,
+    /// Once it was asked for.
+    amplitude_u: OnceLock<f64>,
 }
 
 impl Cycle {
@@ -113,7 +116,8 @@ impl Cycle {
         let extremes = (lowest, highest);
         // Around a period there are as many maxima as minima; the first maximum is at the seam.
         let slips = extrema.iter().filter(|e| !e.is_maximum).count();
-        Ok(Self { model, closed, motion, multipliers, extremes, slips })
+        let amplitude_u = OnceLock::new();
+        Ok(Self { model, closed, motion, multipliers, extremes, slips, amplitude_u })
     }
 
     /// Footprint, α and r.
@@ -143,7 +147,7 @@ impl Cycle {
     /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a; 0 where it heals.
     #[must_use]
     pub fn amplitude_u(&self) -> f64 {
-        self.ripple().amplitude()
+        *self.amplitude_u.get_or_init(|| self.ripple().amplitude())
     }
 
     /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion).

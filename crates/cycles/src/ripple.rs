@@ -32,9 +32,13 @@ impl Ripple {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let harmonics = (tip.band() * wavelength / TAU).ceil() as usize;
         let mut spent = vec![Complex::ZERO; harmonics + 1];
-        for (x, weight) in positions.iter().zip(&weights) {
-            for (spent, power) in spent.iter_mut().zip(powers(-TAU * x / wavelength)) {
-                *spent += power * *weight;
+        for (positions, weights) in positions.chunks(LANES).zip(weights.chunks(LANES)) {
+            let mut waves = Waves::at(positions, -TAU / wavelength);
+            let mut lasted = [0.0; LANES];
+            lasted[..weights.len()].copy_from_slice(weights);
+            for spent in &mut spent {
+                *spent += waves.sum(&lasted);
+                waves.next();
             }
         }
         for (k, spent) in spent.iter_mut().enumerate() {
@@ -65,16 +69,37 @@ impl Ripple {
 
     /// Half peak-to-peak.
     pub(super) fn amplitude(&self) -> f64 {
-        0.5 * (self.extremum(1.0) + self.extremum(-1.0))
-    }
-
-    /// Largest `sign` · u: the best of many points, then Newton's method for its zero slope.
-    fn extremum(&self, sign: f64) -> f64 {
         let points = POINTS_PER_HARMONIC * self.coefficients.len().max(1);
         let spacing = self.wavelength / points as f64;
+        let x: Vec<f64> = (0..points).map(|i| spacing * i as f64).collect();
+        let heights = self.heights(&x);
+        let best = |sign: f64| {
+            let heights = heights.iter().map(|u| sign * u).zip(&x);
+            heights.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, x)| *x)
+        };
+        0.5 * (self.extremum(1.0, best(1.0), spacing) + self.extremum(-1.0, best(-1.0), spacing))
+    }
+
+    /// u less its mean at many points.
+    fn heights(&self, x: &[f64]) -> Vec<f64> {
+        let mut heights = Vec::with_capacity(x.len() + LANES);
+        for x in x.chunks(LANES) {
+            let mut waves = Waves::at(x, TAU / self.wavelength);
+            let mut sums = [0.0; LANES];
+            for coefficient in &self.coefficients {
+                waves.next();
+                for (i, sum) in sums.iter_mut().enumerate() {
+                    *sum += 2.0 * (coefficient.re * waves.re[i] - coefficient.im * waves.im[i]);
+                }
+            }
+            heights.extend(&sums[..x.len()]);
+        }
+        heights
+    }
+
+    /// Largest `sign` · u near the best of points so far apart: Newton's method for its zero slope.
+    fn extremum(&self, sign: f64, start: f64, spacing: f64) -> f64 {
         let height = |x: f64| sign * self.at(x).0;
-        let heights = (0..points).map(|i| (spacing * i as f64, height(spacing * i as f64)));
-        let start = heights.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(x, _)| x);
         let mut x = start;
         for _ in 0..8 {
             let (_, slope, curvature) = self.at(x);
@@ -84,6 +109,44 @@ impl Ripple {
             }
         }
         height(x).max(height(start))
+    }
+}
+
+/// Points that waves are taken at side by side.
+const LANES: usize = 8;
+
+/// `e^{ikφ}` of some phases, for k = 0, 1, …
+struct Waves {
+    re: [f64; LANES],
+    im: [f64; LANES],
+    once: ([f64; LANES], [f64; LANES]),
+}
+
+impl Waves {
+    /// φ of these places, at most as many as there are lanes; of idle ones 0.
+    fn at(places: &[f64], wave_number: f64) -> Self {
+        let mut once = ([1.0; LANES], [0.0; LANES]);
+        for (i, x) in places.iter().enumerate() {
+            (once.1[i], once.0[i]) = (wave_number * x).sin_cos();
+        }
+        Self { re: [1.0; LANES], im: [0.0; LANES], once }
+    }
+
+    fn next(&mut self) {
+        for i in 0..LANES {
+            let (re, im) = (self.re[i], self.im[i]);
+            self.re[i] = re * self.once.0[i] - im * self.once.1[i];
+            self.im[i] = re * self.once.1[i] + im * self.once.0[i];
+        }
+    }
+
+    fn sum(&self, weights: &[f64; LANES]) -> Complex<f64> {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (i, weight) in weights.iter().enumerate() {
+            re += weight * self.re[i];
+            im += weight * self.im[i];
+        }
+        Complex::new(re, im)
     }
 }
 

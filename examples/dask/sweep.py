@@ -21,7 +21,8 @@ def part(index: int, of: int, grid: dict[str, Any]) -> stickslip.SweepResult:
 def sweep(client: Client, parts: int, **grid: Any) -> stickslip.SweepResult:
     """The whole of it, in so many tasks: some ten for each worker, so that the costly ones are shared out."""
     tasks = client.map(part, range(1, parts + 1), of=parts, grid=grid)
-    return stickslip.sweep_merge(*client.gather(tasks))
+    computed: list[stickslip.SweepResult] = client.gather(tasks)
+    return stickslip.sweep_merge(*computed)
 
 
 if __name__ == "__main__":

@@ -82,6 +82,12 @@ def test_ctrl_c_stops_a_sweep():
     interrupted("stickslip.sweep(r=(0.1, 2, 1000), alpha=(0.05, 4, 1000), progress=press)", "pass")
 
 
+def test_ctrl_c_leaves_no_grid_marching():
+    call = "stickslip.compare(alpha=1.2, r=1, until=20, grid='uniform', spacing=1e-3, step=1e-5, time_limit=1e9, progress=press)"
+    # Hours of work: what goes on by itself shows in the processor's time.
+    interrupted(call, "used = time.process_time(); time.sleep(1); assert time.process_time() - used < 0.3")
+
+
 def test_progress_is_told_and_what_it_raises_stops_the_run():
     seen = []
     stickslip.sweep(r=(0.5, 1.5, 5), alpha=(0.5, 2, 20), progress=lambda part, counted: seen.append((part, counted)))

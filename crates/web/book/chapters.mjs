@@ -73,9 +73,9 @@ function libraries() {
     const manifest = join(root, 'crates', name, 'Cargo.toml');
     if (!existsSync(manifest) || name === 'web' || name === 'python') return [];
     const of = (key) => readFileSync(manifest, 'utf8').match(new RegExp(`^${key} = "(.*)"`, 'm'))[1];
-    return [`| \`${of('name')}\` | ${of('description')} |`];
+    return [`| [\`${of('name')}\`](api/${of('name').replaceAll('-', '_')}/index.html) | ${of('description')} |`];
   });
-  return `# Libraries\n\n\`make doc\` writes the documentation of all of them, equation by equation, into \`target/doc\`.\n\n| crate | |\n|---|---|\n${rows.join('\n')}\n`;
+  return `# Libraries\n\nEach name leads to its documentation, equation by equation, which \`make doc\` writes into \`target/doc\` too.\n\n| crate | |\n|---|---|\n${rows.join('\n')}\n`;
 }
 writeFileSync(join(src, 'libraries.md'), libraries());
 

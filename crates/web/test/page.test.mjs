@@ -219,7 +219,10 @@ test('a raster grows, can be stopped, and ends as the program ends it', { skip }
   const found = JSON.parse(await page.locator('#raster-told').getAttribute('data-found'));
   const { regime, pattern } = document(found.command);
   assert.equal(found.regime, regime);
-  for (const key of ['q', 'kappa', 'amplitude', 'coherence']) close(found.pattern[key], pattern[key], 1e-9, key);
+  // Ripples grow from line to line, and round-off with them: a push of 1e-15 on the first line moves this amplitude by
+  // 6e-9 in the program itself, whose lines are held to 1e-6.
+  const most = { q: 1e-9, kappa: 1e-9, coherence: 1e-9, amplitude: 1e-8 };
+  for (const key of Object.keys(most)) close(found.pattern[key], pattern[key], most[key], key);
   await page.locator('#lines-number').fill('1000');
   await page.locator('#scan').click();
   await page.locator('#raster-told').filter({ hasText: /up to 400 lines/ }).waitFor();

@@ -66,30 +66,37 @@ pub(crate) struct Held<'a, P> {
     pub(super) crc32: &'a mut Option<u32>,
 }
 
+/// What is read off fields of the same names.
+macro_rules! by_fields {
+    ($point:ty) => {
+        type Point = $point;
+        const FORMAT: &'static str = Self::FORMAT;
+
+        fn held(&mut self) -> Held<'_, $point> {
+            let Self { parameters, points, arithmetic, crc32, .. } = self;
+            Held { shard: &mut parameters.shard, points, arithmetic, crc32 }
+        }
+
+        fn points(&self) -> &[$point] {
+            &self.points
+        }
+
+        fn count(&self) -> usize {
+            self.parameters.points()
+        }
+
+        fn is_of(&self, other: &Self) -> bool {
+            self.parameters == other.parameters && self.software == other.software
+        }
+
+        fn checksum(&self) -> Result<u32, Failure> {
+            sum(&(&self.parameters, &self.points, &self.arithmetic))
+        }
+    };
+}
+
 impl Divided for SweepDocument {
-    type Point = SweepPoint;
-    const FORMAT: &'static str = Self::FORMAT;
-
-    fn held(&mut self) -> Held<'_, SweepPoint> {
-        let Self { parameters, points, arithmetic, crc32, .. } = self;
-        Held { shard: &mut parameters.shard, points, arithmetic, crc32 }
-    }
-
-    fn points(&self) -> &[SweepPoint] {
-        &self.points
-    }
-
-    fn count(&self) -> usize {
-        self.parameters.points()
-    }
-
-    fn is_of(&self, other: &Self) -> bool {
-        self.parameters == other.parameters && self.software == other.software
-    }
-
-    fn checksum(&self) -> Result<u32, Failure> {
-        sum(&(&self.parameters, &self.points, &self.arithmetic))
-    }
+    by_fields!(SweepPoint);
 
     fn velocity(&self) -> Option<f64> {
         self.parameters.velocity()
@@ -106,29 +113,7 @@ impl Divided for SweepDocument {
 }
 
 impl Divided for RasterSweepDocument {
-    type Point = RasterSweepPoint;
-    const FORMAT: &'static str = Self::FORMAT;
-
-    fn held(&mut self) -> Held<'_, RasterSweepPoint> {
-        let Self { parameters, points, arithmetic, crc32, .. } = self;
-        Held { shard: &mut parameters.shard, points, arithmetic, crc32 }
-    }
-
-    fn points(&self) -> &[RasterSweepPoint] {
-        &self.points
-    }
-
-    fn count(&self) -> usize {
-        self.parameters.points()
-    }
-
-    fn is_of(&self, other: &Self) -> bool {
-        self.parameters == other.parameters && self.software == other.software
-    }
-
-    fn checksum(&self) -> Result<u32, Failure> {
-        sum(&(&self.parameters, &self.points, &self.arithmetic))
-    }
+    by_fields!(RasterSweepPoint);
 
     fn velocity(&self) -> Option<f64> {
         Some(self.parameters.r)

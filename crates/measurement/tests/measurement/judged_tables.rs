@@ -1,8 +1,6 @@
 //! Is it told what the noise of a raw table does to αc? Judged by αc of the footprint that was put in.
 
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
+use crate::noisy_table::table;
 use stickslip_measurement::{Verdict, judge};
 use stickslip_stability::critical;
 use stickslip_tip::TipFunction;
@@ -10,16 +8,6 @@ use stickslip_tip::TipFunction;
 /// Relative errors of αc that are told, and from which on a table is refused.
 const TOLD: f64 = 0.02;
 const REFUSED: f64 = 0.1;
-
-/// A Gaussian in this many rows, each off by up to `noise`, the last one 0.
-fn table(rows: u32, noise: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
-    let x: Vec<f64> = (0..rows).map(|i| 8.0 * f64::from(i) / f64::from(rows - 1)).collect();
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut more = || noise * random.random_range(-1.0..=1.0);
-    let mut f: Vec<f64> = x.iter().map(|x| (-0.5 * x * x).exp() + more()).collect();
-    f[rows as usize - 1] = 0.0;
-    (x, f)
-}
 
 /// αc(1) of the Gaussian is 1.879427, DESIGN's reference value to 30 digits.
 #[test]

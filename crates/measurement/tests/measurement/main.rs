@@ -8,3 +8,4 @@ mod judged_tables;
 mod measured_images;
 mod measured_tips;
 mod noise;
+mod noisy_table;

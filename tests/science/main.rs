@@ -18,6 +18,7 @@ mod properties;
 mod raster_documents;
 mod rasters_on_grids;
 mod regimes;
+mod same_bits;
 mod scaling_laws;
 mod stability_against_runs;
 mod surfaces;

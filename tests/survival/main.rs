@@ -17,6 +17,8 @@ mod flipped_bits;
 mod killed_runs;
 #[cfg(unix)]
 mod long_runs;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod older_processors;
 #[cfg(target_os = "linux")]
 mod signals;
 #[cfg(unix)]

@@ -12,6 +12,7 @@
 use num_complex::Complex;
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
+use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::memory::{Fit, FitError, Term};
 use stickslip_tip::{Gaussian, TipFunction, stop};
 
@@ -137,7 +138,7 @@ const MOST_LOOKED_AT: usize = 20_000;
 fn add(transform: &mut [Complex<f64>], g: &Gaussian, damping: f64, spacing: f64) {
     let size = g.amplitude * g.width * TAU.sqrt();
     let mut turn = Complex::<f64>::ONE;
-    let once = Complex::from_polar(1.0, -spacing * g.center);
+    let once = complex_exp(Complex::new(0.0, -spacing * g.center));
     for (k, value) in transform.iter_mut().enumerate() {
         let (re, im) = (damping, -spacing * k as f64);
         let log = 0.5 * g.width.powi(2) * (re * re - im * im) + re * g.center;
@@ -145,7 +146,7 @@ fn add(transform: &mut [Complex<f64>], g: &Gaussian, damping: f64, spacing: f64)
             return;
         }
         let phase = g.width.powi(2) * re * im;
-        *value += turn * Complex::from_polar(size * log.exp(), phase);
+        *value += turn * complex_exp(Complex::new(log, phase)) * size;
         turn *= once;
     }
 }

@@ -4,6 +4,7 @@ use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
+use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::exponentials as fill;
 use stickslip_tip::memory::{Fit, Term};
 use stickslip_tip::stop;
@@ -68,7 +69,7 @@ impl<'a> Past<'a> {
         let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
         let added = &past.zeta[past.zeta.len() - terms.len()..];
         let settled = |(added, term): (&Complex<f64>, &Term)| {
-            added / (1.0 - (term.exponent * moved).exp() * kept)
+            added / (1.0 - complex_exp(term.exponent * moved) * kept)
         };
         let start: Vec<_> = added.iter().zip(terms).map(settled).collect();
         past.zeta.clear();

@@ -2,6 +2,7 @@
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
+use stickslip_tip::elementary::{complex_exp, sin_cos};
 use stickslip_tip::{TipFunction, Trajectory};
 
 /// One wavelength of u far behind the tip, (35), as a Fourier series.
@@ -127,7 +128,7 @@ impl Waves {
     fn at(places: &[f64], wave_number: f64) -> Self {
         let mut once = ([1.0; LANES], [0.0; LANES]);
         for (i, x) in places.iter().enumerate() {
-            (once.1[i], once.0[i]) = (wave_number * x).sin_cos();
+            (once.1[i], once.0[i]) = sin_cos(wave_number * x);
         }
         Self { re: [1.0; LANES], im: [0.0; LANES], once }
     }
@@ -152,6 +153,6 @@ impl Waves {
 
 /// `e^{ikφ}` for k = 0, 1, …
 fn powers(phase: f64) -> impl Iterator<Item = Complex<f64>> {
-    let once = Complex::from_polar(1.0, phase);
+    let once = complex_exp(Complex::new(0.0, phase));
     std::iter::successors(Some(Complex::ONE), move |power| Some(power * once))
 }

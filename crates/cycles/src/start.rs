@@ -7,6 +7,7 @@ use super::{CycleError, Tried};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use stickslip_stability::{Criticality, Onset};
+use stickslip_tip::elementary::cos;
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::step::longest_displacement;
 use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
@@ -42,7 +43,7 @@ pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
 
 /// l(t) of the linear mode.
 pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> f64 {
-    move |t| steady + amplitude * (TAU * t / period).cos()
+    move |t| steady + amplitude * cos(TAU * t / period)
 }
 
 /// So many steps that none leads too far; `None` where that is more than any mesh has.

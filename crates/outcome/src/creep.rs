@@ -18,6 +18,7 @@ use gauss_quad::legendre::GaussLegendre;
 use num_complex::Complex64;
 use std::num::NonZeroUsize;
 use stickslip_stability::{Creep, creep};
+use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::{InitialSurface, Model, Step, Trajectory, stop};
 
 /// The logarithmic creep x0 ~ (1/p) ln t of a trapped tip.
@@ -113,7 +114,8 @@ impl Exponentials {
         };
         let pushes: Vec<(f64, f64)> = nodes.iter().map(pushed).collect::<Option<_>>()?;
         let coefficient = |(p, slope): (&Complex64, &Complex64)| {
-            let groove: Complex64 = pushes.iter().map(|(x, push)| (-p * *x).exp() * *push).sum();
+            let groove: Complex64 =
+                pushes.iter().map(|(x, push)| complex_exp(-p * *x) * *push).sum();
             let spring = (extension - p.inv()) / p;
             (*p, p * (groove + spring) / (slope * model.alpha()))
         };
@@ -123,7 +125,7 @@ impl Exponentials {
     /// θ' and θ'' at a distance ahead.
     fn at(&self, ahead: f64) -> (f64, f64) {
         self.terms.iter().fold((0.0, 0.0), |sum, (p, c)| {
-            let term = c * (p * ahead).exp();
+            let term = c * complex_exp(p * ahead);
             (sum.0 + term.re, sum.1 + (p * term).re)
         })
     }
@@ -156,10 +158,10 @@ impl Exponentials {
             time += 0.5 * step * (before + here);
             before = here;
             let others: f64 =
-                self.terms[1..].iter().map(|(p, c)| (c * (p * ahead).exp()).norm()).sum();
+                self.terms[1..].iter().map(|(p, c)| (c * complex_exp(p * ahead)).norm()).sum();
             if let Some(attracting) = creep.attracting()
                 && c.re > 0.0
-                && (c * (p * ahead).exp()).norm() > 4.0 * others
+                && (c * complex_exp(p * ahead)).norm() > 4.0 * others
             {
                 return Fate::Held(Creeping { rate: slope / now, attracting });
             }

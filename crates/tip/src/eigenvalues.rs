@@ -10,6 +10,7 @@
 //! References: Golub & Van Loan, *Matrix Computations*, sections 5.2 and 7.5; Parlett & Reinsch, Numer. Math.
 //! 13, 293 (1969).
 
+use crate::elementary::{exp2, log2};
 use crate::stop;
 use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
 use num_complex::Complex;
@@ -45,7 +46,12 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     balance(&mut matrix);
     let rows = matrix.nrows();
     let basis = range(matrix.clone());
-    let reduced = if basis.ncols() < rows { basis.tr_mul(&matrix) * basis } else { matrix };
+    // `tr_mul` sums in one order on every machine; products of large matrices have kernels for each processor.
+    let reduced = if basis.ncols() < rows {
+        basis.tr_mul(&matrix).transpose().tr_mul(&basis)
+    } else {
+        matrix
+    };
     let upper = if reduced.nrows() > 2 { Hessenberg::new(reduced).unpack_h() } else { reduced };
     let mut found = Deflation::new(upper).eigenvalues()?;
     found.resize(rows, Complex::ZERO);
@@ -91,7 +97,7 @@ fn balance(matrix: &mut DMatrix<f64>) {
                 continue;
             }
             // f² = row / column: both become their geometric mean.
-            let factor = (0.5 * (row.log2() - column.log2())).round().clamp(-200.0, 200.0).exp2();
+            let factor = exp2((0.5 * (log2(row) - log2(column))).round().clamp(-200.0, 200.0));
             if column * factor + row / factor < GAIN * (column + row) {
                 settled = false;
                 matrix.row_mut(i).scale_mut(1.0 / factor);

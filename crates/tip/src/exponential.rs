@@ -2,39 +2,23 @@
 //!
 //! Half of what a cycle takes is exponentials, each for some forty instructions of the libraries' functions and as many
 //! again for the sine and cosine. Side by side in the lanes of the machine they take a quarter of that, by the usual
-//! reductions, x = k ln 2 + ρ and y = q π/2 + ρ in parts that leave nothing of x or y (Cody & Waite, *Software Manual for
-//! the Elementary Functions*, 1980), and polynomials in ρ: that of e^ρ is its Taylor series, those of sin and cos are
-//! the ones of fdlibm. Nothing is fused, so that all machines agree to the last bit.
+//! reductions, x = k ln 2 + ρ and y = q π/2 + ρ in parts that leave nothing of x or y, and polynomials in ρ: that of e^ρ is
+//! in [`crate::elementary`], those of sin and cos are the ones of fdlibm. Nothing is fused, so that all machines agree to the last bit.
 
+use crate::elementary::{self, LARGEST, ROUNDS, exp_within};
 use multiversion::multiversion;
 use num_complex::Complex;
-use std::f64::consts::{FRAC_2_PI, LOG2_E};
+use std::f64::consts::FRAC_2_PI;
 
 /// Side by side: some vectors of the machine, so that their loops are worth making vectors of.
 const LANES: usize = 12;
-type Lane = [f64; LANES];
 
 /// Phases beyond are left to the library: π/2 is subtracted in parts of 33 bits, at most this often.
 const LARGEST_PHASE: f64 = 1e6;
-/// Exponents are held within these, where neither e^x nor its inverse leaves the range of f64.
-const LARGEST_EXPONENT: f64 = 700.0;
-/// Added to a number it leaves the nearest whole one in the last bits.
-const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;
-/// ln 2 and π/2 in parts, of few bits but the last.
-const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+/// π/2 in parts, of few bits but the last.
 const HALF_PI: [f64; 3] =
     [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 
-/// 1/m!
-const EXP: [f64; 14] = {
-    let mut inverse = [1.0; 14];
-    let mut m = 1;
-    while m < 14 {
-        inverse[m] = inverse[m - 1] / m as f64;
-        m += 1;
-    }
-    inverse
-};
 /// (sin ρ - ρ)/ρ³ in ρ², and (cos ρ - 1 + ρ²/2)/ρ⁴.
 const SIN: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
@@ -97,6 +81,20 @@ fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
     rest_inverses.copy_from_slice(&inverses[..rest.len()]);
 }
 
+/// e^{(re + i im) x}, in parts.
+#[inline]
+pub(crate) fn of_lanes<const N: usize>(
+    (re, im): ([f64; N], [f64; N]),
+    x: f64,
+) -> ([f64; N], [f64; N]) {
+    let size = exp(re.map(|re| re * x));
+    let (mut sin, mut cos) = sin_cos(im.map(|im| im * x));
+    for i in 0..N {
+        (sin[i], cos[i]) = (size[i] * sin[i], size[i] * cos[i]);
+    }
+    (cos, sin)
+}
+
 #[inline(always)]
 fn some(values: &mut [Complex<f64>; LANES], inverses: &mut [Complex<f64>; LANES]) {
     let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
@@ -112,30 +110,17 @@ fn some(values: &mut [Complex<f64>; LANES], inverses: &mut [Complex<f64>; LANES]
     }
 }
 
+/// e^x, x held within ±700.
 #[inline(always)]
-fn exp(x: Lane) -> Lane {
-    let mut e = [0.0; LANES];
-    for i in 0..LANES {
-        let x = x[i].clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
-        let rounded = x * LOG2_E + ROUNDS;
-        let k = rounded - ROUNDS;
-        let rest = (x - k * LN_2[0]) - k * LN_2[1];
-        let mut sum = EXP[13];
-        for m in (0..13).rev() {
-            sum = sum * rest + EXP[m];
-        }
-        // 2^k: the last bits of what was rounded, as an exponent.
-        let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1023 << 52));
-        e[i] = sum * power;
-    }
-    e
+fn exp<const N: usize>(x: [f64; N]) -> [f64; N] {
+    x.map(|x| exp_within(x.clamp(-LARGEST, LARGEST)))
 }
 
 #[inline(always)]
-fn sin_cos(y: Lane) -> (Lane, Lane) {
-    let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+fn sin_cos<const N: usize>(y: [f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
     let mut beyond = false;
-    for i in 0..LANES {
+    for i in 0..N {
         beyond |= y[i].abs() > LARGEST_PHASE;
         let rounded = y[i] * FRAC_2_PI + ROUNDS;
         let (q, quarter) = (rounded - ROUNDS, rounded.to_bits());
@@ -154,8 +139,8 @@ fn sin_cos(y: Lane) -> (Lane, Lane) {
         cos[i] = f64::from_bits(second.to_bits() ^ (((quarter + 1) & 2) << 62));
     }
     if beyond {
-        for i in 0..LANES {
-            (sin[i], cos[i]) = y[i].sin_cos();
+        for i in 0..N {
+            (sin[i], cos[i]) = elementary::sin_cos(y[i]);
         }
     }
     (sin, cos)

@@ -1,5 +1,6 @@
 //! The external force Fext(t) of (9), (10), in units of kσ.
 
+use crate::elementary::exp;
 use crate::series::checked;
 use crate::spline::CubicSpline;
 use std::fmt;
@@ -121,7 +122,7 @@ impl Force {
     pub fn value(&self, t: f64) -> f64 {
         let pulses = self.pulses.iter().map(|p| {
             let z = (t - p.time) / p.width;
-            p.amplitude * (-0.5 * z * z).exp()
+            p.amplitude * exp(-0.5 * z * z)
         });
         let table = self.table.as_ref().filter(|s| (s.first()..=s.last()).contains(&t));
         pulses.sum::<f64>()

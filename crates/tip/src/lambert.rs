@@ -1,5 +1,7 @@
 //! Lambert's W.
 
+use crate::elementary::ln;
+
 /// W(c) e^{W(c)} = c, the branch W ≥ 0 for c ≥ 0.
 ///
 /// Newton's iteration for W + ln W = ln c, which is concave and increasing: from below it never overshoots.
@@ -9,9 +11,9 @@ pub(crate) fn w0(c: f64) -> f64 {
         return 0.0;
     }
     // Small c: the series' first terms; large c: ln c - ln ln c.
-    let mut w = if c < 1.0 { c / (1.0 + c) } else { (1.0 + c).ln() * 0.7 };
+    let mut w = if c < 1.0 { c / (1.0 + c) } else { ln(1.0 + c) * 0.7 };
     for _ in 0..30 {
-        let step = w * (c.ln() - w.ln() - w) / (1.0 + w);
+        let step = w * (ln(c) - ln(w) - w) / (1.0 + w);
         let next = (w + step).max(0.1 * w);
         if (next - w).abs() <= f64::EPSILON * w {
             return next;

@@ -1,3 +1,4 @@
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 //! The closed delay equation of a tip that carves the surface it is dragged over.
 //!
 //! A tip at x0(t), pulled by a spring whose far end moves with velocity r, indents a soft surface
@@ -14,6 +15,7 @@
 //! `docs/mathematics.md` derives them again.
 
 pub mod collocation;
+pub mod elementary;
 pub mod exponential;
 pub mod friction;
 pub mod memory;

@@ -9,6 +9,7 @@
 //! The paper says of (61) that no closed equation exists for it. It does: the height h under the tip is one
 //! more sum over the tip's past, each visit with its own weight w. So the past stays a groove.
 
+use crate::elementary::exp;
 use thiserror::Error;
 
 /// b, T, M and κ. The default is the paper's law.
@@ -81,12 +82,12 @@ impl Wider {
     /// w of (61) at the height h under the tip.
     #[must_use]
     pub fn weight(&self, height: f64) -> f64 {
-        self.depth_limit.map_or(1.0, |limit| (-height.abs() / limit).exp())
+        self.depth_limit.map_or(1.0, |limit| exp(-height.abs() / limit))
     }
 
     /// What is left after a time of what was there: e^{-time/T}.
     #[must_use]
     pub fn left_after(&self, time: f64) -> f64 {
-        self.healing_time.map_or(1.0, |healing| (-time / healing).exp())
+        self.healing_time.map_or(1.0, |healing| exp(-time / healing))
     }
 }

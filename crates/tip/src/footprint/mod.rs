@@ -15,6 +15,7 @@
 mod layers;
 mod table;
 
+use crate::elementary::exp;
 use crate::{TipFunction, TipFunctionError};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -68,13 +69,13 @@ impl Across {
     /// h(y).
     #[must_use]
     pub fn value(&self, y: f64) -> f64 {
-        self.offsets(y).map(|z| (-0.5 * z * z).exp()).sum()
+        self.offsets(y).map(|z| exp(-0.5 * z * z)).sum()
     }
 
     /// h''(0).
     #[must_use]
     pub fn curvature_at_0(&self) -> f64 {
-        let term = |z: f64| (z * z - 1.0) * (-0.5 * z * z).exp();
+        let term = |z: f64| (z * z - 1.0) * exp(-0.5 * z * z);
         self.offsets(0.0).map(term).sum::<f64>() / (self.width * self.width)
     }
 

@@ -1,6 +1,7 @@
 //! Step lengths from error estimates, and the constants that tune the integrator.
 
 use crate::collocation::{RADAU, STAGES};
+use crate::elementary::{exp, ln};
 use crate::state::{Damaged, Reader, State};
 
 /// The largest error allowed within one step, as a fraction of the tolerance. The rest is for what
@@ -113,7 +114,7 @@ impl Control {
         let error = soft * RADAU.defect_to_error * from_defect + (1.0 - soft) * interpolation;
         // A NaN of either stays one.
         let error = if beside > error || beside.is_nan() { beside } else { error };
-        let ratio = (self.target() / error.max(1e-300)).powf(1.0 / f64::from(ORDER_WITHIN_A_STEP));
+        let ratio = exp(ln(self.target() / error.max(1e-300)) / f64::from(ORDER_WITHIN_A_STEP));
         // An error that is NaN has the largest shrinkage: max and clamp would let it pass.
         let factor = if ratio.is_nan() { LARGEST_SHRINKAGE } else { SAFETY * ratio };
         let factor = factor.clamp(LARGEST_SHRINKAGE, LARGEST_GROWTH);

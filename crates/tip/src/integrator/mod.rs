@@ -14,6 +14,7 @@ mod stage_equations;
 mod taylor;
 
 use crate::collocation::{RADAU, Stages};
+use crate::elementary::exp;
 use crate::history::{Heights, Step};
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
@@ -296,7 +297,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let displacement = solution.displacement;
         let step = Step { t: self.t, h, extension: self.extension, displacement, height };
         if let Some(time) = self.model.wider().healing_time {
-            self.memory.fade((-h / time).exp());
+            self.memory.fade(exp(-h / time));
         }
         self.memory.remember(&displacement, &solution.spent);
         self.extension = step.extension_at_end(self.support.velocity(self.t));

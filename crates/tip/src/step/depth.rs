@@ -11,6 +11,7 @@ use super::law::Equations;
 use super::linear_system::Factors;
 use super::own::{Matrix, OwnGroove, OwnHeight};
 use crate::collocation::{STAGES, Stages};
+use crate::elementary::exp;
 
 /// b of (61), and the side of the corner: σ = 1 above 0, -1 below.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +92,7 @@ impl Depth {
     /// w at the heights of the stages.
     #[must_use]
     pub fn weights(&self, height: &Stages) -> Stages {
-        height.map(|height| (-self.side * height / self.limit).exp())
+        height.map(|height| exp(-self.side * height / self.limit))
     }
 
     /// What displacements and heights miss.

@@ -1,6 +1,7 @@
 //! f and f' near the apex, as the polynomials that their Taylor series are there.
 
 use super::TipFunction;
+use crate::elementary::{exp, ln, pow};
 
 /// `f'(d) ≈ Σ_k c_k d^{2k+1}` for |d| up to a length that depends on the number of terms: what a step
 /// carves for itself is made of such short displacements.
@@ -42,15 +43,15 @@ impl Apex {
         let mut longest = f64::INFINITY;
         for k in 0..MOST_TERMS {
             let degree = (2 * k + 1) as f64;
-            log_factorial += if k > 0 { (degree * (degree - 1.0)).ln() } else { 0.0 };
+            log_factorial += if k > 0 { ln(degree * (degree - 1.0)) } else { 0.0 };
             // c_k d^{2k+1} may not exceed the largest |f'| by more than is lost to round-off.
             longest =
-                f64::min(longest, (CANCELLATION * size / apex.slope[k].abs()).powf(1.0 / degree));
+                f64::min(longest, pow(CANCELLATION * size / apex.slope[k].abs(), 1.0 / degree));
             // What is left out: |f^{(2k+4)}| d^{2k+3}/(2k+3)! at most.
             let next = degree + 2.0;
-            let log_next = log_factorial + (next * (next - 1.0)).ln();
+            let log_next = log_factorial + ln(next * (next - 1.0));
             let bound = tip.derivative_bound(2 * k + 4).max(f64::MIN_POSITIVE);
-            let length = (((error * size / bound).ln() + log_next) / next).exp();
+            let length = exp((ln(error * size / bound) + log_next) / next);
             apex.lengths[k] = length.min(longest);
         }
         apex

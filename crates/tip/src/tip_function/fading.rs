@@ -1,6 +1,7 @@
 //! ∫_0^∞ f(x+y) e^{-sy}dy for s > 0: what a tip in steady motion left, fading with the distance.
 
 use super::Gaussian;
+use crate::elementary::{cos, exp, sin};
 use errorfunctions::RealErrorFunctions;
 use gauss_quad::legendre::GaussLegendre;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -13,9 +14,9 @@ pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     let scale = g.amplitude * g.width * (PI / 2.0).sqrt();
     let argument = (z + p) * FRAC_1_SQRT_2;
     if argument >= 0.0 {
-        scale * (-0.5 * z * z).exp() * argument.erfcx()
+        scale * exp(-0.5 * z * z) * argument.erfcx()
     } else {
-        scale * (p * (z + 0.5 * p)).exp() * libm::erfc(argument)
+        scale * exp(p * (z + 0.5 * p)) * libm::erfc(argument)
     }
 }
 
@@ -29,14 +30,14 @@ const MOST_GROWTH: f64 = 2.0;
 /// s, from its value 1/√(1+s²) at x = 0 (the Laplace transform of J0) by quadrature.
 pub(super) fn bessel(x: f64, s: f64) -> f64 {
     if s < FAST && s * x < MOST_GROWTH {
-        let from_zero = integral(x, WAVE, |y| libm::j0(y) * (-s * y).exp());
-        return (s * x).exp() * ((1.0 + s * s).sqrt().recip() - from_zero);
+        let from_zero = integral(x, WAVE, |y| libm::j0(y) * exp(-s * y));
+        return exp(s * x) * ((1.0 + s * s).sqrt().recip() - from_zero);
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let points = (40.0 / s.asinh() + 2.0 * x.abs() + 60.0).min(1e8) as usize;
+    let points = (40.0 / libm::asinh(s) + 2.0 * x.abs() + 60.0).min(1e8) as usize;
     let wave = |i: usize| {
-        let k = (2.0 * PI * (i as f64 + 0.5) / points as f64).sin();
-        (s * (k * x).cos() - k * (k * x).sin()) / (s * s + k * k)
+        let k = sin(2.0 * PI * (i as f64 + 0.5) / points as f64);
+        (s * cos(k * x) - k * sin(k * x)) / (s * s + k * k)
     };
     (0..points).map(wave).sum::<f64>() / points as f64
 }

@@ -2,6 +2,7 @@
 
 use super::{BAND_OF_A_GAUSSIAN, LARGEST, TipFunctionError};
 use crate::Footprint;
+use crate::elementary::{cos, exp};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
 
@@ -71,12 +72,12 @@ impl GaussianSum {
     }
 
     pub(super) fn value(&self, x: f64) -> f64 {
-        self.near(x).map(|(g, z)| g.amplitude * (-0.5 * z * z).exp()).sum()
+        self.near(x).map(|(g, z)| g.amplitude * exp(-0.5 * z * z)).sum()
     }
 
     pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         self.near(x).fold((0.0, 0.0), |(slope, curvature), (g, z)| {
-            let value = g.amplitude * (-0.5 * z * z).exp() / g.width;
+            let value = g.amplitude * exp(-0.5 * z * z) / g.width;
             (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
         })
     }
@@ -86,7 +87,7 @@ impl GaussianSum {
         let mut sum = vec![0.0; degree + 1];
         for g in &self.terms {
             let z = g.center / g.width;
-            let (mut before, mut here) = (0.0, g.amplitude * (-0.5 * z * z).exp());
+            let (mut before, mut here) = (0.0, g.amplitude * exp(-0.5 * z * z));
             for (n, coefficient) in sum.iter_mut().enumerate() {
                 *coefficient += here;
                 let next = (g.center * here - before) / (g.width * g.width * (n + 1) as f64);
@@ -117,11 +118,7 @@ impl GaussianSum {
     pub(super) fn fourier(&self, q: f64) -> f64 {
         let term = |g: &Gaussian| {
             let qw = q * g.width;
-            g.amplitude
-                * g.width
-                * (2.0 * PI).sqrt()
-                * (-0.5 * qw * qw).exp()
-                * (q * g.center).cos()
+            g.amplitude * g.width * (2.0 * PI).sqrt() * exp(-0.5 * qw * qw) * cos(q * g.center)
         };
         self.terms.iter().map(term).sum()
     }

@@ -5,6 +5,7 @@
 //! condition number below 1e3.
 
 use super::{Gaussian, TipFunctionError};
+use crate::elementary::exp;
 use crate::spline::CubicSpline;
 
 pub(crate) const MIN_ROWS: usize = 8;
@@ -138,7 +139,7 @@ fn interpolate(samples: &[f64]) -> Vec<f64> {
 fn gaussian(distance: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "small")]
     let z = distance as f64 / WIDTH_PER_SPACING;
-    (-0.5 * z * z).exp()
+    exp(-0.5 * z * z)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::pieces::{self, NODES};
 use super::values::{Outlook, Scaled, Table};
 use super::{length, visits};
 use crate::collocation::STAGES;
+use crate::elementary::exp;
 use crate::history::Heights;
 use crate::memory::Memory;
 
@@ -37,7 +38,7 @@ impl<M: Memory> Integrator<'_, M> {
         let corner = self.corner.as_mut()?;
         let limit = self.model.wider().depth_limit?;
         corner.stand_at(-self.taylor.chain.depth_now());
-        Some((libm::exp(-corner.side * corner.height / limit), corner.side / limit))
+        Some((exp(-corner.side * corner.height / limit), corner.side / limit))
     }
 
     /// How long a step may be for its heights to err by so little that it does not show in the displacement.

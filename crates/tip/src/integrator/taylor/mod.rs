@@ -14,6 +14,7 @@ mod visits;
 
 use super::Integrator;
 use crate::collocation::STAGES;
+use crate::elementary::exp;
 use crate::history::{Heights, Step};
 use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
@@ -234,7 +235,7 @@ impl<M: Memory> Integrator<'_, M> {
             depth.weigh(&rule.table, weights);
         }
         if let Some(time) = self.model.wider().healing_time {
-            self.memory.fade((-total / time).exp());
+            self.memory.fade(exp(-total / time));
         }
         self.memory.remember(positions, weights);
     }

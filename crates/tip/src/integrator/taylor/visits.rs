@@ -1,6 +1,7 @@
 //! What a memory is told of a long step: where the tip was, and for how long.
 
 use super::values::Table;
+use crate::elementary::exp;
 use std::sync::LazyLock;
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
@@ -42,7 +43,7 @@ impl Visits {
     pub(super) fn new(band: f64, error: f64) -> Self {
         let digits = (-libm::log(error)).max(1.0);
         let wave = band * (digits / -libm::log(f64::EPSILON)).min(1.0).sqrt();
-        let phase = |(n, logarithm)| libm::exp((logarithm - digits) / (2 * n - 1) as f64) / wave;
+        let phase = |(n, logarithm)| exp((logarithm - digits) / (2 * n - 1) as f64) / wave;
         let mut farthest = [0.0; COUNTS.len()];
         let phases = COUNTS.into_iter().zip(*LOGARITHMS).map(phase);
         farthest.iter_mut().zip(phases).for_each(|(farthest, phase)| *farthest = phase);

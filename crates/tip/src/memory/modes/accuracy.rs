@@ -1,6 +1,7 @@
 //! How well f' must be fitted for a run to keep its tolerance.
 
 use crate::Model;
+use crate::elementary::{log10, pow};
 
 /// The error of x0 that the fit may bring about, over the tolerance of the run.
 /// Motions near onset amplify it a hundredfold, as they do the error of a step, of which they allow as much.
@@ -36,7 +37,7 @@ pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
     let of_slope = SHARE * tolerance / displacement(model, 1.0);
     let largest = of_slope.min(FINEST.max(of_height * of_slope)).min(CHEAP.max(SPARE * of_slope));
-    10_f64.powf((4.0 * largest.log10()).floor() / 4.0)
+    pow(10.0, (4.0 * log10(largest)).floor() / 4.0)
 }
 
 /// How far an error ε of f' displaces the tip, in σ: see [`accuracy_needed`].

@@ -6,6 +6,8 @@ mod saved;
 use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
 use super::term::Term;
+use crate::elementary::{self, ln, norm};
+use crate::exponential::of_lanes as exp;
 use powers::Powers;
 use std::sync::Arc;
 
@@ -209,28 +211,17 @@ impl Bank {
 /// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
 fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
     let share = SHARE_OF_EXPANSION * error / terms.len() as f64;
-    let sizes = terms.iter().map(|t| (t.exponent.norm(), t.weight.norm().max(f64::MIN_POSITIVE)));
+    let sizes = terms.iter().map(|t| (norm(t.exponent), norm(t.weight).max(f64::MIN_POSITIVE)));
     let allowed = (0.1 * error).max(2e-14);
-    let cancelling = |(s, w): (f64, f64)| (allowed / (f64::EPSILON * w)).ln().max(0.5) / s;
+    let cancelling = |(s, w): (f64, f64)| ln(allowed / (f64::EPSILON * w)).max(0.5) / s;
     let longest = sizes.clone().map(cancelling).fold(f64::INFINITY, f64::min);
-    let log_factorial = |n: usize| (1..=n).map(|k| (k as f64).ln()).sum::<f64>();
+    let log_factorial = |n: usize| (1..=n).map(|k| ln(k as f64)).sum::<f64>();
     let length = |degree: usize| {
         let (n, factorial) = ((degree + 1) as f64, log_factorial(degree + 1));
-        let one = |(s, w): (f64, f64)| (((share / w).ln() + factorial) / n).exp() / s;
+        let one = |(s, w): (f64, f64)| elementary::exp((ln(share / w) + factorial) / n) / s;
         sizes.clone().map(one).fold(longest, f64::min)
     };
     (LOWEST_DEGREE..=HIGHEST_DEGREE).map(length).collect()
-}
-
-/// `e^{s x}`
-fn exp((re, im): (Lane, Lane), x: f64) -> (Lane, Lane) {
-    let mut e = ([0.0; LANES], [0.0; LANES]);
-    for i in 0..LANES {
-        let size = (re[i] * x).exp();
-        let (sin, cos) = (im[i] * x).sin_cos();
-        (e.0[i], e.1[i]) = (size * cos, size * sin);
-    }
-    e
 }
 
 #[inline(always)]

@@ -1,6 +1,7 @@
 //! How far a sum of exponentials is from f', everywhere on its half-line.
 
 use super::term::Term;
+use crate::elementary::{complex_exp, exp, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
 
@@ -32,10 +33,10 @@ pub(super) fn certify(
     retreat: f64,
     terms: &[Term],
 ) -> FitCertificate {
-    let fastest = terms.iter().fold(0.0, |m: f64, t| m.max(t.exponent.norm()));
+    let fastest = terms.iter().fold(0.0, |m: f64, t| m.max(norm(t.exponent)));
     let h = 1.0 / (POINTS_PER_LENGTH * fastest);
     let mut found = FitCertificate { slope: 0.0, curvature: 0.0, area: 0.0 };
-    let steps: Vec<_> = terms.iter().map(|t| (t.exponent * h).exp()).collect();
+    let steps: Vec<_> = terms.iter().map(|t| complex_exp(t.exponent * h)).collect();
     let mut values: Vec<Complex<f64>> = vec![];
     let mut xi = -retreat;
     for n in 0_usize.. {
@@ -48,7 +49,7 @@ pub(super) fn certify(
                 found.slope = f64::INFINITY;
                 return found;
             }
-            values = terms.iter().map(|t| t.weight * (t.exponent * xi).exp()).collect();
+            values = terms.iter().map(|t| t.weight * complex_exp(t.exponent * xi)).collect();
         }
         let (mut slope, mut curvature) = tip.slope_and_curvature(xi);
         for ((value, term), step) in values.iter_mut().zip(terms).zip(&steps) {
@@ -61,9 +62,8 @@ pub(super) fn certify(
         found.area += h * slope.abs();
     }
     let rest = |power: i32| -> f64 {
-        let term = |t: &Term| {
-            t.weight.norm() * (t.exponent.re * xi).exp() * t.exponent.re.abs().powi(power)
-        };
+        let term =
+            |t: &Term| norm(t.weight) * exp(t.exponent.re * xi) * t.exponent.re.abs().powi(power);
         terms.iter().map(term).sum()
     };
     found.area += rest(-1);
@@ -75,5 +75,5 @@ pub(super) fn certify(
 
 /// `Σ|w_j| e^{Re s_j ξ}`, which falls with ξ.
 fn tail(terms: &[Term], xi: f64) -> f64 {
-    terms.iter().map(|t| t.weight.norm() * (t.exponent.re * xi).exp()).sum()
+    terms.iter().map(|t| norm(t.weight) * exp(t.exponent.re * xi)).sum()
 }

@@ -4,6 +4,7 @@ use super::certificate::{FitCertificate, certify};
 use super::pencil::Pencil;
 use super::term::Term;
 use super::weights::weights;
+use crate::elementary::{complex_exp, cos, ln, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -49,6 +50,8 @@ pub enum FitError {
 /// go on there, up to a thousand times the error within: by a tenth of the way it is worth a pair or two, by a fifth weights
 /// are twice as large.
 const SAMPLES: (usize, f64) = (127, 1.1);
+/// The same for accuracies below [`CHEAP`], where exponents feel the round-off of samples: more of them feel it less.
+const CLOSER_SAMPLES: (usize, f64) = (159, 1.1);
 /// And where no lattice is fine enough: more of them, extended into what is zero, or the slowest term is left
 /// free to end there.
 const MORE_SAMPLES: (usize, f64) = (191, 1.4);
@@ -94,7 +97,8 @@ impl Fit {
         let pencil = |samples, reached: &mut f64| by_pencil(tip, &window, samples, wanted, reached);
         let mut reached = f64::INFINITY;
         if wanted >= FINEST_OF_PENCIL
-            && let Some(fit) = pencil(SAMPLES, &mut reached)
+            && let Some(fit) =
+                pencil(if wanted < CHEAP { CLOSER_SAMPLES } else { SAMPLES }, &mut reached)
         {
             return Ok(fit);
         }
@@ -208,7 +212,7 @@ impl Fit {
     #[must_use]
     pub fn slope_and_curvature(&self, xi: f64) -> (f64, f64) {
         self.terms.iter().fold((0.0, 0.0), |(slope, curvature), term| {
-            let value = term.weight * (term.exponent * xi).exp();
+            let value = term.weight * complex_exp(term.exponent * xi);
             (slope + value.re, curvature + (value * term.exponent).re)
         })
     }
@@ -217,7 +221,7 @@ impl Fit {
     /// δ, is no larger.
     fn meets(&self) -> bool {
         let wanted = self.wanted;
-        let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(t.weight.norm()));
+        let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(norm(t.weight)));
         self.certificate.slope <= wanted
             && self.certificate.area <= 4.0 * self.retreat * wanted
             && f64::EPSILON * largest <= (SHARE_OF_ROUND_OFF * wanted).max(LEAST_ROUND_OFF)
@@ -266,7 +270,7 @@ fn largest_slope(tip: &TipFunction, span: (f64, f64)) -> f64 {
 /// (ξ, f'(ξ)) at n points from -δ to the end, denser towards -δ, where a fit is free to stray.
 fn samples(tip: &TipFunction, (retreat, end): (f64, f64), n: usize) -> Vec<(f64, f64)> {
     let sample = |i: usize| {
-        let part = 1.0 - (FRAC_PI_2 * i as f64 / (n - 1) as f64).cos();
+        let part = 1.0 - cos(FRAC_PI_2 * i as f64 / (n - 1) as f64);
         let xi = (end + retreat) * part - retreat;
         (xi, tip.slope(xi))
     };
@@ -322,7 +326,7 @@ fn damped_fourier(tip: &TipFunction, window: &Window, period: f64, wanted: f64) 
     let Window { reach, retreat, .. } = *window;
     let period = period * (reach + retreat);
     let share = SHARE_OF_LATTICE * wanted / window.largest.max(1.0);
-    let digits = -share.clamp(f64::EPSILON * f64::EPSILON, SHARE_OF_LATTICE).ln();
+    let digits = -ln(share.clamp(f64::EPSILON * f64::EPSILON, SHARE_OF_LATTICE));
     let (rate, lattice) = (-digits / period, TAU / period);
     let pairs = waves(tip, lattice, SHARE_OF_LATTICE * wanted);
     if pairs > MOST_PAIRS {

@@ -18,6 +18,7 @@ pub use term::Term;
 
 use super::derivatives::{Derivatives, SteadyPast};
 use super::groove::{Groove, range};
+use crate::elementary::complex_exp;
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
@@ -149,7 +150,7 @@ impl Modes {
         if let Some(past) = steady {
             for (z, term) in room.chunks_exact_mut(2).zip(self.fit.terms()) {
                 let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
-                let steady = -past.weight / fading * (term.exponent * past.distance).exp();
+                let steady = -past.weight / fading * complex_exp(term.exponent * past.distance);
                 z[0] += steady.re;
                 z[1] += steady.im;
             }

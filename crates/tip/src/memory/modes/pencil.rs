@@ -3,6 +3,7 @@
 //! References: Hua & Sarkar, IEEE Trans. ASSP 38, 814 (1990); Roy & Kailath, IEEE Trans. ASSP 37,
 //! 984 (1989).
 
+use crate::elementary::complex_ln;
 use nalgebra::{DMatrix, Schur, SymmetricEigen};
 use num_complex::Complex;
 
@@ -56,11 +57,12 @@ impl Pencil {
         // The columns of `vectors` are orthonormal, so those of `upper` nearly are: U1ᵀU1 = 1 - vvᵀ with
         // v the row left out, inverted by Sherman & Morrison.
         let v = self.vectors.view((rows, 0), (1, p)).transpose();
-        let product = upper.transpose() * lower;
+        // Not `upperᵀ * lower`: products of large matrices have kernels for each processor, and other bits by them.
+        let product = upper.tr_mul(&lower);
         let rest = 1.0 - v.norm_squared();
         let shift = &product + &v * (v.transpose() * &product) / rest;
         let eigenvalues = Schur::try_new(shift, f64::EPSILON, MOST_SWEEPS)?.complex_eigenvalues();
-        let exponents = eigenvalues.iter().map(|l| l.ln() / self.spacing);
+        let exponents = eigenvalues.iter().map(|l| complex_ln(*l) / self.spacing);
         let kept: Vec<_> = exponents.filter(|s| s.im >= 0.0).collect();
         // The logarithm of a negative eigenvalue is at the end of what the samples resolve.
         let resolved = |s: &Complex<f64>| s.im * self.spacing < 3.0;

@@ -1,5 +1,6 @@
 //! Weights of a sum of exponentials by least squares, in real arithmetic.
 
+use crate::elementary::complex_exp;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
@@ -16,7 +17,7 @@ pub(super) fn weights(
     for (row, (xi, _)) in samples.iter().enumerate() {
         let mut column = 0;
         for s in exponents {
-            let value = (s * xi).exp();
+            let value = complex_exp(s * xi);
             matrix[(row, column)] = value.re;
             if columns_of(s) == 2 {
                 matrix[(row, column + 1)] = -value.im;

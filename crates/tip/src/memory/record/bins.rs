@@ -1,6 +1,7 @@
 //! Visits gathered in bins: as many moments of each as act on f.
 
 use crate::TipFunction;
+use crate::elementary::{cos, exp2, log2};
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
@@ -29,7 +30,7 @@ pub(super) struct Bins {
 
 impl Bins {
     pub(super) fn new(tip: &TipFunction) -> Self {
-        let length = (8.0 / tip.band()).log2().floor().exp2();
+        let length = exp2(log2(8.0 / tip.band()).floor());
         let moments = VecDeque::with_capacity(MOST_BINS);
         Self { length, moments, first: 0, dropped: false, missed: false }
     }
@@ -128,9 +129,9 @@ fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
     let n = MOMENTS as f64;
     (0..MOMENTS).map(move |k| {
         let angle = PI * (k as f64 + 0.5) / n;
-        let term = |(m, moment): (usize, &f64)| moment * (m as f64 * angle).cos();
+        let term = |(m, moment): (usize, &f64)| moment * cos(m as f64 * angle);
         let sum: f64 = bin.iter().enumerate().map(term).sum();
-        (angle.cos(), (2.0 * sum - bin[0]) / n)
+        (cos(angle), (2.0 * sum - bin[0]) / n)
     })
 }
 

@@ -1,0 +1,98 @@
+//! Elementary functions with the same bits on every machine.
+//!
+//! Those of the C library differ in the last bit from one processor to the next, and from a browser to both. A fit of
+//! exponentials amplifies that, and so does a motion: what is computed here, and in what a run consists of, uses these
+//! instead (`clippy.toml` of this crate names the ones that may not be used). Four of five are those of the crate `libm`,
+//! the same code everywhere; the exponential is taken too often for that one.
+
+use num_complex::Complex;
+use std::f64::consts::LOG2_E;
+
+pub use libm::{cos, sincos as sin_cos};
+pub(crate) use libm::{exp2, hypot, log as ln, log2, log10, pow, sin};
+
+/// Beyond, e^x or its inverse may leave the normal range of f64.
+pub(crate) const LARGEST: f64 = 700.0;
+/// Added to a number it leaves the nearest whole one in the last bits.
+pub(crate) const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;
+/// ln 2 in two parts, the first of so few bits that small whole multiples of it are exact.
+const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+
+/// 1/m!
+const INVERSE_FACTORIALS: [f64; 14] = {
+    let mut inverse = [1.0; 14];
+    let mut m = 1;
+    while m < 14 {
+        inverse[m] = inverse[m - 1] / m as f64;
+        m += 1;
+    }
+    inverse
+};
+
+/// e^x to one unit of its last place.
+#[inline]
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    if x.abs() <= LARGEST { exp_within(x) } else { libm::exp(x) }
+}
+
+/// e^x for |x| up to [`LARGEST`]: x = k ln 2 + ρ (Cody & Waite, *Software Manual for the Elementary Functions*, 1980), and
+/// of e^ρ the Taylor series, its terms in pairs (Estrin's scheme) that need not wait for each other.
+#[inline(always)]
+pub(crate) fn exp_within(x: f64) -> f64 {
+    let rounded = x * LOG2_E + ROUNDS;
+    let k = rounded - ROUNDS;
+    let rho = (x - k * LN_2[0]) - k * LN_2[1];
+    let c = &INVERSE_FACTORIALS;
+    let (square, last) = (rho * rho, c[12] + rho * c[13]);
+    let fourth = square * square;
+    let high = (c[8] + rho * c[9]) + square * (c[10] + rho * c[11]);
+    let middle = (c[4] + rho * c[5]) + square * (c[6] + rho * c[7]);
+    let low = square * (c[2] + rho * c[3]);
+    let sum = (last * fourth + high) * (fourth * fourth) + (middle * fourth + low);
+    // 2^k: the last bits of what was rounded, as an exponent.
+    let power = f64::from_bits((rounded.to_bits() << 52).wrapping_add(1023 << 52));
+    (1.0 + (rho + sum)) * power
+}
+
+/// e^z.
+#[must_use]
+pub fn complex_exp(z: Complex<f64>) -> Complex<f64> {
+    let (sin, cos) = sin_cos(z.im);
+    let size = exp(z.re);
+    Complex::new(size * cos, size * sin)
+}
+
+/// ln z, its imaginary part within ±π.
+pub(crate) fn complex_ln(z: Complex<f64>) -> Complex<f64> {
+    Complex::new(ln(norm(z)), libm::atan2(z.im, z.re))
+}
+
+/// |z|
+#[must_use]
+pub fn norm(z: Complex<f64>) -> f64 {
+    hypot(z.re, z.im)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The exponential of the C library, which is correct to little more than half a unit of the last place, is the oracle.
+    #[test]
+    fn it_is_that_of_the_library_to_a_unit_of_the_last_place() {
+        for i in -70_000..70_000 {
+            let x = f64::from(i) * 0.010_000_123;
+            let (told, right) = (exp(x), x.exp());
+            assert!((told - right).abs() <= f64::EPSILON * right, "{x}: {told} {right}");
+        }
+    }
+
+    #[test]
+    fn it_ends_where_that_of_the_library_does() {
+        for x in [-1e300, -746.0, -744.9, -710.0, 0.0, -0.0, 709.7, 710.0, f64::INFINITY] {
+            assert_eq!(exp(x).to_bits(), libm::exp(x).to_bits(), "{x}");
+        }
+        assert!(exp(f64::NAN).is_nan());
+    }
+}

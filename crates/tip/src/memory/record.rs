@@ -13,8 +13,9 @@ use crate::TipFunction;
 use crate::collocation::STAGES;
 use bins::Bins;
 
-/// Nodes kept as they are in a record of bounded size.
-const MOST_NODES: usize = 1 << 14;
+/// Nodes kept as they are in a record of bounded size: of a tip that goes on, twice as many as there are within what is kept,
+/// so that most are dropped without having been gathered.
+const MOST_NODES: usize = 1 << 16;
 /// The origin of a record that keeps all moves by this much.
 const ORIGIN_STEP: f64 = 64.0;
 
@@ -135,11 +136,21 @@ impl Record {
 
     fn make_room(&mut self, nodes: usize) {
         if self.nodes.len() + nodes > MOST_NODES {
-            self.gather();
+            self.thin();
         }
     }
 
+    /// Drops what is farther behind than is kept, and gathers where that is not half of it.
     #[cold]
+    fn thin(&mut self) {
+        if let Kept::Gathered(bins) = &mut self.kept {
+            bins.forget(&mut self.nodes);
+            if self.nodes.len() > MOST_NODES / 2 {
+                self.gather();
+            }
+        }
+    }
+
     fn gather(&mut self) {
         if let Kept::Gathered(bins) = &mut self.kept {
             self.nodes.iter().for_each(|node| bins.add(*node));
@@ -270,6 +281,20 @@ mod tests {
     fn room_is_taken_once_however_far_the_tip_goes() {
         assert!(dropped(&carried(20_000, 0.4)));
         assert!(!dropped(&carried(20_000, 0.001)));
+    }
+
+    /// Nothing of what is kept is gathered where the tip goes on; what is behind is dropped, which is said when it is seen.
+    #[test]
+    fn what_is_far_behind_is_dropped_ungathered() {
+        let mut record = carried(20_000, 0.4);
+        let Kept::Gathered(bins) = &record.kept else { unreachable!("the record is bounded") };
+        assert!(bins.moments.is_empty() && bins.dropped);
+        let kept = bins.length_kept();
+        let first = record.all().map(|(x, _)| x).fold(0.0, f64::min);
+        assert!(first < 1.0 - kept && first > -3.0 * kept, "{first} {kept}");
+        assert_eq!(record.forgotten(), None);
+        record.remember(&[first - 50.0], &[0.1]);
+        assert!(record.forgotten().is_some());
     }
 
     #[test]

@@ -53,7 +53,50 @@ impl Bins {
 
     /// How far behind the farthest point of the tip the past is kept, if it looked farther.
     pub(super) fn forgotten(&self) -> Option<f64> {
-        self.missed.then_some(MOST_BINS as f64 * self.length)
+        self.missed.then_some(self.length_kept())
+    }
+
+    /// How far behind the farthest point of the tip.
+    pub(super) fn length_kept(&self) -> f64 {
+        MOST_BINS as f64 * self.length
+    }
+
+    /// Drops of these visits, and of the bins, what is farther behind than is kept.
+    pub(super) fn forget(&mut self, visits: &mut Vec<(f64, f64)>) {
+        let farthest = visits.iter().map(|visit| visit.0).fold(f64::NEG_INFINITY, f64::max);
+        let end = if self.moments.is_empty() { i64::MIN } else { self.end() };
+        let end = end.max(self.number(farthest).saturating_add(1));
+        let horizon = end.saturating_sub(MOST_BINS as i64);
+        let horizon = if self.dropped { horizon.max(self.first) } else { horizon };
+        let (start, before) = (horizon as f64 * self.length, visits.len());
+        visits.retain(|visit| visit.0 >= start);
+        let gone = usize::try_from(horizon.saturating_sub(self.first)).unwrap_or(0);
+        let gone = gone.min(self.moments.len());
+        if gone == 0 && visits.len() == before {
+            return;
+        }
+        self.dropped = true;
+        self.moments.drain(..gone);
+        // The first bin says from where on the past is kept.
+        if self.moments.is_empty() {
+            self.first = horizon;
+        } else {
+            self.first += gone as i64;
+        }
+        while self.first > horizon {
+            self.moments.push_front([0.0; MOMENTS]);
+            self.first -= 1;
+        }
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "a count of bins")]
+    fn number(&self, x: f64) -> i64 {
+        (x / self.length).floor() as i64
+    }
+
+    /// Of the last bin, and one.
+    fn end(&self) -> i64 {
+        self.first.saturating_add(self.moments.len() as i64)
     }
 
     /// A time spent at x.
@@ -68,8 +111,7 @@ impl Bins {
 
     /// The bin of that number, made if need be; `None` if it is farther behind than is kept.
     fn bin(&mut self, number: i64) -> Option<&mut Bin> {
-        let end = self.first.saturating_add(self.moments.len() as i64);
-        if !self.moments.is_empty() && number.saturating_sub(end) >= MOST_BINS as i64 {
+        if !self.moments.is_empty() && number.saturating_sub(self.end()) >= MOST_BINS as i64 {
             // So far ahead that nothing of what there is will be kept.
             self.moments.clear();
             self.dropped = true;
@@ -88,7 +130,7 @@ impl Bins {
             self.moments.push_front([0.0; MOMENTS]);
             self.first -= 1;
         }
-        while number >= self.first + self.moments.len() as i64 {
+        while number >= self.end() {
             if self.moments.len() == MOST_BINS {
                 self.moments.pop_front();
                 self.first += 1;

@@ -2,6 +2,7 @@
 
 use super::values::Table;
 use crate::elementary::exp;
+use crate::roots::zero_between;
 use std::sync::LazyLock;
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
@@ -86,7 +87,7 @@ impl Rule {
         let difference = |x: f64| legendre(x).1 - legendre(x).0;
         // Zeros of P_n - P_{n-1} and points x = cos(kπ/n) alternate.
         let between = |k: usize| -libm::cos(std::f64::consts::PI * k as f64 / n as f64);
-        let zero = |k: usize| crate::roots::halved_between(difference, between(k), between(k + 1));
+        let zero = |k: usize| zero_between(difference, between(k), between(k + 1));
         let ends = (0..n - 1).map(zero).chain([1.0]);
         let squared = |x: f64| (n as f64 * legendre(x).0).powi(2);
         let pair = |x: f64| (0.5 * (1.0 + x), 0.5 * (1.0 + x) / squared(x));

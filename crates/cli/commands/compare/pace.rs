@@ -11,9 +11,7 @@ pub(super) const PATIENCE: f64 = 0.5;
 const REPETITIONS: usize = 5;
 
 /// What is done, and the seconds that it takes: `once` gives both.
-pub(super) fn timed<T>(
-    once: impl Fn() -> Result<(T, f64), Failure>,
-) -> Result<(T, f64), Failure> {
+pub(super) fn timed<T>(once: impl Fn() -> Result<(T, f64), Failure>) -> Result<(T, f64), Failure> {
     let (done, mut shortest) = once()?;
     let mut spent = shortest;
     for _ in 1..REPETITIONS {

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { fact, file, launch, median, missing, open, settled } from './browser.mjs';
-import { document, error, folder, model, root, run } from './program.mjs';
+import { document, folder, model, root, run } from './program.mjs';
 
 const skip = missing;
 const shots = join(root, 'target/site-shots');

@@ -1,5 +1,5 @@
 // The program, whose values those of the page are held against.
-import { execFileSync, spawnSync } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -14,14 +14,6 @@ export function document(line) {
   const file = join(folder, 'document.json');
   execFileSync(binary, ['-q', ...words, '-o', file]);
   return JSON.parse(readFileSync(file, 'utf8'));
-}
-
-/** By how much the program says that a run of its own errs: a status of its own tells that it is more than promised. */
-export function error(line) {
-  const words = line.replace(/^stickslip /, '').replace(/ -o \S+$/, '').split(' ');
-  const file = join(folder, 'verified.json');
-  spawnSync(binary, ['-q', ...words, '--verify', '-o', file]);
-  return JSON.parse(readFileSync(file, 'utf8')).verification.l.largest;
 }
 
 export const run = (...words) => execFileSync(binary, words, { encoding: 'utf8' });

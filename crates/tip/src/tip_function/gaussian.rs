@@ -1,32 +1,19 @@
 //! Sums of Gaussians a exp(-(x-c)²/(2w²)).
 
+use super::lattice::Lattice;
+use super::term::{Gaussian, WIDTHS_OF_REACH};
 use super::{BAND_OF_A_GAUSSIAN, LARGEST, TipFunctionError};
 use crate::Footprint;
 use crate::elementary::{cos, exp};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
 
-/// A Gaussian is below 1e-17 of its peak beyond this many widths: exp(-8.8²/2) = 1.5e-17. The factor
-/// x that a derivative brings keeps that below round-off too.
-const WIDTHS_OF_REACH: f64 = 8.8;
-
-/// One term a exp(-(x-c)²/(2w²)). Lengths in units of σ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gaussian {
-    /// a
-    pub amplitude: f64,
-    /// c
-    pub center: f64,
-    /// w
-    pub width: f64,
-}
-
 /// An even sum of Gaussians, validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
-    /// Distance of the terms, where they are those of a table.
-    lattice: Option<f64>,
+    /// Where the terms are those of a table.
+    lattice: Option<Lattice>,
     /// The f(x,y) that this is f(x,0) of.
     footprint: Option<Arc<Footprint>>,
 }
@@ -54,7 +41,7 @@ impl GaussianSum {
         if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
             return Err(TipFunctionError::NotEven { center: term.center });
         }
-        Ok(Self { lattice: lattice(&terms), terms, footprint: None })
+        Ok(Self { lattice: Lattice::of(&terms), terms, footprint: None })
     }
 
     /// The terms, as given.
@@ -72,14 +59,19 @@ impl GaussianSum {
     }
 
     pub(super) fn value(&self, x: f64) -> f64 {
-        self.near(x).map(|(g, z)| g.amplitude * exp(-0.5 * z * z)).sum()
+        let mut sum = 0.0;
+        self.near(x, |_, _, value| sum += value);
+        sum
     }
 
     pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        self.near(x).fold((0.0, 0.0), |(slope, curvature), (g, z)| {
-            let value = g.amplitude * exp(-0.5 * z * z) / g.width;
-            (slope - z * value, curvature + (z * z - 1.0) * value / g.width)
-        })
+        let (mut slope, mut curvature) = (0.0, 0.0);
+        self.near(x, |width, z, value| {
+            let value = value / width;
+            slope -= z * value;
+            curvature += (z * z - 1.0) * value / width;
+        });
+        (slope, curvature)
     }
 
     /// From g' = -(x-c)/w² g: (n+1) `g_{n+1}` = (c `g_n` - `g_{n-1}`)/w².
@@ -131,42 +123,18 @@ impl GaussianSum {
         self.terms.iter().map(|g| BAND_OF_A_GAUSSIAN / g.width).fold(0.0, f64::max)
     }
 
-    /// The terms that matter at x, each with z = (x-c)/w: a table's many narrow ones are mostly far.
-    fn near(&self, x: f64) -> impl Iterator<Item = (&Gaussian, f64)> {
-        self.looked_at(x)
-            .iter()
-            .map(move |g| (g, (x - g.center) / g.width))
-            .filter(|(_, z)| z.abs() < WIDTHS_OF_REACH)
+    /// Width, z = (x-c)/w and value of the terms that matter at x: a table's many narrow ones are mostly far.
+    fn near(&self, x: f64, mut take: impl FnMut(f64, f64, f64)) {
+        if let Some(lattice) = &self.lattice {
+            return lattice.near(&self.terms, x, take);
+        }
+        for g in &self.terms {
+            let z = (x - g.center) / g.width;
+            if z.abs() < WIDTHS_OF_REACH {
+                take(g.width, z, g.amplitude * exp(-0.5 * z * z));
+            }
+        }
     }
-
-    /// All terms that may matter at x: of a table those of the lattice points about |x|, in their order.
-    fn looked_at(&self, x: f64) -> &[Gaussian] {
-        let Some(spacing) = self.lattice else { return &self.terms };
-        let reach = WIDTHS_OF_REACH * self.terms[0].width;
-        let (low, high) = ((x.abs() - reach) / spacing, (x.abs() + reach) / spacing);
-        // Point k has the terms 2k - 1 and 2k. One point more on either side: what is rounded here is not missed.
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        let (first, last) = ((low as usize).saturating_sub(1), (high as usize).saturating_add(2));
-        let end = last.saturating_mul(2).saturating_add(1).min(self.terms.len());
-        &self.terms[first.saturating_mul(2).saturating_sub(1).min(end)..end]
-    }
-}
-
-/// The distance of terms that are on an even lattice as those of a table are, of one width, in the order 0, -1, 1, -2,
-/// 2 and so on.
-fn lattice(terms: &[Gaussian]) -> Option<f64> {
-    /// Fewer are looked at as soon as chosen.
-    const MANY: usize = 32;
-    let (first, spacing) = (terms.first()?, terms.get(2)?.center);
-    let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
-    let at = |(i, g): (usize, &Gaussian)| {
-        #[expect(clippy::cast_precision_loss, reason = "a table has 2000 rows")]
-        let distance = i.div_ceil(2) as f64 * spacing;
-        same(g.center, if i.is_multiple_of(2) { distance } else { -distance })
-            && same(g.width, first.width)
-    };
-    let is_lattice = terms.len() >= MANY && spacing > 0.0 && terms.iter().enumerate().all(at);
-    is_lattice.then_some(spacing)
 }
 
 /// Whether the mirror image of `term` is among `terms` as often as it is itself, to round-off.
@@ -201,12 +169,16 @@ mod tests {
             };
             assert!(sum.lattice.is_some());
             let all = GaussianSum { lattice: None, ..sum.clone() };
+            // What f'' is rounded by: amplitudes are some times as large as f, and so are their terms.
+            let size: f64 = sum.terms.iter().map(|g| g.amplitude.abs()).fold(0.0, f64::max);
+            let width = sum.terms[0].width;
             for i in -3000..=3000 {
                 let x = 0.005 * f64::from(i);
-                assert_eq!(sum.value(x).to_bits(), all.value(x).to_bits(), "{x}");
-                let bits = |(a, b): (f64, f64)| (a.to_bits(), b.to_bits());
-                let here = |sum: &GaussianSum| bits(sum.slope_and_curvature(x));
-                assert_eq!(here(&sum), here(&all), "{x}");
+                let close = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-14 * size;
+                assert!(close(sum.value(x), all.value(x), size), "{x}");
+                let (here, there) = (sum.slope_and_curvature(x), all.slope_and_curvature(x));
+                assert!(close(here.0, there.0, size / width), "{x}: {here:?} {there:?}");
+                assert!(close(here.1, there.1, size / width.powi(2)), "{x}: {here:?} {there:?}");
             }
             for x in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
                 assert!(sum.value(x).abs() <= 0.0, "{x}");

@@ -6,14 +6,17 @@ mod cosine;
 mod error;
 mod fading;
 mod gaussian;
+mod lattice;
 mod scale;
 pub(crate) mod table;
+mod term;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
 pub use error::TipFunctionError;
-pub use gaussian::{Gaussian, GaussianSum};
+pub use gaussian::GaussianSum;
 pub use scale::{BAND_OF_A_GAUSSIAN, widths};
+pub use term::Gaussian;
 
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]

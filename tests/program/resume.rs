@@ -122,7 +122,7 @@ fn what_a_run_keeps_does_not_grow() {
         while running.step().unwrap().is_some() {
             steps += 1;
             if steps.is_multiple_of(100) || steps < 100 {
-                let largest = if running.t() < 6000.0 { &mut early } else { &mut late };
+                let largest = if running.t() < 9000.0 { &mut early } else { &mut late };
                 *largest = running.save().words().len().max(*largest);
             }
         }

@@ -70,7 +70,8 @@ fn runs_are_documents_that_every_reader_takes() {
 fn the_grids_solve_the_wider_law_too() {
     let folder = folder("wider_compare");
     for (name, line) in RUNS.into_iter().filter(|(name, _)| *name != "free") {
-        folder.prints(&format!("compare {line} -o {name}.json"));
+        // A grid does not see the corner of |h| that it steps over: at 1e-9 it errs by up to 6e-8 there.
+        folder.prints(&format!("compare {line} --tolerance 1e-10 -o {name}.json"));
         let differences = &folder.json(&format!("{name}.json"))["max_difference"];
         for of in ["x0", "u"] {
             let largest = differences[of].as_f64().unwrap();

@@ -63,5 +63,5 @@ fn counts_of_work_are_what_they_were() {
     let scenario =
         Scenario { kick: 0.05, memory: MemoryChoice::Direct, ..Scenario::new(model, 76.0) };
     let work = run(&scenario).unwrap().work;
-    assert_eq!((work.steps, work.rejected, work.newton_iterations), (196, 25, 444));
+    assert_eq!((work.steps, work.rejected, work.newton_iterations), (197, 29, 454));
 }

@@ -49,9 +49,8 @@ pub enum FitError {
 /// Samples of the pencil over reach and retreat: they resolve three smooth lobes. Beyond the reach they hold down what would
 /// go on there, up to a thousand times the error within: by a tenth of the way it is worth a pair or two, by a fifth weights
 /// are twice as large.
-const SAMPLES: (usize, f64) = (127, 1.1);
-/// The same for accuracies below [`CHEAP`], where exponents feel the round-off of samples: more of them feel it less.
-const CLOSER_SAMPLES: (usize, f64) = (159, 1.1);
+/// Below [`CHEAP`] exponents feel the round-off of samples: more of them feel it less.
+const SAMPLES: [(usize, f64); 2] = [(127, 1.1), (159, 1.1)];
 /// And where no lattice is fine enough: more of them, extended into what is zero, or the slowest term is left
 /// free to end there.
 const MORE_SAMPLES: (usize, f64) = (191, 1.4);
@@ -97,8 +96,7 @@ impl Fit {
         let pencil = |samples, reached: &mut f64| by_pencil(tip, &window, samples, wanted, reached);
         let mut reached = f64::INFINITY;
         if wanted >= FINEST_OF_PENCIL
-            && let Some(fit) =
-                pencil(if wanted < CHEAP { CLOSER_SAMPLES } else { SAMPLES }, &mut reached)
+            && let Some(fit) = pencil(SAMPLES[usize::from(wanted < CHEAP)], &mut reached)
         {
             return Ok(fit);
         }
@@ -230,12 +228,11 @@ impl Fit {
     /// These exponents with the weights that least squares gives them.
     fn with_exponents(
         tip: &TipFunction,
-        window: &Window,
+        &Window { reach, retreat, .. }: &Window,
         exponents: &[Complex<f64>],
         samples: &[(f64, f64)],
         wanted: f64,
     ) -> Option<Self> {
-        let Window { reach, retreat, .. } = *window;
         let weights = weights(exponents, samples)?;
         let term = |(s, w): (&Complex<f64>, Complex<f64>)| Term { exponent: *s, weight: w };
         let terms: Vec<Term> = exponents.iter().zip(weights).map(term).collect();

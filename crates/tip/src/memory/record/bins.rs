@@ -41,6 +41,9 @@ impl Bins {
 
     /// By whole bins.
     pub(super) fn move_origin(&mut self, shift: f64) {
+        if self.moments.is_empty() && !self.dropped {
+            return;
+        }
         #[expect(clippy::cast_possible_truncation, reason = "a count of bins")]
         let bins = (shift / self.length) as i64;
         self.first -= bins;

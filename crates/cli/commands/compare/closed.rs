@@ -1,7 +1,7 @@
 //! The closed equation's side of a comparison.
 
 use super::Asked;
-use super::pace::{PATIENCE, Pace, stopped};
+use super::pace::{Pace, stopped, timed};
 use crate::arguments::CompareArguments;
 use crate::commands::model::wide_model;
 use crate::commands::progress::Progress;
@@ -14,8 +14,6 @@ use stickslip_documents::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
 use stickslip_tip::{Run, RunError, Scenario, Trajectory, run_observed};
 
-/// The shortest of so many runs is its time: a run may be as short as a millisecond.
-const REPETITIONS: usize = 5;
 /// Steps between two looks at the clock: a step takes microseconds.
 const STEPS_PER_LOOK: u32 = 256;
 
@@ -74,15 +72,7 @@ pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
             None => Ok((run.map_err(|error| at_run_time(&error))?, seconds)),
         }
     };
-    let (run, mut seconds) = once()?;
-    let mut spent = seconds;
-    for _ in 1..REPETITIONS {
-        if spent < PATIENCE {
-            let (_, again) = once()?;
-            spent += again;
-            seconds = seconds.min(again);
-        }
-    }
+    let (run, seconds) = timed(once)?;
     Ok(Closed { trajectory: run.trajectory.clone(), run, seconds })
 }
 

@@ -1,7 +1,7 @@
 //! The grid's side of a comparison.
 
 use super::Asked;
-use super::pace::{PATIENCE, Pace};
+use super::pace::{Pace, timed};
 use crate::arguments::CompareArguments;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
@@ -152,7 +152,7 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
         .map_err(explain)?
         .with_force(&force);
 
-    let once = || -> Result<(Run, Samples, f64), Failure> {
+    let once = || -> Result<((Run, Samples), f64), Failure> {
         let mut watch = Watch::new(asked);
         let run =
             solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
@@ -161,16 +161,10 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
         let seconds = watch.pace.seconds();
         match watch.failure {
             Some(failure) => Err(failure),
-            None => Ok((run.map_err(explain)?, watch.samples, seconds)),
+            None => Ok(((run.map_err(explain)?, watch.samples), seconds)),
         }
     };
-    let (run, samples, mut seconds) = once()?;
-    let mut spent = seconds;
-    while spent < PATIENCE {
-        let again = once()?.2;
-        spent += again;
-        seconds = seconds.min(again);
-    }
+    let ((run, samples), seconds) = timed(once)?;
     let work = GridWork {
         steps: run.work.steps,
         rejected: run.work.rejected,

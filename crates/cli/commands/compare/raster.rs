@@ -1,7 +1,7 @@
 //! `stickslip compare --lines`: a raster against the full equations on rows of cells.
 
 use super::grid::stepping;
-use super::pace::{PATIENCE, stopped};
+use super::pace::{PATIENCE, stopped, timed};
 use super::time_limit;
 use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
@@ -88,11 +88,10 @@ fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Resu
     }
 }
 
-/// All lines, and the shortest time of as many repetitions as half a second allows.
+/// All lines, and the time that they take.
 fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
     let failed = |error: RasterError| Failure::Run(error.to_string());
-    let (mut spent, mut best) = (0.0, f64::INFINITY);
-    loop {
+    timed(|| {
         let clock = Instant::now();
         let mut scanning = Scanning::new(plan).map_err(failed)?;
         while scanning.next_line().map_err(failed)?.is_some() {
@@ -102,11 +101,8 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
         // A scan that is told to end has no next line either.
         stopped().map_or(Ok(()), Err)?;
         let seconds = clock.elapsed().as_secs_f64();
-        (spent, best) = (spent + seconds, seconds.min(best));
-        if spent > PATIENCE {
-            return Ok((scanning.into_lines(), best));
-        }
-    }
+        Ok((scanning.into_lines(), seconds))
+    })
 }
 
 fn on_cells(

@@ -99,7 +99,10 @@ impl Checkpoints {
 fn bytes(head: &CheckpointHead, state: &State) -> serde_json::Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec(head)?;
     bytes.push(b'\n');
-    bytes.extend(state.words().iter().flat_map(|word| word.to_le_bytes()));
+    bytes.reserve(8 * state.words().len() + 4);
+    for word in state.words() {
+        bytes.extend_from_slice(&word.to_le_bytes());
+    }
     let sum = crc32fast::hash(&bytes);
     bytes.extend(sum.to_le_bytes());
     Ok(bytes)

@@ -12,6 +12,8 @@ pub(super) struct Sheet {
     pub(super) pitch: f64,
     /// Beyond this wave number there is nothing.
     band: f64,
+    /// sin² that fades both ends, of the points of a line and of the lines.
+    windows: (Vec<f64>, Vec<f64>),
 }
 
 /// Where the power |Σ window u e^{-i(qx + κy)}|² has a maximum.
@@ -35,6 +37,10 @@ const FAR_WEAKER: f64 = 0.1;
 /// Waves of this part of the power of the strongest are as strong.
 const AS_STRONG: f64 = 0.5;
 
+fn window(count: usize) -> Vec<f64> {
+    (0..count).map(|i| (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect()
+}
+
 impl Sheet {
     pub(super) fn new(
         mut u: Array2<f64>,
@@ -50,7 +56,8 @@ impl Sheet {
             let tilt = tilt / moment;
             row.iter_mut().enumerate().for_each(|(i, u)| *u -= mean + tilt * (i as f64 - middle));
         }
-        Self { u, from, spacing, pitch, band }
+        let windows = (window(u.ncols()), window(u.nrows()));
+        Self { u, from, spacing, pitch, band, windows }
     }
 
     /// Half peak-to-peak.
@@ -96,12 +103,10 @@ impl Sheet {
 
     /// Σ_i window u_n(x_i) e^{-iqx_i} of every line.
     fn along(&self, q: f64) -> Array1<Complex64> {
-        let columns = self.u.ncols();
-        let factor = |i: usize| {
-            let window = (PI * (i as f64 + 0.5) / columns as f64).sin().powi(2);
-            Complex64::from_polar(window, -q * self.spacing * i as f64)
+        let factor = |(i, window): (usize, &f64)| {
+            Complex64::from_polar(*window, -q * self.spacing * i as f64)
         };
-        let factors: Vec<Complex64> = (0..columns).map(factor).collect();
+        let factors: Vec<Complex64> = self.windows.0.iter().enumerate().map(factor).collect();
         let line =
             |row: ndarray::ArrayView1<f64>| row.iter().zip(&factors).map(|(u, f)| f * u).sum();
         self.u.rows().into_iter().map(line).collect()
@@ -109,11 +114,10 @@ impl Sheet {
 
     /// The same over the lines.
     fn across(&self, along: &Array1<Complex64>, kappa: f64) -> f64 {
-        let rows = along.len();
         let turn = Complex64::from_polar(1.0, -kappa * self.pitch);
         let (mut phase, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());
-        for (n, value) in along.iter().enumerate() {
-            sum += value * phase * (PI * (n as f64 + 0.5) / rows as f64).sin().powi(2);
+        for (value, window) in along.iter().zip(&self.windows.1) {
+            sum += value * phase * window;
             phase *= turn;
         }
         sum.norm_sqr()

@@ -113,8 +113,25 @@ impl From<FitError> for CycleError {
 
 /// What would do where a sum of exponentials allows for no smaller tolerance than this.
 fn instead(reached: f64) -> String {
-    if reached <= super::TOLERANCES.1 {
-        return format!("{reached:.0e} or more will do, or a footprint of less detail");
+    // To one digit, up: what is less will not do.
+    let unit = 10_f64.powf(reached.log10().floor());
+    let enough = (reached / unit).ceil() * unit;
+    if enough <= super::TOLERANCES.1 {
+        return format!("{enough:.0e} or more will do, or a footprint of less detail");
     }
     "a smaller alpha/r will do, or a footprint of less detail".into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1.2e-9 was said as 1e-9, which had just been refused.
+    #[test]
+    fn a_tolerance_that_is_advised_is_enough() {
+        for (reached, advised) in [(1.2e-9, "2e-9 or"), (2.0e-8, "2e-8 or"), (9.4e-6, "1e-5 or")] {
+            assert!(instead(reached).starts_with(advised), "{}", instead(reached));
+        }
+        assert!(instead(1.0).starts_with("a smaller alpha/r"));
+    }
 }

@@ -20,6 +20,8 @@ pub struct Fitted {
 
 /// A number is followed to this many times, or part of, its best value.
 const FARTHEST: f64 = 20.0;
+/// A number of a wider law that is next to unfelt where it is best, down to where it is.
+const FARTHEST_OF_A_LAW: f64 = 1e5;
 /// Points on the way to an end.
 const MOST_POINTS: usize = 7;
 /// The root that is looked for is met to this.
@@ -94,7 +96,8 @@ impl<'a> Around<'a> {
     /// The offset at which too much is left, and the points on the way there.
     fn end(&self, i: usize, side: f64) -> (Option<f64>, Vec<(f64, f64)>) {
         let wanted = quantile_of_student(self.freedom);
-        let most = FARTHEST.ln();
+        let most =
+            if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln();
         let deviation = self.deviation(i);
         let mut offset = side * (wanted * deviation).clamp(1e-9, most);
         // Below it too little is left, above it too much.
@@ -134,20 +137,7 @@ impl<'a> Around<'a> {
     /// √((S/S0 - 1)(n - p)) with one number held at an offset of its logarithm.
     fn root(&self, i: usize, offset: f64) -> Option<f64> {
         let problem = self.problem;
-        let mut held = problem.held;
-        held.set(problem.free[i], (self.best.parameters[i] + offset).exp());
-        let mut free = problem.free.clone();
-        free.remove(i);
-        let others = Problem {
-            shape: problem.shape,
-            data: problem.data,
-            held,
-            free,
-            noise: problem.noise.clone(),
-            weights: problem.weights.clone(),
-            cycles: problem.cycles,
-            by_excess: problem.by_excess,
-        };
+        let others = problem.holding(i, (self.best.parameters[i] + offset).exp());
         // Where the others go if all is linear.
         let variance = self.covariance[(i, i)].max(f64::MIN_POSITIVE);
         let moved = |(j, at): (usize, &f64)| {

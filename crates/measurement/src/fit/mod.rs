@@ -8,6 +8,7 @@ mod likelihood;
 mod misfit;
 mod parameters;
 mod problem;
+mod retreat;
 mod start;
 mod wave;
 
@@ -134,6 +135,7 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
         best = minimum(&problem, &best.parameters).ok_or(FitError::NoStart)?;
     }
     let (problem, best) = by_logarithms(problem, &best).ok_or(FitError::NoStart)?;
+    let best = retreat::retreated(&problem, best);
     let around = Around::of(&problem, &best).ok_or(FitError::NoStart)?;
     let numbers: Vec<FittedNumber> = (0..problem.free.len()).map(|i| around.fitted(i)).collect();
     let parts = parts(&problem, &best);

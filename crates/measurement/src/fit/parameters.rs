@@ -39,6 +39,11 @@ impl Name {
         Self::RPerVelocity,
     ];
 
+    /// Whether it is one of what a wider law has besides.
+    pub(super) fn is_of_a_law(self) -> bool {
+        matches!(self, Self::DepthLimit | Self::HealingTime | Self::Inertia)
+    }
+
     /// As in documents.
     #[must_use]
     pub fn word(self) -> &'static str {

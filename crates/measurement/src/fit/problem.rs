@@ -57,6 +57,15 @@ impl Problem<'_> {
         self.by_excess && tracks && self.free.contains(&Name::Width)
     }
 
+    /// The same with the i-th of the numbers held.
+    pub(super) fn holding(&self, i: usize, value: f64) -> Self {
+        let held = self.held.with(self.free[i], value);
+        let mut free = self.free.clone();
+        free.remove(i);
+        let (noise, weights) = (self.noise.clone(), self.weights.clone());
+        Self { held, free, noise, weights, ..*self }
+    }
+
     /// In σ.
     fn wavelength(&self, values: &Values) -> Option<f64> {
         let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
@@ -211,7 +220,7 @@ fn track_columns(track: &Track, model: Vec<f64>, size: f64) -> (Vec<Vec<f64>>, V
             (columns, rest.collect())
         }
         None => {
-            columns.push(model);
+            columns.push(model.into_iter().map(|v| size * v).collect());
             (columns, track.y.clone())
         }
     }

@@ -13,8 +13,10 @@ const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
 const OVER: [f64; 6] = [1.01, 1.04, 1.1, 1.2, 1.35, 1.6];
 /// Places of the wave that are tried about the one that its first harmonic says.
 const PHASES: [f64; 3] = [0.0, -0.06, 0.06];
-/// The best of them that are followed, each of another r.
+/// The best of them that are followed, each of another r; more where a number of a wider law is free, which makes valleys
+/// of its own.
 const FOLLOWED: usize = 3;
+const FOLLOWED_UNDER_A_LAW: usize = 6;
 
 /// Points from which to search, the most promising first.
 pub(super) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
@@ -32,6 +34,8 @@ pub(super) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
         })
         .collect();
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let is_of_a_law = problem.free.iter().any(|name| name.is_of_a_law());
+    let most = if is_of_a_law { FOLLOWED_UNDER_A_LAW } else { FOLLOWED };
     let mut chosen: Vec<Vec<f64>> = vec![];
     let r = problem.free.iter().position(|name| matches!(name, Name::R | Name::RPerVelocity));
     for (_, start) in judged {
@@ -39,7 +43,7 @@ pub(super) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
         if chosen.iter().all(is_other) || r.is_none() {
             chosen.push(start);
         }
-        if chosen.len() == FOLLOWED {
+        if chosen.len() == most {
             break;
         }
     }

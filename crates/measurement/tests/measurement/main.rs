@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod carved;
 mod fitted_ripples;
 mod freed_numbers;
 mod judged_tables;

@@ -15,7 +15,7 @@ use bins::Bins;
 
 /// Nodes kept as they are in a record of bounded size: of a tip that goes on, twice as many as there are within what is kept,
 /// so that most are dropped without having been gathered.
-const MOST_NODES: usize = 1 << 16;
+const MOST_NODES: usize = 1 << 15;
 /// The origin of a record that keeps all moves by this much.
 const ORIGIN_STEP: f64 = 64.0;
 

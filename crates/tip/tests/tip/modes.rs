@@ -214,7 +214,7 @@ fn a_long_past_is_there_when_the_tip_comes_back() {
 fn what_is_no_longer_kept_is_missed_aloud() {
     let (c, b) = nodes_and_weights();
     let mut modes = modes_of(triple(), 1e-4).unwrap();
-    for _ in 0..16_000 {
+    for _ in 0..8_000 {
         modes.remember(&c.map(|c| 1.5 * c), &b);
     }
     for _ in 0..4000 {

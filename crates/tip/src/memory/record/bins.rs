@@ -9,7 +9,7 @@ pub(super) const MOMENTS: usize = 16;
 pub(super) type Bin = [f64; MOMENTS];
 
 /// Bins kept: what is farther behind is forgotten.
-pub(super) const MOST_BINS: usize = 1 << 12;
+pub(super) const MOST_BINS: usize = 1 << 11;
 /// The origin moves by so many bins: rarely, as all nodes move with it, and not so far that their positions lose more than
 /// some 3e-14.
 const BINS_PER_ORIGIN: i64 = 512;

@@ -51,7 +51,8 @@ impl Record {
                 (bins.first, bins.dropped) = (state.whole()?, state.flag()?);
                 let moments = state.numbers()?;
                 let (moments, rest) = moments.as_chunks::<MOMENTS>();
-                let far = bins.first.unsigned_abs() > 2 * MOST_BINS as u64;
+                // So far behind may the first bin be where all since is kept as nodes.
+                let far = bins.first.unsigned_abs() > 1 << 32;
                 if nodes.len() > MOST_NODES || moments.len() > MOST_BINS || !rest.is_empty() || far
                 {
                     return Err(Damaged::OutOfRange);

@@ -8,8 +8,9 @@ use stickslip_documents::{PathName, PatternDocument, RasterRegimeName};
 use stickslip_raster::{Path, Plan, Scanned, Scanning, pattern};
 use stickslip_tip::{Footprint, Scenario};
 
-/// Error of each line: a picture, and a pattern, need no more.
-pub(crate) const TOLERANCE: f64 = 1e-6;
+/// Error of each line. A picture needs less, but transforms round differently here and there, and a step that one takes and the
+/// other repeats changes a pattern by a part of it: to 1e-9 no more than this.
+pub(crate) const TOLERANCE: f64 = 1e-8;
 /// Heights in a width of the tip along a line; two rows to a pitch.
 const COLUMNS: f64 = 4.0;
 const ROWS: usize = 2;

@@ -2,8 +2,8 @@
 //!
 //! Those of the C library differ in the last bit from one processor to the next, and from a browser to both. A fit of
 //! exponentials amplifies that, and so does a motion: what is computed here, and in what a run consists of, uses these
-//! instead (`clippy.toml` of this crate names the ones that may not be used). Four of five are those of the crate `libm`,
-//! the same code everywhere; the exponential is taken too often for that one.
+//! instead (`clippy.toml` of this crate names the ones that may not be used). All are those of the crate `libm`, the same code
+//! everywhere, but the exponential, which is taken too often for that.
 
 use num_complex::Complex;
 use std::f64::consts::LOG2_E;
@@ -31,8 +31,7 @@ const INVERSE_FACTORIALS: [f64; 14] = {
 
 /// e^x to one unit of its last place.
 #[inline]
-#[must_use]
-pub fn exp(x: f64) -> f64 {
+pub(crate) fn exp(x: f64) -> f64 {
     if x.abs() <= LARGEST { exp_within(x) } else { libm::exp(x) }
 }
 
@@ -69,8 +68,7 @@ pub(crate) fn complex_ln(z: Complex<f64>) -> Complex<f64> {
 }
 
 /// |z|
-#[must_use]
-pub fn norm(z: Complex<f64>) -> f64 {
+pub(crate) fn norm(z: Complex<f64>) -> f64 {
     hypot(z.re, z.im)
 }
 

@@ -3,7 +3,8 @@
 //! Half of what a cycle takes is exponentials, each for some forty instructions of the libraries' functions and as many
 //! again for the sine and cosine. Side by side in the lanes of the machine they take a quarter of that, by the usual
 //! reductions, x = k ln 2 + ρ and y = q π/2 + ρ in parts that leave nothing of x or y, and polynomials in ρ: that of e^ρ is
-//! in [`crate::elementary`], those of sin and cos are the ones of fdlibm. Nothing is fused, so that all machines agree to the last bit.
+//! in [`crate::elementary`], those of sin and cos are the ones of fdlibm. Nothing is fused, so that all machines agree to
+//! the last bit.
 
 use crate::elementary::{self, LARGEST, ROUNDS, exp_within};
 use multiversion::multiversion;

@@ -1,7 +1,7 @@
 //! What a memory is told of a long step: where the tip was, and for how long.
 
 use super::values::Table;
-use crate::elementary::exp;
+use crate::elementary::{cos, exp, ln};
 use crate::roots::zero_between;
 use std::sync::LazyLock;
 
@@ -24,7 +24,7 @@ static RULES: LazyLock<[Rule; COUNTS.len()]> = LazyLock::new(|| COUNTS.map(Rule:
 static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
     COUNTS.map(|n| {
         let factorials = 3.0 * log_factorial(2 * n - 1) - 4.0 * log_factorial(n - 1);
-        libm::log(2.0 / n as f64) + factorials
+        ln(2.0 / n as f64) + factorials
     })
 });
 
@@ -42,8 +42,8 @@ impl Visits {
     /// those to φ = qd, d the displacement, are weaker than the error: at the band they are so by round-off, and they
     /// fall as those of a Gaussian.
     pub(super) fn new(band: f64, error: f64) -> Self {
-        let digits = (-libm::log(error)).max(1.0);
-        let wave = band * (digits / -libm::log(f64::EPSILON)).min(1.0).sqrt();
+        let digits = (-ln(error)).max(1.0);
+        let wave = band * (digits / -ln(f64::EPSILON)).min(1.0).sqrt();
         let phase = |(n, logarithm)| exp((logarithm - digits) / (2 * n - 1) as f64) / wave;
         let mut farthest = [0.0; COUNTS.len()];
         let phases = COUNTS.into_iter().zip(*LOGARITHMS).map(phase);
@@ -86,7 +86,7 @@ impl Rule {
         };
         let difference = |x: f64| legendre(x).1 - legendre(x).0;
         // Zeros of P_n - P_{n-1} and points x = cos(kπ/n) alternate.
-        let between = |k: usize| -libm::cos(std::f64::consts::PI * k as f64 / n as f64);
+        let between = |k: usize| -cos(std::f64::consts::PI * k as f64 / n as f64);
         let zero = |k: usize| zero_between(difference, between(k), between(k + 1));
         let ends = (0..n - 1).map(zero).chain([1.0]);
         let squared = |x: f64| (n as f64 * legendre(x).0).powi(2);

@@ -2,6 +2,7 @@
 
 mod fit;
 
+use multiversion::multiversion;
 use std::array::from_fn;
 use std::sync::LazyLock;
 
@@ -97,10 +98,7 @@ impl Window {
     /// its derivative then costs next to nothing.
     #[inline]
     pub fn read(&self, cells: &[f64; WIDTH], offset: f64) -> (f64, f64) {
-        let sums: [f64; HALF] = from_fn(|k| cells[k] + cells[WIDTH - 1 - k]);
-        let differences: [f64; HALF] = from_fn(|k| cells[k] - cells[WIDTH - 1 - k]);
-        let even = contracted(&self.even_of, &sums);
-        let odd = contracted(&self.odd_of, &differences);
+        let (even, odd) = contracted(&self.even_of, &self.odd_of, cells);
         let s = 2.0 * offset - 1.0;
         let (e, e_slope) = horner(&even, s * s);
         let (o, o_slope) = horner(&odd, s * s);
@@ -131,17 +129,24 @@ fn unfold(even: [f64; HALF], odd: [f64; HALF]) -> [f64; WIDTH] {
     all
 }
 
-/// `Σ_k coefficients_k cell_k`, a vector over the powers; apart from its caller, or the compiler
-/// pairs cells instead of powers and spends as long on shuffling.
-#[inline]
-fn contracted(coefficients: &[[f64; PAIRS]; HALF], cells: &[f64; HALF]) -> [f64; PAIRS] {
-    let mut all = [0.0; PAIRS];
-    for (of_cell, cell) in coefficients.iter().zip(cells) {
-        for (sum, c) in all.iter_mut().zip(of_cell) {
-            *sum += c * cell;
+/// `Σ_k coefficients_k cell_k` of the even and of the odd part, vectors over the powers.
+///
+/// Compiled for wider vectors too: powers do not know of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn contracted(
+    even_of: &[[f64; PAIRS]; HALF],
+    odd_of: &[[f64; PAIRS]; HALF],
+    cells: &[f64; WIDTH],
+) -> ([f64; PAIRS], [f64; PAIRS]) {
+    let (mut even, mut odd) = ([0.0; PAIRS], [0.0; PAIRS]);
+    for k in 0..HALF {
+        let (sum, difference) = (cells[k] + cells[WIDTH - 1 - k], cells[k] - cells[WIDTH - 1 - k]);
+        for p in 0..PAIRS {
+            even[p] += even_of[k][p] * sum;
+            odd[p] += odd_of[k][p] * difference;
         }
     }
-    all
+    (even, odd)
 }
 
 /// A polynomial and its derivative.

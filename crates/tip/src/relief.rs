@@ -246,8 +246,8 @@ impl SteadyPast {
         if self.fading > 0.0 {
             return self.fading_slope_and_curvature(x - self.position);
         }
-        let slope = self.tip.slope(x - self.position);
-        (self.depth * self.tip.value(x - self.position), self.depth * slope)
+        let (value, slope) = self.tip.value_and_slope(x - self.position);
+        (self.depth * value, self.depth * slope)
     }
 }
 

@@ -3,7 +3,10 @@
 use super::groove::{Groove, range};
 use super::record::Record;
 use crate::TipFunction;
-use crate::collocation::{STAGES, Stages};
+use multiversion::multiversion;
+
+/// Points side by side: the stages of a step, and idle ones that fill the vectors of the machine.
+const LANES: usize = 8;
 
 /// The groove of all that the record holds within reach, at displacements from the tip.
 ///
@@ -11,51 +14,54 @@ use crate::collocation::{STAGES, Stages};
 pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mut Groove<'_>) {
     let position = record.position();
     let (low, high) = range(at);
-    let near = record.blocks_near(position + low, position + high);
     groove.clear();
-    add(near.flatten().copied(), tip, (position, at), groove);
+    for visits in record.blocks_near(position + low, position + high) {
+        add(visits, tip, (position, at), groove);
+    }
 }
 
 /// Adds the groove of these visits at the points `origin + at`.
 pub(super) fn add(
-    visits: impl Iterator<Item = (f64, f64)> + Clone,
+    visits: &[(f64, f64)],
     tip: &TipFunction,
     (origin, at): (f64, &[f64]),
     groove: &mut Groove<'_>,
 ) {
-    let told = groove.slope.chunks_mut(STAGES).zip(groove.curvature.chunks_mut(STAGES));
-    for (at, (slope, curvature)) in at.chunks(STAGES).zip(told) {
-        let mut x = [origin; STAGES];
+    let told = groove.slope.chunks_mut(LANES).zip(groove.curvature.chunks_mut(LANES));
+    for (at, told) in at.chunks(LANES).zip(told) {
+        let mut x = [origin; LANES];
         x.iter_mut().zip(at).for_each(|(x, at)| *x += at);
-        let mut sums = ([0.0; STAGES], [0.0; STAGES]);
-        sums.0[..slope.len()].copy_from_slice(slope);
-        sums.1[..slope.len()].copy_from_slice(curvature);
-        add_stages(visits.clone(), tip, (&x, at.len()), &mut sums);
-        slope.copy_from_slice(&sums.0[..slope.len()]);
-        curvature.copy_from_slice(&sums.1[..slope.len()]);
+        add_side_by_side(visits, tip, &x, told);
     }
     if let Some(heights) = &mut groove.height {
-        visits.for_each(|(position, weight)| {
+        for (position, weight) in visits {
             for (at, height) in at.iter().zip(heights.iter_mut()) {
                 *height += weight * tip.value(origin + at - position);
             }
-        });
+        }
     }
 }
 
-/// Adds the slope and curvature of these visits at the first `count` of x.
-#[inline]
-fn add_stages(
-    visits: impl Iterator<Item = (f64, f64)>,
+/// Adds the slope and curvature of these visits at the first of x, as many as are told.
+///
+/// Compiled for wider vectors too: lanes do not know of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn add_side_by_side(
+    visits: &[(f64, f64)],
     tip: &TipFunction,
-    (x, count): (&Stages, usize),
-    (slope, curvature): &mut (Stages, Stages),
+    x: &[f64; LANES],
+    (slope, curvature): (&mut [f64], &mut [f64]),
 ) {
-    visits.for_each(|(position, weight)| {
-        for i in 0..count {
-            let (f1, f2) = tip.slope_and_curvature(x[i] - position);
-            slope[i] += weight * f1;
-            curvature[i] += weight * f2;
+    let mut sums = [[0.0; LANES]; 2];
+    sums[0][..slope.len()].copy_from_slice(slope);
+    sums[1][..slope.len()].copy_from_slice(curvature);
+    for (position, weight) in visits {
+        let told = tip.slopes_and_curvatures(&x.map(|x| x - position));
+        for i in 0..LANES {
+            sums[0][i] += weight * told[0][i];
+            sums[1][i] += weight * told[1][i];
         }
-    });
+    }
+    slope.copy_from_slice(&sums[0][..slope.len()]);
+    curvature.copy_from_slice(&sums[1][..slope.len()]);
 }

@@ -117,7 +117,7 @@ impl Fft {
                 *height = field.value(here + at);
             }
         }
-        direct::add(self.pending.iter().copied(), &self.tip, (self.position, at), groove);
+        direct::add(&self.pending, &self.tip, (self.position, at), groove);
     }
 
     /// All weights times a factor.

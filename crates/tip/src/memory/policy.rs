@@ -195,7 +195,9 @@ impl Policy {
                     // An iteration gone astray, or the last step before a retreat is noticed.
                     let (low, high) = range(at);
                     groove.clear();
-                    direct::add(record.near(low, high), &self.tip, (0.0, at), groove);
+                    for visit in record.near(low, high) {
+                        direct::add(&[visit], &self.tip, (0.0, at), groove);
+                    }
                 }
             }
             (Now::Direct | Now::Modes(..), None) => unreachable!("they have a record"),

@@ -3,6 +3,7 @@
 use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::tip_function::Apex;
+use multiversion::multiversion;
 
 /// A row for each stage.
 pub type Matrix = [Stages; STAGES];
@@ -52,11 +53,8 @@ impl OwnGroove {
     /// Under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
-        let mut own = Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] };
-        for (pair, (i, k)) in PAIRS[..IDLE].iter().enumerate() {
-            (own.slope[pair], own.curvature[pair]) = tip.slope_and_curvature(d[*i] - d[*k]);
-        }
-        own
+        let [slope, curvature] = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
+        Self { slope, curvature }
     }
 
     /// The same by the polynomial of the apex, where that holds.
@@ -64,12 +62,10 @@ impl OwnGroove {
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
         let (mut slope, mut curvature) = ([0.0; PAIRS.len()], [0.0; PAIRS.len()]);
-        if !apex.slopes_and_curvatures(&distance, &mut slope, &mut curvature) {
-            for (pair, distance) in distance.into_iter().enumerate() {
-                (slope[pair], curvature[pair]) = tip.slope_and_curvature(distance);
-            }
+        if apex.slopes_and_curvatures(&distance, &mut slope, &mut curvature) {
+            return Self { slope, curvature };
         }
-        Self { slope, curvature }
+        Self::new(tip, d)
     }
 
     /// `f'(d_i - d_k)`
@@ -102,6 +98,12 @@ impl OwnGroove {
             derivatives[k][i] -= to_k;
         }
     }
+}
+
+/// f' and f'' at these distances; compiled for wider vectors too.
+#[multiversion(targets("x86_64+avx2"))]
+fn side_by_side(tip: &TipFunction, distance: &Pairs) -> [Pairs; 2] {
+    tip.slopes_and_curvatures(distance)
 }
 
 /// f at `d_i - d_k`: the height of the groove that the step carves, `Σ_k b_ik f(d_i - d_k)`.

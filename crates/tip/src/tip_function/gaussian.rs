@@ -4,7 +4,7 @@ use super::lattice::Lattice;
 use super::term::{Gaussian, WIDTHS_OF_REACH};
 use super::{BAND_OF_A_GAUSSIAN, LARGEST, TipFunctionError};
 use crate::Footprint;
-use crate::elementary::{cos, exp};
+use crate::elementary::{cos, exp, exp_within};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
 
@@ -64,6 +64,16 @@ impl GaussianSum {
         sum
     }
 
+    /// The bits of either alone, from the same exponentials.
+    pub(super) fn value_and_slope(&self, x: f64) -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        self.near(x, |width, z, value| {
+            sum += value;
+            slope -= z * (value / width);
+        });
+        (sum, slope)
+    }
+
     pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         let (mut slope, mut curvature) = (0.0, 0.0);
         self.near(x, |width, z, value| {
@@ -72,6 +82,38 @@ impl GaussianSum {
             curvature += (z * z - 1.0) * value / width;
         });
         (slope, curvature)
+    }
+
+    /// The slopes and curvatures of many x side by side in the lanes of the machine, the same to the last bit.
+    #[inline(always)]
+    pub(super) fn slopes_and_curvatures<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; 2] {
+        let mut sums = [[0.0; N]; 2];
+        if self.lattice.is_some() {
+            for i in 0..N {
+                (sums[0][i], sums[1][i]) = self.slope_and_curvature(x[i]);
+            }
+            return sums;
+        }
+        for g in &self.terms {
+            let far = x.map(|x| (x - g.center) / g.width);
+            // What is out of reach is 0.
+            let is_near = far.map(|z| z.abs() < WIDTHS_OF_REACH);
+            let mut z = [0.0; N];
+            for i in 0..N {
+                z[i] = if is_near[i] { far[i] } else { 0.0 };
+            }
+            let mut value = z.map(|z| g.amplitude * exp_within(-0.5 * z * z) / g.width);
+            for i in 0..N {
+                value[i] = if is_near[i] { value[i] } else { 0.0 };
+            }
+            for i in 0..N {
+                sums[0][i] -= z[i] * value[i];
+            }
+            for i in 0..N {
+                sums[1][i] += (z[i] * z[i] - 1.0) * value[i] / g.width;
+            }
+        }
+        sums
     }
 
     /// From g' = -(x-c)/w² g: (n+1) `g_{n+1}` = (c `g_n` - `g_{n-1}`)/w².
@@ -131,7 +173,7 @@ impl GaussianSum {
         for g in &self.terms {
             let z = (x - g.center) / g.width;
             if z.abs() < WIDTHS_OF_REACH {
-                take(g.width, z, g.amplitude * exp(-0.5 * z * z));
+                take(g.width, z, g.amplitude * exp_within(-0.5 * z * z));
             }
         }
     }
@@ -155,6 +197,34 @@ fn has_twin(terms: &[Gaussian], term: &Gaussian) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// One at a time they are the oracle, to the last bit: also out of reach of all terms or some, and where no x is.
+    #[test]
+    fn many_side_by_side_are_what_each_is_alone() {
+        let lobes = crate::TipFunction::triple_gaussian(0.7, 1.3).unwrap();
+        let (x, f): (Vec<f64>, Vec<f64>) =
+            (0..40).map(|i| 0.2 * f64::from(i)).map(|x| (x, (-0.5 * x * x).exp())).unzip();
+        let table = crate::TipFunction::table(&x, &f).unwrap();
+        for tip in [lobes, table, crate::TipFunction::Bessel] {
+            for i in -400_i32..400 {
+                let mut x = [0, 1, 2, 3, 4].map(|k| 0.0417 * f64::from(i) + 1.618 * f64::from(k));
+                x[3] = [f64::INFINITY, 1e300, -1e300, f64::NAN, 0.0][i.unsigned_abs() as usize % 5];
+                let [slope, curvature] = tip.slopes_and_curvatures(&x);
+                for k in [0, 1, 2, 4] {
+                    let alone = tip.slope_and_curvature(x[k]);
+                    assert_eq!(
+                        (slope[k].to_bits(), curvature[k].to_bits()),
+                        (alone.0.to_bits(), alone.1.to_bits()),
+                        "{}",
+                        x[k]
+                    );
+                    let both = tip.value_and_slope(x[k]);
+                    assert_eq!(both.0.to_bits(), tip.value(x[k]).to_bits(), "{}", x[k]);
+                    assert_eq!(both.1.to_bits(), alone.0.to_bits(), "{}", x[k]);
+                }
+            }
+        }
+    }
 
     /// The same terms in another order, of which all are looked at.
     #[test]

@@ -110,7 +110,15 @@ impl TipFunction {
         self.slope_and_curvature(x).0
     }
 
-    /// f'(x) and f''(x), which share their costly part.
+    /// f(x) and f'(x), which share their costly part.
+    pub(crate) fn value_and_slope(&self, x: f64) -> (f64, f64) {
+        match self {
+            Self::Gaussians(sum) => sum.value_and_slope(x),
+            Self::Bessel | Self::Cosine => (self.value(x), self.slope(x)),
+        }
+    }
+
+    /// f'(x) and f''(x), which share theirs.
     #[must_use]
     #[inline]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
@@ -119,6 +127,19 @@ impl TipFunction {
             Self::Bessel => bessel::slope_and_curvature(x),
             Self::Cosine => cosine::slope_and_curvature(x),
         }
+    }
+
+    /// f' of each x and f'' of each, the same to the last bit as one by one: for callers compiled for wider vectors.
+    #[inline(always)]
+    pub(crate) fn slopes_and_curvatures<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; 2] {
+        if let Self::Gaussians(sum) = self {
+            return sum.slopes_and_curvatures(x);
+        }
+        let mut told = [[0.0; N]; 2];
+        for i in 0..N {
+            (told[0][i], told[1][i]) = self.slope_and_curvature(x[i]);
+        }
+        told
     }
 
     /// Coefficients of x^n, n up to `degree`, in the Taylor series of f about its apex.

@@ -9,7 +9,7 @@
 
 use crate::acceptance::{Acceptance, largest_difference};
 use gauss_quad::legendre::GaussLegendre;
-use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle};
+use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle, cycle_near};
 use stickslip_outcome::run_and_judge;
 use stickslip_stability::{critical, onset};
 use stickslip_surface::{Surface, ripple_behind};
@@ -57,6 +57,17 @@ fn the_cycle_just_above_onset_is_the_one_known_to_30_digits() {
     judge.judge("amplitude of u", (cycle.amplitude_u() - of("amplitude_u")).abs(), 0.0);
 }
 
+/// Newton's method may turn a small guess over, into a cycle that begins where l is smallest: that minimum was counted at
+/// either end of the period.
+#[test]
+fn a_cycle_that_begins_with_a_minimum_has_no_slip_more() {
+    let small = found((1.0, critical(&tip(1.0), 1.0).unwrap().alpha + 0.01, 1.0));
+    let turned = cycle_near(&model(1.0, 1.1, 1.0), small.motion(), DEFAULT_TOLERANCE).unwrap();
+    let (lowest, highest) = turned.extremes();
+    assert!(turned.motion().l(0.0) < lowest + 1e-9 && highest > lowest + 0.6);
+    assert_eq!(turned.slips(), 1);
+}
+
 /// l' - ∫_0^∞ F(rτ + l(t-τ) - l(t))dτ + l at time t, F = -α f', l continued periodically.
 fn residual(cycle: &Cycle, t: f64) -> f64 {
     let (motion, period) = (cycle.motion(), cycle.period());
@@ -94,7 +105,8 @@ fn residual(cycle: &Cycle, t: f64) -> f64 {
 
 #[test]
 fn the_equation_holds_between_the_nodes_too() {
-    for case in CASES {
+    // At the last one sums over the nodes of the longest steps missed more than they were thought to: 1.8e-9, told as 6.6e-10.
+    for case in CASES.into_iter().chain([(1.0, 1.6184, 1.0)]) {
         let cycle = found(case);
         let steps = cycle.motion().steps();
         let at = |i: usize| steps.iter().step_by(3).map(move |s| s.t + s.h * i as f64 / 9.0);
@@ -103,6 +115,7 @@ fn the_equation_holds_between_the_nodes_too() {
         Acceptance { floor: 1e-9, slack: 0.0 }.judge(&format!("{case:?}"), largest, 0.0);
         // What it says of itself is no fiction.
         assert!(cycle.residual() <= DEFAULT_TOLERANCE && largest > 1e-2 * cycle.residual());
+        assert!(largest < 1.3 * cycle.residual(), "{case:?}: {largest:e}, {:e}", cycle.residual());
     }
     // Control: with a tolerance a thousand times larger, the residual is seen to be larger.
     let coarse = cycle(&model(1.0, 1.4, 1.0), 1e-6).unwrap();
@@ -114,7 +127,7 @@ fn the_equation_holds_between_the_nodes_too() {
 #[test]
 fn errors_of_long_slips_are_told() {
     let [coarse, fine] =
-        [1e-8, 1e-10].map(|tolerance| cycle(&model(1.0, 2.0, 1.0), tolerance).unwrap());
+        [1e-8, 2e-10].map(|tolerance| cycle(&model(1.0, 2.0, 1.0), tolerance).unwrap());
     let (off, told) = ((coarse.period() - fine.period()).abs(), coarse.error() + fine.error());
     println!("period off by {off:.1e}, told {told:.1e}; amplitude {:.1}", fine.amplitude_x0());
     assert!(off < told && off > 0.02 * told);

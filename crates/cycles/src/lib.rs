@@ -37,6 +37,7 @@ mod mesh;
 mod multipliers;
 mod orbit;
 mod past;
+mod quadrature;
 mod ripple;
 mod scaling;
 mod search;
@@ -72,6 +73,8 @@ const ON_THE_CIRCLE: f64 = 1e-7;
 /// Multipliers below this modulus are those of the exponentials rather than of f.
 const LEAST_MULTIPLIER: f64 = 1e-6;
 
+/// An extremum within this part of a period from the seam is that of the seam.
+const AT_THE_SEAM: f64 = 1e-6;
 /// Of [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
 /// Residuals beyond which ends of steps are no longer that much better than what lies between them.
@@ -117,8 +120,12 @@ impl Cycle {
         // The maximum at the seam was the highest of the guess; another may have overtaken it.
         let highest = extrema.iter().map(|e| e.l).fold(motion.l(0.0), f64::max);
         let extremes = (lowest, highest);
-        // Around a period there are as many maxima as minima; the first maximum is at the seam.
-        let slips = extrema.iter().filter(|e| !e.is_maximum).count();
+        // Around a period there are as many maxima as minima. One of them is at the seam, seen at either end of it or at
+        // none: a maximum, or where the guess was another cycle a minimum.
+        let (from, to) = (AT_THE_SEAM * motion.end(), (1.0 - AT_THE_SEAM) * motion.end());
+        let within: Vec<_> = extrema.iter().filter(|e| e.t > from && e.t < to).collect();
+        let maxima = within.iter().filter(|e| e.is_maximum).count();
+        let slips = maxima.max(within.len() - maxima);
         let amplitude_u = OnceLock::new();
         Ok(Self { model, closed, motion, multipliers, extremes, slips, amplitude_u })
     }

@@ -6,6 +6,7 @@
 
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
+use super::mesh::OfStep;
 use super::orbit::Orbit;
 use super::past::Past;
 use super::sensitivity::Sensitivity;
@@ -24,8 +25,8 @@ pub(super) struct Linearisation {
     stages: Vec<Sensitivity>,
     heights: Vec<Sensitivity>,
     phase: Phase,
-    /// Of the groove, by step.
-    pub(super) stiffness: Vec<f64>,
+    /// What the mesh is judged by.
+    pub(super) of_steps: Vec<OfStep>,
 }
 
 /// r less the velocity at the start, and its derivatives.
@@ -54,16 +55,16 @@ impl Linearisation {
         let other = other.transpose()?;
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(equation.state_len());
-        let (mut stages, mut heights, mut stiffness) = (vec![], vec![], vec![]);
+        let (mut stages, mut heights, mut of_steps) = (vec![], vec![], vec![]);
         let gap = along(equation, orbit, (&past, solved), |_, step, share| {
             let (of_stages, of_heights) = step.carry(free, share, &mut end)?;
             stages.push(of_stages);
             heights.extend(of_heights);
-            stiffness.push(step.stiffness());
+            of_steps.push(step.of_step());
             Some(())
         })?;
         let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
-        Ok(Self { gap, end, stages, heights, phase, stiffness })
+        Ok(Self { gap, end, stages, heights, phase, of_steps })
     }
 
     /// Length of the state X.

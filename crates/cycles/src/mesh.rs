@@ -25,10 +25,20 @@ pub(super) const MOST_STEPS: usize = 4000;
 /// A guess may have more, which its mesh does not keep.
 pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
+/// What the linearisation of a step tells a mesh.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OfStep {
+    /// Of the groove.
+    pub(super) stiffness: f64,
+    /// What the sum over the nodes misses of the [force](super::quadrature) of the step's own groove.
+    pub(super) missed: f64,
+}
+
 /// Largest residual of (18) within each step, estimated from where its polynomial begins, and that of the next: there
 /// the true velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
-/// interpolation errs by `stiffness` times that in the force.
-pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
+/// interpolation errs by `stiffness` times that in the force. What is missed at the nodes adds to neither: it is of another
+/// form, and of the same order.
+pub(super) fn residuals(orbit: &Orbit, of_steps: &[OfStep]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
     let signs = |n: usize| {
@@ -48,15 +58,15 @@ pub(super) fn residuals(orbit: &Orbit, stiffness: &[f64]) -> Vec<f64> {
     let residual = |n: usize| {
         let (mut defect, mut interpolation) = signs[n];
         let next = (n + 1) % steps;
-        let mut stiff = stiffness[n];
+        let mut stiff = of_steps[n].stiffness;
         if !is_sliver(&h, n) && !is_sliver(&h, next) && orbit.side(n) * orbit.side(next) > 0.0 {
             // What both are made of, a derivative, may grow within the step: its end is the next one's beginning.
             let ratio = h[n] / h[next];
             defect = defect.max(signs[next].0 * ratio.powf(ORDER));
             interpolation = interpolation.max(signs[next].1 * ratio.powf(ORDER + 1.0));
-            stiff = stiff.max(stiffness[next]);
+            stiff = stiff.max(of_steps[next].stiffness);
         }
-        defect + stiff * interpolation
+        (defect + stiff * interpolation).max(of_steps[n].missed)
     };
     (0..steps).map(residual).collect()
 }

@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
+use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, OfStep, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -100,13 +100,13 @@ pub(super) fn close(
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
             let (e, o) = (&mut equation, &mut orbit);
             let mut newton = Newton { equation: e, orbit: o, condition, precise: &short };
-            let Converged { stiffness, count, size } = newton.solve(solved, enough)?;
+            let Converged { of_steps, count, size } = newton.solve(solved, enough)?;
             iterations += count;
             work += equation.work((count * orbit.stages.len()) as f64);
             if work > MOST_WORK || stop::is_asked() {
                 return Err(NotClosed::Lost);
             }
-            let residuals = residuals(&orbit, &stiffness);
+            let residuals = residuals(&orbit, &of_steps);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             reached = residual;
             let corners = orbit.corners(equation.r);
@@ -161,7 +161,7 @@ struct Newton<'a> {
 /// Where Newton's method ended.
 struct Converged {
     /// About the last iterate but one, by step.
-    stiffness: Vec<f64>,
+    of_steps: Vec<OfStep>,
     /// Linearisations that it took.
     count: usize,
     /// The last correction.
@@ -184,7 +184,7 @@ impl Newton<'_> {
             let is_rough = !Arc::ptr_eq(&self.equation.short, self.precise);
             let settled = size > 0.5 * last && size < ROUND_OFF && !is_rough;
             if size <= enough || settled {
-                return Ok(Converged { stiffness: linearisation.stiffness, count, size });
+                return Ok(Converged { of_steps: linearisation.of_steps, count, size });
             }
             if slow && is_rough {
                 self.equation.short = Arc::clone(self.precise);

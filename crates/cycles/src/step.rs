@@ -16,7 +16,9 @@ use super::carrying::Carrying;
 use super::carved::{Carved, Heights};
 use super::depth::LinearHeights;
 use super::embedding::{Embedding, Parameter};
+use super::mesh::OfStep;
 use super::past::PastOfStep;
+use super::quadrature::missed;
 use super::sensitivity::Sensitivity;
 use num_complex::Complex;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
@@ -39,6 +41,8 @@ pub(super) struct LinearStep<'a> {
     groove_rate: Vector,
     carrying: Carrying,
     heights: Option<LinearHeights>,
+    /// Of the force by the step's own groove, at most.
+    missed: f64,
 }
 
 /// What is known of a step: its state at the start, its length, its solution.
@@ -100,12 +104,15 @@ impl<'a> LinearStep<'a> {
             groove_rate: Vector::from(rate),
             carrying: Carrying::new(&equation.wider, h, step.velocity),
             heights,
+            missed: law.alpha * carved.times * missed(&equation.tip, d, &between),
         }
     }
 
-    /// 1 + u_xx, the largest within the step.
-    pub(super) fn stiffness(&self) -> f64 {
-        self.velocity_slope.diagonal().iter().fold(1.0, |m: f64, s| m.max(s.abs()))
+    /// What a mesh is judged by: 1 + u_xx, the largest within the step, and what its sums miss.
+    pub(super) fn of_step(&self) -> OfStep {
+        let diagonal = self.velocity_slope.diagonal();
+        let stiffness = diagonal.iter().fold(1.0, |m: f64, s| m.max(s.abs()));
+        OfStep { stiffness, missed: self.missed }
     }
 
     /// Carries the sensitivities of the state over the step, which is the fraction `share` of the period,

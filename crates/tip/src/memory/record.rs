@@ -270,7 +270,11 @@ mod tests {
             record.remember(&c.map(|c| length * c), &b);
         }
         // Of bins all or none.
-        let bins = if matches!(&record.kept, Kept::Gathered(bins) if bins.moments.is_empty()) { 0 } else { bins::MOST_BINS };
+        let bins = if matches!(&record.kept, Kept::Gathered(bins) if bins.moments.is_empty()) {
+            0
+        } else {
+            bins::MOST_BINS
+        };
         assert_eq!(room(&record), (nodes, bins), "no room was added");
         record
     }

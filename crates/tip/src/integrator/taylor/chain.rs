@@ -195,32 +195,29 @@ impl Chain {
     fn products<const GROUPS: usize>(&mut self, k: usize, acting: &Acting) {
         let (rows, after) = self.rows.split_at_mut(k + 1);
         let factors = &self.velocity[MOST_ORDER - 1 - k..];
-        let mut sums = [[[0.0; LANES]; GROUPS]; 2];
-        // Few sums would wait for each other; many fill the registers.
-        let other = usize::from(GROUPS <= 2);
         let between = 1..k.max(1);
-        let (pairs, last) = rows[between.clone()].as_chunks::<2>();
-        let (factor_pairs, last_factor) = factors[between].as_chunks::<2>();
-        for (rows, factors) in pairs.iter().zip(factor_pairs) {
-            add::<GROUPS>(&mut sums[0], &rows[0], factors[0]);
-            add::<GROUPS>(&mut sums[other], &rows[1], factors[1]);
-        }
-        for (row, factor) in last.iter().zip(last_factor) {
-            add::<GROUPS>(&mut sums[0], row, *factor);
-        }
+        let (known, factors_known) = (&rows[between.clone()], &factors[between]);
+        // Few sums would wait for each other; many fill the registers.
+        let (mut even, mut odd) = if GROUPS > FEW {
+            (sum::<GROUPS>(known, factors_known), [[0.0; LANES]; GROUPS])
+        } else {
+            sums_in_turn(known, factors_known)
+        };
         // What has only just been found comes last: nothing else waits for it.
         if k > 0 {
-            add::<GROUPS>(&mut sums[0], &rows[k], factors[k]);
+            add(&mut even, &rows[k], factors[k]);
         }
+        let last = if GROUPS > FEW { &mut even } else { &mut odd };
         if k == 0 || acting.depth.is_some() {
-            add::<GROUPS>(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
+            add(last, &self.sources, self.weight[MOST_ORDER - 1 - k]);
         }
-        add::<GROUPS>(&mut sums[other], &rows[0], factors[0]);
-        let (before, next) = (&rows[k], INVERSE[k + 1]);
-        let [even, odd] = &sums;
-        let lanes = even.as_flattened().iter().zip(odd.as_flattened()).zip(before);
-        for (new, ((even, odd), old)) in after[0].iter_mut().zip(lanes) {
-            *new = next * ((even + odd) - acting.healing * old);
+        add(last, &rows[0], factors[0]);
+        let (before, next) = (rows[k].as_chunks::<LANES>().0, INVERSE[k + 1]);
+        let new = after[0].as_chunks_mut::<LANES>().0.iter_mut();
+        for (((new, old), even), odd) in new.zip(before).zip(&even).zip(&odd) {
+            for i in 0..LANES {
+                new[i] = next * ((even[i] + odd[i]) - acting.healing * old[i]);
+            }
         }
     }
 
@@ -253,6 +250,38 @@ impl Chain {
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
     chain.coefficients(acting);
+}
+
+/// So many groups or fewer are few.
+const FEW: usize = 2;
+
+/// Rows times factors.
+#[inline(always)]
+fn sum<const GROUPS: usize>(rows: &[Row], factors: &[f64]) -> [[f64; LANES]; GROUPS] {
+    let mut sum = [[0.0; LANES]; GROUPS];
+    for (row, factor) in rows.iter().zip(factors) {
+        add(&mut sum, row, *factor);
+    }
+    sum
+}
+
+/// The first, third, ... rows times factors, and the others.
+#[inline(always)]
+fn sums_in_turn<const GROUPS: usize>(
+    rows: &[Row],
+    factors: &[f64],
+) -> ([[f64; LANES]; GROUPS], [[f64; LANES]; GROUPS]) {
+    let (mut even, mut odd) = ([[0.0; LANES]; GROUPS], [[0.0; LANES]; GROUPS]);
+    let (pairs, last) = rows.as_chunks::<2>();
+    let (factor_pairs, last_factor) = factors.as_chunks::<2>();
+    for (rows, factors) in pairs.iter().zip(factor_pairs) {
+        add(&mut even, &rows[0], factors[0]);
+        add(&mut odd, &rows[1], factors[1]);
+    }
+    if let (Some(row), Some(factor)) = (last.first(), last_factor.first()) {
+        add(&mut even, row, *factor);
+    }
+    (even, odd)
 }
 
 /// Adds a row, from its second entry on, times a factor.

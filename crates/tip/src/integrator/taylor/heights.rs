@@ -12,7 +12,7 @@ use crate::elementary::exp;
 use crate::history::Heights;
 use crate::memory::Memory;
 
-/// Height and weight over the length of a plan.
+/// Height and weight over the length of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Depth {
     height: Scaled,
@@ -52,13 +52,18 @@ impl<M: Memory> Integrator<'_, M> {
         length::length(&heights[..order], error / felt)
     }
 
-    /// Height and weight over this length, where there is a depth limit; and the longest part of it that may be a piece.
-    pub(super) fn depth_over(&self, over: f64, error: f64) -> Option<(Depth, f64)> {
-        let corner = self.corner.as_ref()?;
-        let depth_now = depth(corner);
-        let depth = Depth::over(&self.taylor.chain, over);
-        let longest = pieces::longest(&Outlook::of(&depth.height), error * depth_now);
-        Some((depth, longest))
+    /// The longest part of this length that may be a piece, for its heights.
+    pub(super) fn piece_by_heights(&self, over: f64, error: f64) -> f64 {
+        let Some(corner) = &self.corner else { return f64::INFINITY };
+        let mut heights = [0.0; MOST_ORDER];
+        let order = self.taylor.chain.heights(&mut heights);
+        let outlook = Outlook::of(&Scaled::new(&heights[..order], over));
+        pieces::longest(&outlook, error * depth(corner))
+    }
+
+    /// Height and weight over this length, where there is a depth limit.
+    pub(super) fn depth_over(&self, length: f64) -> Option<Depth> {
+        self.corner.is_some().then(|| Depth::over(&self.taylor.chain, length))
     }
 
     /// Where the heights of the pieces of a step lead.
@@ -90,11 +95,6 @@ impl Depth {
         chain.weights(&mut weights);
         let scaled = |coefficients: &[f64]| Scaled::new(&coefficients[..order], over);
         Self { height: scaled(&heights), weight: scaled(&weights) }
-    }
-
-    /// Over this part of the length, or beyond.
-    pub(super) fn times(&self, part: f64) -> Self {
-        Self { height: self.height.over(part), weight: self.weight.over(part) }
     }
 
     /// Heights of pieces, from the table of their nodes.

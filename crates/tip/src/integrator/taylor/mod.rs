@@ -145,9 +145,14 @@ impl<M: Memory> Integrator<'_, M> {
             let mut positions = [0.0; NODES];
             let positions = &mut positions[..nodes.parts.len()];
             nodes.table.sums(&scaled, positions);
-            let depth = plan.depth.map(|depth| depth.times(part));
-            let mut heights = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
-            let heights = depth.map(|depth| depth.of_pieces(&nodes.table, &mut heights[..pieces]));
+            let depth = self.depth_over(total);
+            let mut room;
+            let heights = if let Some(depth) = &depth {
+                room = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
+                Some(depth.of_pieces(&nodes.table, &mut room[..pieces]))
+            } else {
+                None
+            };
             let shorter = self.broken(&nodes.parts, positions, total);
             let shorter = match self.at_corner(heights.unwrap_or_default(), total) {
                 AtCorner::Apart => shorter,
@@ -173,15 +178,11 @@ impl<M: Memory> Integrator<'_, M> {
             return Some(part * total);
         }
         let told = &self.taylor.told;
-        let span = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
-        let (low, high) = positions.iter().fold((f64::INFINITY, told.farthest), span);
-        if low >= high - told.retreat {
-            return None;
-        }
         let mut farthest = told.farthest;
         for (part, position) in parts.iter().zip(positions) {
-            farthest = farthest.max(*position);
-            if *position < farthest - told.retreat {
+            if *position > farthest {
+                farthest = *position;
+            } else if *position < farthest - told.retreat {
                 return Some(0.5 * part * total);
             }
         }

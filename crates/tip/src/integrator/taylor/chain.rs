@@ -62,9 +62,9 @@ pub(super) struct Chain {
     pub(super) force: [f64; MOST_ORDER],
     /// Of the velocity, the highest first: each product of two series is then a sum along both.
     velocity: [f64; MOST_ORDER],
-    /// Of w, likewise.
-    weight: [f64; MOST_ORDER],
-    /// Of `g_0'`.
+    /// Of w, likewise, with room to fill the lanes.
+    weight: [f64; MOST_ORDER + LANES],
+    /// Of `g_0'` times what it does to w.
     rate: [f64; MOST_ORDER],
     /// Of x0 less its value at the start.
     displacement: [f64; MOST_ORDER + 1],
@@ -79,7 +79,7 @@ impl Chain {
             sources: [0.0; WIDTH],
             force: [0.0; MOST_ORDER],
             velocity: [0.0; MOST_ORDER],
-            weight: [0.0; MOST_ORDER],
+            weight: [0.0; MOST_ORDER + LANES],
             rate: [0.0; MOST_ORDER],
             displacement: [0.0; MOST_ORDER + 1],
         }
@@ -106,10 +106,11 @@ impl Chain {
         self.order
     }
 
-    /// Of w, as many.
-    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) {
-        let known = self.weight.iter().rev().take(self.order);
+    /// Of w, likewise.
+    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) -> usize {
+        let known = self.weight[..MOST_ORDER].iter().rev().take(self.order);
         weights.iter_mut().zip(known).for_each(|(weight, known)| *weight = *known);
+        self.order
     }
 
     /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
@@ -142,6 +143,7 @@ impl Chain {
             self.velocity[MOST_ORDER - 1] = velocity;
         }
         self.weight[MOST_ORDER - 1] = acting.depth.map_or(1.0, |(weight, _)| weight);
+        self.rate = [0.0; MOST_ORDER];
         // Of each row so many as the order needs: ever fewer groups of lanes.
         let k = self.rows_of::<7>(0, acting);
         let k = self.rows_of::<6>(k, acting);
@@ -225,22 +227,20 @@ impl Chain {
     #[inline(always)]
     fn weigh(&mut self, k: usize, rate: f64) {
         let newest = rate * (k + 1) as f64 * self.rows[k + 1][0];
-        self.rate[k] = newest;
-        let weights = &self.weight[MOST_ORDER - 1 - k..];
+        // What is not yet known counts as 0.
+        let known = self.rate.as_chunks::<LANES>().0[..k.div_ceil(LANES)].iter();
+        let weights = self.weight[MOST_ORDER - 1 - k..].as_chunks::<LANES>().0;
         let mut sums = [0.0; LANES];
-        let (rates, last) = self.rate[..k].as_chunks::<LANES>();
-        let (known, last_known) = weights[..k].as_chunks::<LANES>();
-        for (rates, weights) in rates.iter().zip(known) {
+        for (rates, weights) in known.zip(weights) {
             for i in 0..LANES {
                 sums[i] += rates[i] * weights[i];
             }
         }
-        for (sum, (rate, weight)) in sums.iter_mut().zip(last.iter().zip(last_known)) {
-            *sum += rate * weight;
-        }
+        self.rate[k] = newest;
         if k + 1 < MOST_ORDER {
             let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * weights[k]);
+            let first = self.weight[MOST_ORDER - 1];
+            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * first);
         }
     }
 }

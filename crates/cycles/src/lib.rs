@@ -81,6 +81,9 @@ const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
 /// Under a depth limit heights err too, and by more than slopes: measured beside the non-smooth onset (β = 1, b = 5,
 /// α = 1.076) from 1e-4 to 1e-9, at most a third of this.
 const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
+/// Beyond this amplitude, in widths of the tip, errors grow as it does: a slip begins when a creeping tip gets free, which
+/// depends on its velocity, and that is the less the farther it lags behind.
+const SHORT_SLIPS: f64 = 2.0;
 /// So many times that where f is told by a lattice of exponents.
 const ON_LATTICE: f64 = 40.0;
 
@@ -222,7 +225,8 @@ impl Cycle {
     /// multiplier makes more of that. What the sum misses that stands for f displaces the tip everywhere, and adds
     /// up in the same way; what a lattice of exponents misses of a table changes its curvature by more than its slope.
     /// Measured against residuals of 1e-11 from αc + 1e-5 to relaxation, with a margin of ten; what comes of the sum
-    /// with one of two and a half.
+    /// with one of two and a half. Long slips make more of either, by as much as they are long: of 29 cycles with
+    /// amplitudes from 0.02 to 785 at residuals from 3e-10 to 1e-5 the worst erred by two thirds of what is told.
     #[must_use]
     pub fn error(&self) -> f64 {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);
@@ -232,7 +236,8 @@ impl Cycle {
         let over = if limited { ERROR_OVER_DISPLACEMENT_LIMITED } else { ERROR_OVER_DISPLACEMENT };
         let over = if self.closed.equation.is_on_lattice() { ON_LATTICE * over } else { over };
         let of_the_sum = over * self.displacement() * (1.0 + 1.0 / gap);
-        of_steps + of_the_sum
+        let widths = self.amplitude_x0() / self.closed.equation.width();
+        (widths / SHORT_SLIPS).max(1.0) * (of_steps + of_the_sum)
     }
 
     /// How far what the sum misses of f' may displace the tip, in σ.

@@ -28,6 +28,9 @@ pub enum Settled {
 
 /// What the motion at the parameters of the model comes to: by linear stability, by [`cycle`], by a run.
 ///
+/// Next to trapping l grows as long as the period, and its round-off may leave more of (18) than `tolerance`. Where that is
+/// no more than 1e-7 the cycle is told all the same; its residual and its errors say how well it is known.
+///
 /// # Errors
 /// A tolerance out of range, or a run that fails.
 pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
@@ -37,8 +40,10 @@ pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
     if onset.is_stable {
         return Ok(Settled::Steady);
     }
-    let Search { stable, ended, .. } = Search::above_onset(model, onset.critical, tolerance)?;
-    Ok(match (stable, ended) {
+    let Search { stable, ended, coarse, .. } =
+        Search::above_onset(model, onset.critical, tolerance)?;
+    let stable = stable.or_else(|| coarse.and_then(Coarse::stable));
+    Ok(match (unless_stopped(stable)?, ended) {
         (Some(cycle), _) => Settled::Cycle(Box::new(cycle)),
         (None, Some(run)) => Settled::Run(Box::new(run)),
         (None, None) => Settled::Steady,
@@ -80,6 +85,13 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     if let Some(found) = stable {
         return Ok(found);
     }
+    if let (Some(_), Some(coarse)) = (&unstable, &coarse)
+        && unless_stopped(coarse.clone().stable())?.is_some()
+    {
+        // The unstable one is not what a tip comes to.
+        return Err(coarse.told());
+    }
+    let coarse = coarse.map(|coarse| coarse.told());
     let ended = ended.map(|run| run.ended());
     let is_stuck = ended == Some(Ended::Stuck);
     let followed = if is_stuck || coarse.is_some() { None } else { followed() };
@@ -152,7 +164,33 @@ struct Search {
     /// The run, if one was needed.
     ended: Option<Tried>,
     /// There is a cycle, but none to the residual asked for.
-    coarse: Option<CycleError>,
+    coarse: Option<Coarse>,
+}
+
+/// A residual that is no less may still be that of a cycle whose ends of steps are much better than it.
+const ROUGHEST: f64 = 1e-7;
+
+/// A guess that closes, but not to the residual asked for.
+#[derive(Clone)]
+struct Coarse {
+    equation: Embedding,
+    guess: Orbit,
+    allowed: f64,
+    /// What can be had.
+    reached: f64,
+}
+
+impl Coarse {
+    /// The cycle to the residual that can be had, if it is stable.
+    fn stable(self) -> Option<Cycle> {
+        let Self { equation, guess, reached, .. } = self;
+        let found = (reached <= ROUGHEST).then(|| solve(&equation, guess, reached));
+        found?.ok().filter(Cycle::is_stable)
+    }
+
+    fn told(&self) -> CycleError {
+        CycleError::Rough { allowed: self.allowed, reached: self.reached }
+    }
 }
 
 impl Search {
@@ -170,12 +208,13 @@ impl Search {
         let (mut coarse, mut times) = (None, 0);
         let mut take = |guess: Orbit| {
             let Some(equation) = &equation else { return false };
-            let cycle = match solve(equation, guess, tolerance) {
+            let cycle = match solve(equation, guess.clone(), tolerance) {
                 Ok(cycle) => cycle,
                 Err(NotClosed::Lost) => return false,
                 // Another guess may have a better mesh; after some of them it is not that.
                 Err(NotClosed::Coarse(reached)) => {
-                    coarse = Some(CycleError::Rough { allowed: tolerance, reached });
+                    let equation = equation.clone();
+                    coarse = Some(Coarse { equation, guess, allowed: tolerance, reached });
                     times += 1;
                     return times == MOST_COARSE;
                 }

@@ -85,13 +85,13 @@ pub(super) fn from_run(
     let mut looks = LOOKS.map(|length| start + length * (born / USUAL_PERIOD).max(1.0)).into_iter();
     scenario.until = looks.next_back().unwrap_or(start);
     let mut look = looks.next().unwrap_or(f64::INFINITY);
-    let (mut steps, mut taken) = (vec![], false);
+    let (mut steps, mut taken, mut offered) = (vec![], false, vec![]);
     let run = run_observed(&scenario, |step| {
         steps.push(*step);
         if step.end() >= look {
             look = looks.next().unwrap_or(f64::INFINITY);
             let so_far = Trajectory::under(*model.wider(), scenario.support(), steps.clone());
-            taken = offer(&so_far, &mut take);
+            taken = offer(&so_far, &mut offered, &mut take);
         }
         if taken || steps.len() == MOST_STEPS_OF_A_RUN {
             return ControlFlow::Break(());
@@ -99,18 +99,24 @@ pub(super) fn from_run(
         ControlFlow::Continue(())
     })?;
     if !taken {
-        offer(&run.trajectory, &mut take);
+        offer(&run.trajectory, &mut offered, &mut take);
     }
     scenario.until = scenario.until.min(run.trajectory.end());
     Ok(Tried { scenario, run })
 }
 
-/// Whether the last period of a run is taken.
-fn offer(trajectory: &Trajectory, take: impl FnMut(Orbit) -> bool) -> bool {
+/// Whether the last period of a run is taken. One that was offered before is not again: a tip that is stuck has no other.
+fn offer(
+    trajectory: &Trajectory,
+    offered: &mut Vec<(f64, f64)>,
+    take: impl FnMut(Orbit) -> bool,
+) -> bool {
     // Where none is seen yet, a period may have one slip or two.
     let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
     let slips = repeats.map_or(1..=2, |o| o.slips..=o.slips);
-    let periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
+    let mut periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
+    periods.retain(|period| !offered.contains(period));
+    offered.extend_from_slice(&periods);
     periods.into_iter().map(|(from, to)| part(trajectory, from, to)).any(take)
 }
 

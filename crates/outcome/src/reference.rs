@@ -1,6 +1,6 @@
 //! The cycle that a motion is on or near, by which it is judged.
 
-use stickslip_cycles::{Cycle, cycle_near, cycle_within};
+use stickslip_cycles::{Cycle, CycleError, cycle_near, cycle_within};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
@@ -8,6 +8,8 @@ use stickslip_tip::{Model, Trajectory};
 const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
+/// The largest residual of a cycle that a run is still judged by.
+const ROUGHEST: f64 = 1e-7;
 
 /// A cycle beside a motion.
 pub(crate) struct Reference {
@@ -33,8 +35,7 @@ impl Reference {
         // Where a step of the run ends decides whether Newton's method likes its mesh: one period or another.
         let spans =
             (0..tries).map_while(|back| last_period(extrema.get(2 * slips * back..)?, slips));
-        let near =
-            spans.into_iter().find_map(|span| cycle_within(model, tail, span, RESIDUAL).ok());
+        let near = spans.into_iter().find_map(|span| closed(model, tail, span));
         let near = Self::beside(near?, tail, extrema)?;
         if tolerance > FINE_RUN || near.off > FINE_RESIDUAL.sqrt() {
             return Some(near);
@@ -69,6 +70,16 @@ impl Reference {
         let ratio = self.cycle.amplitude_x0() / self.measured.amplitude_x0;
         let away = (ratio * ratio - 1.0).abs().max(2.0 * self.distance());
         ((0.5 * away / near).ln() / -self.multiplier.ln()).max(0.0)
+    }
+}
+
+/// The cycle beside a period of a motion, to the residual that can be had: round-off of long periods leaves more.
+fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
+    match cycle_within(model, tail, span, RESIDUAL) {
+        Err(CycleError::Rough { reached, .. }) if reached <= ROUGHEST => {
+            cycle_within(model, tail, span, reached).ok()
+        }
+        found => found.ok(),
     }
 }
 

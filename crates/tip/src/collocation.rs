@@ -103,11 +103,14 @@ impl Collocation {
 
     /// Its values at τ = 1 + ρ `c_i`, less that at τ = 1: its continuation beyond the unit step.
     pub fn continued(&self, values: &Stages, ratio: f64) -> Stages {
+        let beyond = self.about_the_end(values);
+        self.c.map(|c| beyond(ratio * c))
+    }
+
+    /// Its value at τ = 1 + y less that at τ = 1, for any y.
+    pub fn about_the_end(&self, values: &Stages) -> impl Fn(f64) -> f64 + use<> {
         let power = apply(&self.about_the_end, values);
-        self.c.map(|c| {
-            let y = ratio * c;
-            y * power.iter().rev().fold(0.0, |sum, p| sum * y + p)
-        })
+        move |y| y * power.iter().rev().fold(0.0, |sum, p| sum * y + p)
     }
 
     /// The largest error on the unit step of the polynomial as an interpolant, from its miss of a value

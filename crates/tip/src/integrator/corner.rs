@@ -53,6 +53,10 @@ impl Corner {
 
     /// Whether a step of length h from t is right to be where it is.
     pub(super) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
+        // Most steps keep well to their side.
+        if heights.nodes.iter().all(|height| self.side * height >= 0.0) {
+            return Ok(());
+        }
         let slack = self.slack(heights, (t, h));
         let beyond = |height: f64| self.side * height < -slack;
         let Some(after) = heights.nodes.iter().position(|height| beyond(*height)) else {
@@ -61,7 +65,8 @@ impl Corner {
         if heights.start.abs() <= slack {
             return Err(Retry::OtherSide);
         }
-        let tau = zero_between(|tau| heights.at(tau), 0.0, RADAU.c[after]);
+        let (end, beyond) = (heights.nodes[STAGES - 1], RADAU.about_the_end(&heights.rise()));
+        let tau = zero_between(|tau| end + beyond(tau - 1.0), 0.0, RADAU.c[after]);
         Err(Retry::ToKnot(tau * h))
     }
 

@@ -62,9 +62,9 @@ pub(super) struct Chain {
     pub(super) force: [f64; MOST_ORDER],
     /// Of the velocity, the highest first: each product of two series is then a sum along both.
     velocity: [f64; MOST_ORDER],
-    /// Of w, likewise.
-    weight: [f64; MOST_ORDER],
-    /// Of `g_0'`.
+    /// Of w, likewise, with room to fill the lanes.
+    weight: [f64; MOST_ORDER + LANES],
+    /// Of `g_0'` times what it does to w.
     rate: [f64; MOST_ORDER],
     /// Of x0 less its value at the start.
     displacement: [f64; MOST_ORDER + 1],
@@ -79,7 +79,7 @@ impl Chain {
             sources: [0.0; WIDTH],
             force: [0.0; MOST_ORDER],
             velocity: [0.0; MOST_ORDER],
-            weight: [0.0; MOST_ORDER],
+            weight: [0.0; MOST_ORDER + LANES],
             rate: [0.0; MOST_ORDER],
             displacement: [0.0; MOST_ORDER + 1],
         }
@@ -106,10 +106,11 @@ impl Chain {
         self.order
     }
 
-    /// Of w, as many.
-    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) {
-        let known = self.weight.iter().rev().take(self.order);
+    /// Of w, likewise.
+    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) -> usize {
+        let known = self.weight[..MOST_ORDER].iter().rev().take(self.order);
         weights.iter_mut().zip(known).for_each(|(weight, known)| *weight = *known);
+        self.order
     }
 
     /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
@@ -142,6 +143,7 @@ impl Chain {
             self.velocity[MOST_ORDER - 1] = velocity;
         }
         self.weight[MOST_ORDER - 1] = acting.depth.map_or(1.0, |(weight, _)| weight);
+        self.rate = [0.0; MOST_ORDER];
         // Of each row so many as the order needs: ever fewer groups of lanes.
         let k = self.rows_of::<7>(0, acting);
         let k = self.rows_of::<6>(k, acting);
@@ -195,32 +197,29 @@ impl Chain {
     fn products<const GROUPS: usize>(&mut self, k: usize, acting: &Acting) {
         let (rows, after) = self.rows.split_at_mut(k + 1);
         let factors = &self.velocity[MOST_ORDER - 1 - k..];
-        let mut sums = [[[0.0; LANES]; GROUPS]; 2];
-        // Few sums would wait for each other; many fill the registers.
-        let other = usize::from(GROUPS <= 2);
         let between = 1..k.max(1);
-        let (pairs, last) = rows[between.clone()].as_chunks::<2>();
-        let (factor_pairs, last_factor) = factors[between].as_chunks::<2>();
-        for (rows, factors) in pairs.iter().zip(factor_pairs) {
-            add::<GROUPS>(&mut sums[0], &rows[0], factors[0]);
-            add::<GROUPS>(&mut sums[other], &rows[1], factors[1]);
-        }
-        for (row, factor) in last.iter().zip(last_factor) {
-            add::<GROUPS>(&mut sums[0], row, *factor);
-        }
+        let (known, factors_known) = (&rows[between.clone()], &factors[between]);
+        // Few sums would wait for each other; many fill the registers.
+        let (mut even, mut odd) = if GROUPS > FEW {
+            (sum::<GROUPS>(known, factors_known), [[0.0; LANES]; GROUPS])
+        } else {
+            sums_in_turn(known, factors_known)
+        };
         // What has only just been found comes last: nothing else waits for it.
         if k > 0 {
-            add::<GROUPS>(&mut sums[0], &rows[k], factors[k]);
+            add(&mut even, &rows[k], factors[k]);
         }
+        let last = if GROUPS > FEW { &mut even } else { &mut odd };
         if k == 0 || acting.depth.is_some() {
-            add::<GROUPS>(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
+            add(last, &self.sources, self.weight[MOST_ORDER - 1 - k]);
         }
-        add::<GROUPS>(&mut sums[other], &rows[0], factors[0]);
-        let (before, next) = (&rows[k], INVERSE[k + 1]);
-        let [even, odd] = &sums;
-        let lanes = even.as_flattened().iter().zip(odd.as_flattened()).zip(before);
-        for (new, ((even, odd), old)) in after[0].iter_mut().zip(lanes) {
-            *new = next * ((even + odd) - acting.healing * old);
+        add(last, &rows[0], factors[0]);
+        let (before, next) = (rows[k].as_chunks::<LANES>().0, INVERSE[k + 1]);
+        let new = after[0].as_chunks_mut::<LANES>().0.iter_mut();
+        for (((new, old), even), odd) in new.zip(before).zip(&even).zip(&odd) {
+            for i in 0..LANES {
+                new[i] = next * ((even[i] + odd[i]) - acting.healing * old[i]);
+            }
         }
     }
 
@@ -228,22 +227,20 @@ impl Chain {
     #[inline(always)]
     fn weigh(&mut self, k: usize, rate: f64) {
         let newest = rate * (k + 1) as f64 * self.rows[k + 1][0];
-        self.rate[k] = newest;
-        let weights = &self.weight[MOST_ORDER - 1 - k..];
+        // What is not yet known counts as 0.
+        let known = self.rate.as_chunks::<LANES>().0[..k.div_ceil(LANES)].iter();
+        let weights = self.weight[MOST_ORDER - 1 - k..].as_chunks::<LANES>().0;
         let mut sums = [0.0; LANES];
-        let (rates, last) = self.rate[..k].as_chunks::<LANES>();
-        let (known, last_known) = weights[..k].as_chunks::<LANES>();
-        for (rates, weights) in rates.iter().zip(known) {
+        for (rates, weights) in known.zip(weights) {
             for i in 0..LANES {
                 sums[i] += rates[i] * weights[i];
             }
         }
-        for (sum, (rate, weight)) in sums.iter_mut().zip(last.iter().zip(last_known)) {
-            *sum += rate * weight;
-        }
+        self.rate[k] = newest;
         if k + 1 < MOST_ORDER {
             let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * weights[k]);
+            let first = self.weight[MOST_ORDER - 1];
+            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * first);
         }
     }
 }
@@ -253,6 +250,38 @@ impl Chain {
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
     chain.coefficients(acting);
+}
+
+/// So many groups or fewer are few.
+const FEW: usize = 2;
+
+/// Rows times factors.
+#[inline(always)]
+fn sum<const GROUPS: usize>(rows: &[Row], factors: &[f64]) -> [[f64; LANES]; GROUPS] {
+    let mut sum = [[0.0; LANES]; GROUPS];
+    for (row, factor) in rows.iter().zip(factors) {
+        add(&mut sum, row, *factor);
+    }
+    sum
+}
+
+/// The first, third, ... rows times factors, and the others.
+#[inline(always)]
+fn sums_in_turn<const GROUPS: usize>(
+    rows: &[Row],
+    factors: &[f64],
+) -> ([[f64; LANES]; GROUPS], [[f64; LANES]; GROUPS]) {
+    let (mut even, mut odd) = ([[0.0; LANES]; GROUPS], [[0.0; LANES]; GROUPS]);
+    let (pairs, last) = rows.as_chunks::<2>();
+    let (factor_pairs, last_factor) = factors.as_chunks::<2>();
+    for (rows, factors) in pairs.iter().zip(factor_pairs) {
+        add(&mut even, &rows[0], factors[0]);
+        add(&mut odd, &rows[1], factors[1]);
+    }
+    if let (Some(row), Some(factor)) = (last.first(), last_factor.first()) {
+        add(&mut even, row, *factor);
+    }
+    (even, odd)
 }
 
 /// Adds a row, from its second entry on, times a factor.

@@ -3,7 +3,7 @@
 
 use super::super::corner::Corner;
 use super::super::{Integrator, Retry};
-use super::chain::{Chain, MOST_ORDER};
+use super::chain::MOST_ORDER;
 use super::pieces::{self, NODES};
 use super::values::{Outlook, Scaled, Table};
 use super::{length, visits};
@@ -11,13 +11,6 @@ use crate::collocation::STAGES;
 use crate::elementary::exp;
 use crate::history::Heights;
 use crate::memory::Memory;
-
-/// Height and weight over the length of a plan.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Depth {
-    height: Scaled,
-    weight: Scaled,
-}
 
 /// Heights as polynomials are wanted to the tolerance itself, of which an error of a series is allowed a small part.
 const SHARE_OF_DENSE: f64 = 0.05;
@@ -52,13 +45,33 @@ impl<M: Memory> Integrator<'_, M> {
         length::length(&heights[..order], error / felt)
     }
 
-    /// Height and weight over this length, where there is a depth limit; and the longest part of it that may be a piece.
-    pub(super) fn depth_over(&self, over: f64, error: f64) -> Option<(Depth, f64)> {
-        let corner = self.corner.as_ref()?;
-        let depth_now = depth(corner);
-        let depth = Depth::over(&self.taylor.chain, over);
-        let longest = pieces::longest(&Outlook::of(&depth.height), error * depth_now);
-        Some((depth, longest))
+    /// The longest part of this length that may be a piece, for its heights.
+    pub(super) fn piece_by_heights(&self, over: f64, error: f64) -> f64 {
+        let Some((corner, height)) = self.corner.as_ref().zip(self.height_over(over)) else {
+            return f64::INFINITY;
+        };
+        pieces::longest(&Outlook::of(&height), error * depth(corner))
+    }
+
+    /// The height over this length, where there is a depth limit.
+    #[inline]
+    pub(super) fn height_over(&self, length: f64) -> Option<Scaled> {
+        self.corner.as_ref()?;
+        let mut heights = [0.0; MOST_ORDER];
+        let order = self.taylor.chain.heights(&mut heights);
+        Some(Scaled::new(&heights[..order], length))
+    }
+
+    /// Times spent at the nodes of a step of this length, each times what it weighs under a depth limit.
+    pub(super) fn weigh(&self, table: &Table, length: f64, spent: &mut [f64]) {
+        if self.corner.is_none() {
+            return;
+        }
+        let (mut coefficients, mut weights) = ([0.0; MOST_ORDER], [0.0; visits::MOST_NODES]);
+        let order = self.taylor.chain.weights(&mut coefficients);
+        let weights = &mut weights[..spent.len()];
+        table.sums(&Scaled::new(&coefficients[..order], length), weights);
+        spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= *weight);
     }
 
     /// Where the heights of the pieces of a step lead.
@@ -83,38 +96,19 @@ fn depth(corner: &Corner) -> f64 {
     corner.height.abs().max(1.0)
 }
 
-impl Depth {
-    fn over(chain: &Chain, over: f64) -> Self {
-        let (mut heights, mut weights) = ([0.0; MOST_ORDER], [0.0; MOST_ORDER]);
-        let order = chain.heights(&mut heights);
-        chain.weights(&mut weights);
-        let scaled = |coefficients: &[f64]| Scaled::new(&coefficients[..order], over);
-        Self { height: scaled(&heights), weight: scaled(&weights) }
+/// Heights of pieces, from the table of their nodes.
+pub(super) fn of_pieces<'a>(
+    height: &Scaled,
+    table: &Table,
+    room: &'a mut [Heights],
+) -> &'a [Heights] {
+    let mut nodes = [0.0; NODES];
+    let nodes = &mut nodes[..STAGES * room.len()];
+    table.sums(height, nodes);
+    let mut start = height.start();
+    for (piece, nodes) in room.iter_mut().zip(nodes.as_chunks().0) {
+        *piece = Heights { start, nodes: *nodes };
+        start = nodes[STAGES - 1];
     }
-
-    /// Over this part of the length, or beyond.
-    pub(super) fn times(&self, part: f64) -> Self {
-        Self { height: self.height.over(part), weight: self.weight.over(part) }
-    }
-
-    /// Heights of pieces, from the table of their nodes.
-    pub(super) fn of_pieces<'a>(&self, table: &Table, room: &'a mut [Heights]) -> &'a [Heights] {
-        let mut nodes = [0.0; NODES];
-        let nodes = &mut nodes[..STAGES * room.len()];
-        table.sums(&self.height, nodes);
-        let mut start = self.height.start();
-        for (piece, nodes) in room.iter_mut().zip(nodes.as_chunks().0) {
-            *piece = Heights { start, nodes: *nodes };
-            start = nodes[STAGES - 1];
-        }
-        room
-    }
-
-    /// Times weights of visits by what each of them weighs.
-    pub(super) fn weigh(&self, table: &Table, spent: &mut [f64]) {
-        let mut weights = [0.0; visits::MOST_NODES];
-        let weights = &mut weights[..spent.len()];
-        table.sums(&self.weight, weights);
-        spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= *weight);
-    }
+    room
 }

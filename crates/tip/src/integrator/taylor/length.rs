@@ -52,10 +52,10 @@ fn log2(x: f64) -> f64 {
 fn exp2(y: f64) -> f64 {
     // What is above 0 rounded towards 0 is its floor.
     let above = y.clamp(-1000.0, 1000.0) + 1023.0;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "23 to 2023")]
-    let whole = above as u64;
-    let part = above - whole as f64;
-    let power = f64::from_bits(whole << MANTISSA.count_ones());
+    #[expect(clippy::cast_possible_truncation, reason = "23 to 2023")]
+    let whole = above as i32;
+    let part = above - f64::from(whole);
+    let power = f64::from_bits(u64::from(whole.unsigned_abs()) << MANTISSA.count_ones());
     power * (1.0 + part * (1.0 - BEND * (1.0 - part)))
 }
 

@@ -20,7 +20,7 @@ use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
 use chain::Chain;
-use heights::{AtCorner, Depth};
+use heights::AtCorner;
 use pieces::{MOST_PIECES, NODES, Pieces};
 use plan::Plan;
 use switch::Switch;
@@ -145,9 +145,13 @@ impl<M: Memory> Integrator<'_, M> {
             let mut positions = [0.0; NODES];
             let positions = &mut positions[..nodes.parts.len()];
             nodes.table.sums(&scaled, positions);
-            let depth = plan.depth.map(|depth| depth.times(part));
-            let mut heights = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
-            let heights = depth.map(|depth| depth.of_pieces(&nodes.table, &mut heights[..pieces]));
+            let mut room;
+            let heights = if let Some(height) = self.height_over(total) {
+                room = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
+                Some(heights::of_pieces(&height, &nodes.table, &mut room[..pieces]))
+            } else {
+                None
+            };
             let shorter = self.broken(&nodes.parts, positions, total);
             let shorter = match self.at_corner(heights.unwrap_or_default(), total) {
                 AtCorner::Apart => shorter,
@@ -156,7 +160,7 @@ impl<M: Memory> Integrator<'_, M> {
             };
             let Some(shorter) = shorter else {
                 self.accept_series(positions, heights, total);
-                self.remember_series((&scaled, depth.as_ref()), plan.fastest, total);
+                self.remember_series(&scaled, plan.fastest, total);
                 return Made::Step;
             };
             pieces = ((pieces as f64 * shorter / length).ceil() as usize).clamp(1, pieces);
@@ -173,15 +177,11 @@ impl<M: Memory> Integrator<'_, M> {
             return Some(part * total);
         }
         let told = &self.taylor.told;
-        let span = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
-        let (low, high) = positions.iter().fold((f64::INFINITY, told.farthest), span);
-        if low >= high - told.retreat {
-            return None;
-        }
         let mut farthest = told.farthest;
         for (part, position) in parts.iter().zip(positions) {
-            farthest = farthest.max(*position);
-            if *position < farthest - told.retreat {
+            if *position > farthest {
+                farthest = *position;
+            } else if *position < farthest - told.retreat {
                 return Some(0.5 * part * total);
             }
         }
@@ -214,12 +214,7 @@ impl<M: Memory> Integrator<'_, M> {
     }
 
     /// Tells the memory of the whole step.
-    fn remember_series(
-        &mut self,
-        (scaled, depth): (&Scaled, Option<&Depth>),
-        fastest: f64,
-        total: f64,
-    ) {
+    fn remember_series(&mut self, scaled: &Scaled, fastest: f64, total: f64) {
         self.velocity = scaled.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
         let rule = self.taylor.visits.rule(fastest * total).unwrap_or_else(visits::last);
@@ -231,9 +226,7 @@ impl<M: Memory> Integrator<'_, M> {
         {
             *weight = spent * total * self.model.wider().left_after((1.0 - node) * total);
         }
-        if let Some(depth) = depth {
-            depth.weigh(&rule.table, weights);
-        }
+        self.weigh(&rule.table, total, weights);
         if let Some(time) = self.model.wider().healing_time {
             self.memory.fade(exp(-total / time));
         }

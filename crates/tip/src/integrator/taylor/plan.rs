@@ -2,7 +2,6 @@
 
 use super::super::Integrator;
 use super::chain::MOST_ORDER;
-use super::heights::Depth;
 use super::pieces::{self, MOST_PIECES};
 use super::values::{Outlook, Scaled};
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
@@ -18,8 +17,6 @@ pub(super) struct Plan {
     pub(super) over: f64,
     /// Displacement per time at its fastest, about.
     pub(super) fastest: f64,
-    /// Over the same length, where there is a depth limit.
-    pub(super) depth: Option<Depth>,
 }
 
 /// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
@@ -59,12 +56,13 @@ impl<M: Memory> Integrator<'_, M> {
         let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
         let piece = pieces::longest(&outlook, error);
         let piece = piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
-        let (depth, longest) = self.depth_over(over, error).unzip();
-        let piece = longest.map_or(piece, |longest: f64| longest.min(piece));
-        let piece = over * piece;
+        let piece = over * piece.min(self.piece_by_heights(over, error));
         let length = over.min(MOST_PIECES as f64 * piece);
-        let stiffness = length * self.fastest(-self.taylor.chain.curvature());
-        if self.taylor.switch.leaves(stiffness, self.taylor.order) {
+        let fastest = outlook.fastest / over;
+        let fades = self.fastest(-self.taylor.chain.curvature());
+        // A step of collocation leads no farther either.
+        let most = self.reach_of_piece() / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
+        if self.taylor.switch.leaves(fades * length, fades * most, self.taylor.order) {
             return None;
         }
         // As in collocation: the end is met, or enough left for another step.
@@ -78,7 +76,7 @@ impl<M: Memory> Integrator<'_, M> {
         };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
-        Some(Plan { length, pieces, scaled, over, fastest: outlook.fastest / over, depth })
+        Some(Plan { length, pieces, scaled, over, fastest })
     }
 
     /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.

@@ -43,9 +43,9 @@ impl Switch {
     }
 
     /// Whether collocation is to take over from a series of this order, that is as long as accuracy allows and
-    /// of this stiffness over its length.
-    pub(super) fn leaves(&mut self, stiffness: f64, order: usize) -> bool {
-        if stiffness < REACH * order as f64 {
+    /// of this stiffness over its length; `most` is that over the longest step that collocation could make.
+    pub(super) fn leaves(&mut self, stiffness: f64, most: f64, order: usize) -> bool {
+        if stiffness < REACH * order as f64 || !is_ahead(most, order) {
             return false;
         }
         if self.wait > 0 {
@@ -67,8 +67,7 @@ impl Switch {
             return;
         }
         self.wait = self.wait.saturating_sub(1);
-        let ahead = stiffness > COST * REACH * order as f64;
-        if ahead {
+        if is_ahead(stiffness, order) {
             self.patience = PATIENCE.0;
         } else if self.wait == 0 {
             self.collocation = false;
@@ -96,6 +95,11 @@ impl Switch {
     }
 }
 
+/// Whether a step of collocation of this stiffness leads farther than the series that it costs.
+fn is_ahead(stiffness: f64, order: usize) -> bool {
+    stiffness > COST * REACH * order as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,7 +112,7 @@ mod tests {
         let mut switch = Switch::default();
         let (mut series, mut trials) = (0, 0);
         while series < 20_000 {
-            if switch.leaves(8.0, ORDER) {
+            if switch.leaves(8.0, 50.0, ORDER) {
                 trials += 1;
                 while !switch.is_to_series() {
                     switch.made(8.0, ORDER);
@@ -122,7 +126,7 @@ mod tests {
     #[test]
     fn a_stiff_groove_is_left_to_collocation_until_it_is_no_longer_stiff() {
         let mut switch = Switch::default();
-        while !switch.leaves(7.0, ORDER) {}
+        while !switch.leaves(7.0, 50.0, ORDER) {}
         for _ in 0..1000 {
             switch.made(50.0, ORDER);
             assert!(!switch.is_to_series());
@@ -130,6 +134,6 @@ mod tests {
         switch.made(3.0, ORDER);
         assert!(switch.is_to_series());
         // What moves about as fast as the groove relaxes is no reason to leave.
-        assert!((0..1000).all(|_| !switch.leaves(2.0, ORDER)));
+        assert!((0..1000).all(|_| !switch.leaves(2.0, 50.0, ORDER)));
     }
 }

@@ -31,8 +31,8 @@ pub(super) struct Bins {
 impl Bins {
     pub(super) fn new(tip: &TipFunction) -> Self {
         let length = exp2(log2(8.0 / tip.band()).floor());
-        let moments = VecDeque::with_capacity(MOST_BINS);
-        Self { length, moments, first: 0, dropped: false, missed: false }
+        // Few tips come back so often that visits are gathered: room is taken, for all bins at once, when they are.
+        Self { length, moments: VecDeque::new(), first: 0, dropped: false, missed: false }
     }
 
     pub(super) fn origin_step(&self) -> f64 {
@@ -120,6 +120,7 @@ impl Bins {
             self.dropped = true;
         }
         if self.moments.is_empty() {
+            self.moments.reserve_exact(MOST_BINS);
             self.first = number.min(i64::MAX - 2 * MOST_BINS as i64);
             if self.first < number {
                 return None;

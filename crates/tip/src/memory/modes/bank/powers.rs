@@ -47,8 +47,13 @@ fn moments<const GROUPS: usize>(position: &[f64], weight: &[f64], from: f64) -> 
         }
     }
     let mut moments = [0.0; ROOM];
-    let sums = sums.as_flattened().iter().zip(INVERSE_FACTORIALS);
-    moments.iter_mut().zip(sums).for_each(|(moment, (sum, inverse))| *moment = sum * inverse);
+    let inverse = INVERSE_FACTORIALS.as_chunks::<LANES>().0;
+    let of_groups = moments.as_chunks_mut::<LANES>().0.iter_mut().zip(inverse);
+    for ((moments, inverse), sum) in of_groups.zip(&sums) {
+        for i in 0..LANES {
+            moments[i] = sum[i] * inverse[i];
+        }
+    }
     moments
 }
 

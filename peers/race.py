@@ -21,8 +21,8 @@ ENVIRONMENT = Path(os.environ.get("PEERS_VENV", CACHE / "stickslip-peers"))
 OURS = ("closed, modes", "closed, fft", "closed, direct")
 
 
-def printed(*command):
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=ROOT).stdout
+def printed(*command, folder=ROOT):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=folder).stdout
 
 
 def python():
@@ -204,7 +204,8 @@ def main():
         case.write_text(printed(race, "reference"))
         rows = json.loads(printed(race, "rows"))
         for script in ("jitcdde_race.py", "scipy_race.py"):
-            rows += json.loads(printed(interpreter, HERE / script, case))
+            # Away from our pyproject.toml, which JiTCDDE would take as that of what it compiles.
+            rows += json.loads(printed(interpreter, HERE / script, case, folder=scratch))
         given = json.loads(case.read_text())
         motions = Path(scratch) / "motions.json"
         motions.write_text(printed(race, "embedded"))

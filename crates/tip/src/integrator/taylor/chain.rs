@@ -196,29 +196,36 @@ impl Chain {
     #[inline(always)]
     fn products<const GROUPS: usize>(&mut self, k: usize, acting: &Acting) {
         let (rows, after) = self.rows.split_at_mut(k + 1);
-        let factors = &self.velocity[MOST_ORDER - 1 - k..];
-        let between = 1..k.max(1);
-        let (known, factors_known) = (&rows[between.clone()], &factors[between]);
+        let factors = &self.velocity[MOST_ORDER - 1 - k..][..=k];
         // Few sums would wait for each other; many fill the registers.
-        let (mut even, mut odd) = if GROUPS > FEW {
-            (sum::<GROUPS>(known, factors_known), [[0.0; LANES]; GROUPS])
-        } else {
-            sums_in_turn(known, factors_known)
-        };
+        let other = usize::from(GROUPS <= FEW);
+        let mut sums = [[[0.0; LANES]; GROUPS]; 2];
+        // An index: of iterators over rows so long the lengths would be divisions.
+        let mut i = 1;
+        while other == 1 && i + 1 < k {
+            add(&mut sums[0], &rows[i], factors[i]);
+            add(&mut sums[1], &rows[i + 1], factors[i + 1]);
+            i += 2;
+        }
+        while i < k {
+            add(&mut sums[0], &rows[i], factors[i]);
+            i += 1;
+        }
         // What has only just been found comes last: nothing else waits for it.
         if k > 0 {
-            add(&mut even, &rows[k], factors[k]);
+            add(&mut sums[0], &rows[k], factors[k]);
         }
-        let last = if GROUPS > FEW { &mut even } else { &mut odd };
         if k == 0 || acting.depth.is_some() {
-            add(last, &self.sources, self.weight[MOST_ORDER - 1 - k]);
+            add(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
         }
-        add(last, &rows[0], factors[0]);
+        add(&mut sums[other], &rows[0], factors[0]);
         let (before, next) = (rows[k].as_chunks::<LANES>().0, INVERSE[k + 1]);
         let new = after[0].as_chunks_mut::<LANES>().0.iter_mut();
-        for (((new, old), even), odd) in new.zip(before).zip(&even).zip(&odd) {
+        let [even, odd] = &sums;
+        for (((new, old), even), odd) in new.zip(before).zip(even).zip(odd) {
             for i in 0..LANES {
-                new[i] = next * ((even[i] + odd[i]) - acting.healing * old[i]);
+                let sum = if GROUPS <= FEW { even[i] + odd[i] } else { even[i] };
+                new[i] = next * (sum - acting.healing * old[i]);
             }
         }
     }
@@ -254,35 +261,6 @@ fn run(chain: &mut Chain, acting: &Acting) {
 
 /// So many groups or fewer are few.
 const FEW: usize = 2;
-
-/// Rows times factors.
-#[inline(always)]
-fn sum<const GROUPS: usize>(rows: &[Row], factors: &[f64]) -> [[f64; LANES]; GROUPS] {
-    let mut sum = [[0.0; LANES]; GROUPS];
-    for (row, factor) in rows.iter().zip(factors) {
-        add(&mut sum, row, *factor);
-    }
-    sum
-}
-
-/// The first, third, ... rows times factors, and the others.
-#[inline(always)]
-fn sums_in_turn<const GROUPS: usize>(
-    rows: &[Row],
-    factors: &[f64],
-) -> ([[f64; LANES]; GROUPS], [[f64; LANES]; GROUPS]) {
-    let (mut even, mut odd) = ([[0.0; LANES]; GROUPS], [[0.0; LANES]; GROUPS]);
-    let (pairs, last) = rows.as_chunks::<2>();
-    let (factor_pairs, last_factor) = factors.as_chunks::<2>();
-    for (rows, factors) in pairs.iter().zip(factor_pairs) {
-        add(&mut even, &rows[0], factors[0]);
-        add(&mut odd, &rows[1], factors[1]);
-    }
-    if let (Some(row), Some(factor)) = (last.first(), last_factor.first()) {
-        add(&mut even, row, *factor);
-    }
-    (even, odd)
-}
 
 /// Adds a row, from its second entry on, times a factor.
 #[inline(always)]

@@ -11,10 +11,8 @@ use super::progress::Progress;
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use std::f64::consts::PI;
 use stickslip_documents::{
-    BoundaryDocument, BoundaryParameters, FORMAT_VERSION, OnsetColumns, Physical, Software,
-    SpacingName,
+    BoundaryDocument, BoundaryParameters, OnsetColumns, Physical, SpacingName,
 };
 use stickslip_figures::{Size, View};
 use stickslip_stability::{Boundary, Critical, StabilityError};
@@ -146,22 +144,11 @@ fn document(
         done += 1.0;
         progress.counted(done, || format!("{done} of {} steps", 2 * points));
     }
+    let remark = first_error.map(|error| format!("{left_out} values of r are left out: {error}"));
+    let parameters = asked.parameters(&Wider::default(), tip);
     Ok(BoundaryDocument {
-        format: BoundaryDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: asked.parameters(&Wider::default(), tip),
-        wave_number: along.iter().map(|at| 2.0 * PI / at.wavelength).collect(),
-        r: along.iter().map(|at| at.r).collect(),
-        alpha: along.iter().map(|at| at.alpha).collect(),
-        onset,
         branches: branches.into_iter().map(Into::into).collect(),
-        kind: vec![],
-        limits: None,
-        remarks: first_error
-            .map(|error| format!("{left_out} values of r are left out: {error}"))
-            .into_iter()
-            .collect(),
+        remarks: remark.into_iter().collect(),
+        ..BoundaryDocument::new(parameters, along.iter(), onset)
     })
 }

@@ -13,8 +13,7 @@ use crate::failure::{Failure, Typed};
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip_documents::{
-    CompareDocument, CompareParameters, DifferenceDocument, FORMAT_VERSION, KnownScales, Physical,
-    RunParameters, Software,
+    CompareDocument, CompareParameters, DifferenceDocument, KnownScales, Physical, RunParameters,
 };
 use stickslip_tip::Scenario;
 
@@ -117,19 +116,8 @@ fn document(
         let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
         return Err(Failure::Run(advice.into()));
     }
-    Ok(CompareDocument {
-        format: CompareDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: parameters(arguments, asked),
-        t,
-        x,
-        closed: closed_document,
-        grid,
-        max_difference,
-        speedup: rates[0] / rates[1],
-    })
+    let (parameters, speedup) = (parameters(arguments, asked), rates[0] / rates[1]);
+    Ok(CompareDocument::new(parameters, [t, x], closed_document, grid, max_difference, speedup))
 }
 
 /// NaN where either is.

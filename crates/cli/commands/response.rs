@@ -11,8 +11,7 @@ use crate::arguments::ResponseArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseParameters,
-    ResponseSamples, Software,
+    ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseParameters, ResponseSamples,
 };
 use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::roots::bisected;
@@ -115,27 +114,22 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
     let valid_from = asked.valid_from(&response)?;
     let samples = samples(asked, &response, valid_from);
     said.extend(beyond_linear(asked, &response, &samples));
-    Ok(ResponseDocument {
-        format: ResponseDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: ResponseParameters {
-            model: ModelParameters::of(model, arguments.model.alpha_above),
-            pulses: asked.pulses.iter().copied().map(Into::into).collect(),
-            modes: arguments.modes,
-            start_position: arguments.start_position,
-            until: arguments.until,
-        },
-        steady_state: model.into(),
-        modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
-        origin: asked.origin,
-        valid_from,
-        valid_to: VALID_TO,
-        certificate: (&response.spectrum.certificate).into(),
+    let parameters = ResponseParameters {
+        model: ModelParameters::of(model, arguments.model.alpha_above),
+        pulses: asked.pulses.iter().copied().map(Into::into).collect(),
+        modes: arguments.modes,
+        start_position: arguments.start_position,
+        until: arguments.until,
+    };
+    Ok(ResponseDocument::new(
+        parameters,
+        model.into(),
+        response.modes.iter().map(mode).collect::<Result<_, _>>()?,
+        (asked.origin, valid_from, VALID_TO),
+        (&response.spectrum.certificate).into(),
         samples,
-        remarks: said,
-    })
+        said,
+    ))
 }
 
 fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {

@@ -11,8 +11,8 @@ use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    CriticalDocument, FORMAT_VERSION, ModelParameters, OnsetDocument, Physical, Software, SolveFor,
-    StabilityDocument, StabilityParameters, TrappingDocument,
+    CriticalDocument, ModelParameters, OnsetDocument, Physical, SolveFor, StabilityDocument,
+    StabilityParameters, TrappingDocument,
 };
 use stickslip_stability::{
     Critical, OnsetKind, Spectrum, StabilityError, critical, critical_r, leading_roots, roots,
@@ -182,32 +182,22 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
     } else {
         said.extend(remarks(&spectrum, asked, "roots"));
     }
+    let parameters = StabilityParameters {
+        model: ModelParameters::of(model, arguments.model.alpha_above),
+        solve_for: arguments.solve_for,
+        at_critical_point: point.at_critical,
+        roots: asked,
+        re_above: arguments.re_above,
+    };
+    let creep_roots =
+        creep.ok().map(|creep| creep.roots.iter().map(|p| complex(p.re, p.im)).collect());
+    let creep_rates = (!rates.is_empty()).then_some(rates);
+    let trapping = TrappingDocument { alpha: trapping.ok(), creep_rates, attracting, creep_roots };
     Ok(StabilityDocument {
-        format: StabilityDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: StabilityParameters {
-            model: ModelParameters::of(model, arguments.model.alpha_above),
-            solve_for: arguments.solve_for,
-            at_critical_point: point.at_critical,
-            roots: asked,
-            re_above: arguments.re_above,
-        },
         critical: critical.as_ref().ok().map(|at| CriticalDocument::of(at, point.kind)),
-        stable: point.is_stable()?,
-        trapping: TrappingDocument {
-            alpha: trapping.ok(),
-            creep_rates: (!rates.is_empty()).then_some(rates),
-            attracting,
-            creep_roots: creep
-                .ok()
-                .map(|creep| creep.roots.iter().map(|p| complex(p.re, p.im)).collect()),
-        },
-        roots: spectrum.roots.iter().map(|z| complex(z.re, z.im)).collect(),
-        certificate: (&spectrum.certificate).into(),
         onset: onset.as_ref().ok().map(OnsetDocument::from),
         limits: wider::limits(model),
         remarks: said,
+        ..StabilityDocument::new(parameters, point.is_stable()?, trapping, &spectrum)
     })
 }

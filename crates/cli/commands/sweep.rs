@@ -19,7 +19,7 @@ use crate::interrupt::Interrupt;
 use divided::Divided;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use stickslip_documents::{FORMAT_VERSION, Physical, Software, SweepDocument, SweepPoint};
+use stickslip_documents::{Physical, SweepDocument, SweepPoint};
 use stickslip_figures::judge_sweep;
 use work::compute;
 
@@ -49,17 +49,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = grid.indices().collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
-    let document = SweepDocument {
-        format: SweepDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: grid.parameters,
-        points: finished.in_order(),
-        ensembles: None,
-        arithmetic: Some(arithmetic()),
-        crc32: None,
-    };
+    let points = finished.in_order();
+    let document = SweepDocument::new(grid.parameters, points, Some(arithmetic()));
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())

@@ -8,7 +8,7 @@ use super::roots::failed;
 use crate::arguments::{Format, UnitsArguments};
 use crate::failure::Failure;
 use solve::Given;
-use stickslip_documents::{CriticalUnits, FORMAT_VERSION, LagDocument, Software, UnitsDocument};
+use stickslip_documents::{CriticalUnits, UnitsDocument};
 use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::TipFunction;
 use stickslip_units::Physical;
@@ -52,25 +52,14 @@ fn document(
     let remarks = why("critical indentation rate", at_r.err())
         .into_iter()
         .chain(why("critical velocity", at_alpha.err()));
-    Ok(UnitsDocument {
-        format: UnitsDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters: given.parameters(tip, arguments.model.alpha_above),
-        alpha: model.alpha(),
-        r: model.r(),
-        physical: physical.into(),
-        lag: LagDocument { metres: physical.lag(tip), dimensionless: model.steady_lag() },
-        scales: scales.into(),
-        critical: CriticalUnits {
-            alpha: indentation.map(|at| at.alpha),
-            indentation_rate: indentation.map(|at| with(at.alpha, at.r).indentation_rate),
-            period: indentation.map(|at| at.period * scales.time),
-            wavelength: indentation.map(|at| at.wavelength * scales.length),
-            r: velocity.map(|at| at.r),
-            velocity: velocity.map(|at| with(at.alpha, at.r).velocity),
-        },
-        stable,
-        remarks: remarks.collect(),
-    })
+    let critical = CriticalUnits {
+        alpha: indentation.map(|at| at.alpha),
+        indentation_rate: indentation.map(|at| with(at.alpha, at.r).indentation_rate),
+        period: indentation.map(|at| at.period * scales.time),
+        wavelength: indentation.map(|at| at.wavelength * scales.length),
+        r: velocity.map(|at| at.r),
+        velocity: velocity.map(|at| with(at.alpha, at.r).velocity),
+    };
+    let parameters = given.parameters(tip, arguments.model.alpha_above);
+    Ok(UnitsDocument::new(parameters, physical, &model, critical, stable, remarks.collect()))
 }

@@ -1,9 +1,12 @@
 //! `stickslip/boundary`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{CriticalityName, InUnits, ModelParameters, OnsetKindName, Software, TipDocument};
+use crate::{
+    CriticalityName, FORMAT_VERSION, InUnits, ModelParameters, OnsetKindName, Software, TipDocument,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 use stickslip_stability::{BoundaryBranch, Critical, onset_at};
 use stickslip_tip::{TipFunction, Wider};
 
@@ -48,6 +51,29 @@ pub struct BoundaryDocument {
 impl BoundaryDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/boundary";
+
+    /// The curve through these critical points, without what a wider law adds.
+    pub fn new<'a>(
+        parameters: BoundaryParameters,
+        along: impl Iterator<Item = &'a Critical> + Clone,
+        onset: OnsetColumns,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            wave_number: along.clone().map(|at| TAU / at.wavelength).collect(),
+            r: along.clone().map(|at| at.r).collect(),
+            alpha: along.map(|at| at.alpha).collect(),
+            onset,
+            branches: vec![],
+            kind: vec![],
+            limits: None,
+            remarks: vec![],
+        }
+    }
 }
 
 /// How the range of r is divided.

@@ -1,7 +1,7 @@
 //! `stickslip/compare`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{InUnits, RunParameters, Software};
+use crate::{FORMAT_VERSION, InUnits, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +38,30 @@ pub struct CompareDocument {
 impl CompareDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/compare";
+
+    /// Both motions at the times t, both surfaces at the positions x.
+    pub fn new(
+        parameters: CompareParameters,
+        [t, x]: [Vec<f64>; 2],
+        closed: ClosedDocument,
+        grid: GridDocument,
+        max_difference: DifferenceDocument,
+        speedup: f64,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            t,
+            x,
+            closed,
+            grid,
+            max_difference,
+            speedup,
+        }
+    }
 }
 
 /// What was asked for.

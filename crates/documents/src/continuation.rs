@@ -1,7 +1,7 @@
 //! `stickslip/continue`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{InUnits, ModelParameters, Software};
+use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
@@ -37,6 +37,28 @@ pub struct ContinueDocument {
 impl ContinueDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/continue";
+
+    /// Branches with their special points, followed to their ends.
+    pub fn new(
+        parameters: ContinueParameters,
+        branches: Vec<CycleBranch>,
+        special: Vec<SpecialDocument>,
+        trapping: Option<f64>,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            branches,
+            special,
+            trapping,
+            interrupted: false,
+            remarks,
+        }
+    }
 }
 
 /// What was asked for.

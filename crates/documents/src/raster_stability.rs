@@ -182,6 +182,24 @@ pub struct RasterBoundaryDocument {
 impl RasterBoundaryDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/raster-boundary";
+
+    /// Without a pitch yet.
+    pub fn new(parameters: RasterBoundaryParameters) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            pitch: vec![],
+            alpha: vec![],
+            q: vec![],
+            kappa: vec![],
+            crest_angle: vec![],
+            alpha_zigzag: vec![],
+            remarks: vec![],
+        }
+    }
 }
 
 /// Pitches, and what scans.

@@ -1,6 +1,6 @@
 //! `stickslip/reproduction`.
 
-use crate::Software;
+use crate::{FORMAT_VERSION, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,17 @@ pub struct ReproductionDocument {
 impl ReproductionDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/reproduction";
+
+    /// These numbers.
+    pub fn new(numbers: Vec<NumberDocument>) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            parameters: ReproductionParameters {},
+            numbers,
+        }
+    }
 }
 
 /// None.

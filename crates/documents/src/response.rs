@@ -2,8 +2,8 @@
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
-    CertificateDocument, ComplexDocument, InUnits, ModelParameters, PulseParameters, Software,
-    SteadyState,
+    CertificateDocument, ComplexDocument, FORMAT_VERSION, InUnits, ModelParameters,
+    PulseParameters, Software, SteadyState,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,34 @@ pub struct ResponseDocument {
 impl ResponseDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/response";
+
+    /// Modes whose phase is told from `origin`, and the response that they add up to: from `valid_from` on within the part
+    /// `valid_to`.
+    pub fn new(
+        parameters: ResponseParameters,
+        steady_state: SteadyState,
+        modes: Vec<ModeDocument>,
+        (origin, valid_from, valid_to): (f64, f64, f64),
+        certificate: CertificateDocument,
+        samples: ResponseSamples,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            steady_state,
+            modes,
+            origin,
+            valid_from,
+            valid_to,
+            certificate,
+            samples,
+            remarks,
+        }
+    }
 }
 
 /// What was asked for.

@@ -1,10 +1,10 @@
 //! `stickslip/stability`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{InUnits, ModelParameters, Software};
+use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind, Spectrum};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -45,6 +45,30 @@ pub struct StabilityDocument {
 impl StabilityDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/stability";
+
+    /// What is known at any point; whether it is near a critical one is for others to add.
+    pub fn new(
+        parameters: StabilityParameters,
+        stable: bool,
+        trapping: TrappingDocument,
+        spectrum: &Spectrum,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            critical: None,
+            stable,
+            trapping,
+            roots: spectrum.roots.iter().map(|z| ComplexDocument { re: z.re, im: z.im }).collect(),
+            certificate: (&spectrum.certificate).into(),
+            onset: None,
+            limits: None,
+            remarks: vec![],
+        }
+    }
 }
 
 /// The point whose growth exponents are listed, and what was asked.

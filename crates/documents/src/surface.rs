@@ -1,7 +1,7 @@
 //! `stickslip/surface`.
 
 use crate::table::{Array, Column, Named, Tabular};
-use crate::{InUnits, ModelParameters, Software};
+use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,19 @@ pub struct SurfaceDocument {
 impl SurfaceDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/surface";
+
+    /// Without a surface yet.
+    pub fn new(parameters: SurfaceParameters) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            surfaces: vec![],
+            images: vec![],
+        }
+    }
 }
 
 /// What was reconstructed.

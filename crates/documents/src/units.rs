@@ -1,9 +1,10 @@
 //! `stickslip/units`.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{Software, TipDocument};
+use crate::{FORMAT_VERSION, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::Model;
 use stickslip_units::{Physical, Scales};
 
 /// Measured quantities and the numbers of the model.
@@ -39,6 +40,34 @@ pub struct UnitsDocument {
 impl UnitsDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/units";
+
+    /// The model that these quantities make.
+    pub fn new(
+        parameters: UnitsParameters,
+        physical: &Physical,
+        model: &Model,
+        critical: CriticalUnits,
+        stable: bool,
+        remarks: Vec<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            parameters,
+            alpha: model.alpha(),
+            r: model.r(),
+            lag: LagDocument {
+                metres: physical.lag(model.tip()),
+                dimensionless: model.steady_lag(),
+            },
+            scales: physical.scales().into(),
+            physical: physical.into(),
+            critical,
+            stable,
+            remarks,
+        }
+    }
 }
 
 /// What was given; null for what was solved for.

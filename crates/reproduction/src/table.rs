@@ -8,7 +8,7 @@ mod printed;
 pub use markdown::page;
 
 use crate::failed::Failed;
-use stickslip_documents::{FORMAT_VERSION, ReproductionDocument, ReproductionParameters, Software};
+use stickslip_documents::ReproductionDocument;
 
 /// The numbers.
 ///
@@ -18,11 +18,5 @@ pub fn table() -> Result<ReproductionDocument, Failed> {
     let mut entries = numbers::stability()?;
     entries.extend(numbers::formulas()?);
     entries.extend(oscillations::oscillations()?);
-    Ok(ReproductionDocument {
-        format: ReproductionDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        parameters: ReproductionParameters {},
-        numbers: entries,
-    })
+    Ok(ReproductionDocument::new(entries))
 }

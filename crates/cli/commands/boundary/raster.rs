@@ -10,8 +10,7 @@ use crate::commands::model::wider;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
-    FORMAT_VERSION, Physical, RasterBoundaryDocument, RasterBoundaryParameters, Software,
-    SpacingName,
+    Physical, RasterBoundaryDocument, RasterBoundaryParameters, SpacingName,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError, WiderRaster};
 use stickslip_tip::{Footprint, TipFunction, Wider};
@@ -33,31 +32,18 @@ pub(super) fn boundary(
     let job = Job::open::<RasterBoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let spacing =
         if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
-    let mut document = RasterBoundaryDocument {
-        format: RasterBoundaryDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: RasterBoundaryParameters {
-            tip: (&tip).into(),
-            r,
-            width_y,
-            pitch_range: ends,
-            points,
-            spacing,
-            depth_limit: law.depth_limit,
-            healing_time: law.healing_time,
-            inertia: law.inertia,
-            length: arguments.length,
-        },
-        pitch: vec![],
-        alpha: vec![],
-        q: vec![],
-        kappa: vec![],
-        crest_angle: vec![],
-        alpha_zigzag: vec![],
-        remarks: vec![],
-    };
+    let mut document = RasterBoundaryDocument::new(RasterBoundaryParameters {
+        tip: (&tip).into(),
+        r,
+        width_y,
+        pitch_range: ends,
+        points,
+        spacing,
+        depth_limit: law.depth_limit,
+        healing_time: law.healing_time,
+        inertia: law.inertia,
+        length: arguments.length,
+    });
     let mut progress = Progress::new(0.0, points as f64).at_every_call();
     let (pitches, mut left_out) = (abscissas(ends, points, spacing), vec![]);
     for (n, pitch) in pitches.into_iter().enumerate() {

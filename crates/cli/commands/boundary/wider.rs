@@ -5,8 +5,7 @@ use crate::arguments::Interval;
 use crate::commands::model::refused_wider;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
-use std::f64::consts::TAU;
-use stickslip_documents::{BoundaryDocument, FORMAT_VERSION, LimitColumns, OnsetColumns, Software};
+use stickslip_documents::{BoundaryDocument, LimitColumns, OnsetColumns};
 use stickslip_stability::{
     OnsetKind, StabilityError, WiderCritical, critical_under, least_depth_limit, memory_length,
 };
@@ -33,18 +32,9 @@ pub(super) fn document(
         least.push(least_depth_limit(law, tip, *r).ok());
         progress.counted(n as f64 + 1.0, || format!("{} of {points} steps", n + 1));
     }
-    let column = |of: fn(&WiderCritical) -> f64| along.iter().map(of).collect();
+    let (critical, onset) =
+        (along.iter().map(|at| &at.critical), OnsetColumns::unknown(along.len()));
     Ok(BoundaryDocument {
-        format: BoundaryDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: asked.parameters(law, tip),
-        wave_number: column(|at| TAU / at.critical.wavelength),
-        r: column(|at| at.critical.r),
-        alpha: column(|at| at.critical.alpha),
-        onset: OnsetColumns::unknown(along.len()),
-        branches: vec![],
         kind: along.iter().map(|at| at.kind.into()).collect(),
         limits: Some(LimitColumns {
             r: asked.values.clone(),
@@ -52,6 +42,7 @@ pub(super) fn document(
             memory_length: memory_length(tip).ok(),
         }),
         remarks: remarks(&along, &left_out),
+        ..BoundaryDocument::new(asked.parameters(law, tip), critical, onset)
     })
 }
 

@@ -3,8 +3,8 @@
 use super::{Found, Origin};
 use crate::arguments::ContinueArguments;
 use stickslip_documents::{
-    ContinueDocument, ContinueParameters, CycleBranch, FORMAT_VERSION, ModelParameters, OverName,
-    Software, SpecialDocument, TipDocument,
+    ContinueDocument, ContinueParameters, CycleBranch, ModelParameters, OverName, SpecialDocument,
+    TipDocument,
 };
 use stickslip_stability::trapping_alpha;
 use stickslip_tip::Wider;
@@ -37,28 +37,20 @@ pub(super) fn of(
         arguments.start.model.alpha_above,
         first.r,
     );
-    ContinueDocument {
-        format: ContinueDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: ContinueParameters {
-            model: ModelParameters { depth_limit, healing_time, inertia, ..papers },
-            over: arguments.over,
-            to: arguments.to,
-            switch: arguments.switch,
-            longest_period: arguments.longest_period,
-            longest_step: arguments.longest_step,
-            most_points: arguments.most_points,
-            tolerance: arguments.start.tolerance,
-        },
-        branches: found.iter().map(|f| CycleBranch::of(&f.branch, from(f))).collect(),
-        special: special.collect(),
-        trapping: ratio.map(|ratio| match arguments.over {
-            OverName::Alpha => ratio * first.r,
-            OverName::R => first.alpha / ratio,
-        }),
-        interrupted: false,
-        remarks,
-    }
+    let parameters = ContinueParameters {
+        model: ModelParameters { depth_limit, healing_time, inertia, ..papers },
+        over: arguments.over,
+        to: arguments.to,
+        switch: arguments.switch,
+        longest_period: arguments.longest_period,
+        longest_step: arguments.longest_step,
+        most_points: arguments.most_points,
+        tolerance: arguments.start.tolerance,
+    };
+    let branches = found.iter().map(|f| CycleBranch::of(&f.branch, from(f))).collect();
+    let trapping = ratio.map(|ratio| match arguments.over {
+        OverName::Alpha => ratio * first.r,
+        OverName::R => first.alpha / ratio,
+    });
+    ContinueDocument::new(parameters, branches, special.collect(), trapping, remarks)
 }

@@ -15,8 +15,7 @@ use crate::files::input::{RunOrRaster, read_scanned};
 use image::Images;
 use places::Places;
 use stickslip_documents::{
-    FORMAT_VERSION, Physical, RunDocument, Software, SurfaceCurve, SurfaceDocument,
-    SurfaceParameters, Unusable,
+    Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceParameters, Unusable,
 };
 use stickslip_surface::Surface;
 use write::SurfaceFormat;
@@ -90,17 +89,9 @@ fn empty(
     run: &RunDocument,
     images: Option<&Images>,
 ) -> SurfaceDocument {
-    SurfaceDocument {
-        format: SurfaceDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: SurfaceParameters {
-            model: run.parameters.model.clone(),
-            far_behind: arguments.far_behind,
-            across: images.map(Images::parameters),
-        },
-        surfaces: vec![],
-        images: vec![],
-    }
+    SurfaceDocument::new(SurfaceParameters {
+        model: run.parameters.model.clone(),
+        far_behind: arguments.far_behind,
+        across: images.map(Images::parameters),
+    })
 }

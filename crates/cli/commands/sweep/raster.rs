@@ -13,8 +13,7 @@ use crate::commands::model::{tip, wider};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use stickslip_documents::{
-    FORMAT_VERSION, PathName, Physical, RasterSweepDocument, RasterSweepParameters,
-    RasterSweepPoint, Software,
+    PathName, Physical, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
 };
 use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
 use stickslip_stability::{Raster, RasterPath, WiderRaster};
@@ -56,16 +55,8 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let indices: Vec<usize> = part.indices(count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
-    let document = RasterSweepDocument {
-        format: RasterSweepDocument::FORMAT.into(),
-        format_version: FORMAT_VERSION,
-        software: Software::this(),
-        physical: None,
-        parameters: grid.parameters,
-        points: finished.in_order(),
-        arithmetic: Some(arithmetic()),
-        crc32: None,
-    };
+    let points = finished.in_order();
+    let document = RasterSweepDocument::new(grid.parameters, points, Some(arithmetic()));
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())

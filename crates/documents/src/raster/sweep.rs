@@ -2,7 +2,7 @@
 
 use super::{PathName, RasterRegimeName};
 use crate::table::{Column, Named, Tabular};
-use crate::{InUnits, PatternDocument, ShardDocument, Software, TipDocument};
+use crate::{FORMAT_VERSION, InUnits, PatternDocument, ShardDocument, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
@@ -35,6 +35,24 @@ pub struct RasterSweepDocument {
 impl RasterSweepDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/raster-sweep";
+
+    /// These points, as a machine that rounds like this found them; to be sealed.
+    pub fn new(
+        parameters: RasterSweepParameters,
+        points: Vec<RasterSweepPoint>,
+        arithmetic: Option<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            points,
+            arithmetic,
+            crc32: None,
+        }
+    }
 }
 
 /// Pitches times α, the last varying fastest, and what they share.

@@ -1,0 +1,159 @@
+//! A point of a sweep, and how it was found.
+
+use crate::RegimeName;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_cycles::Cycle;
+use stickslip_outcome::{Motion, Outcome};
+
+/// How a point was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SourceName {
+    /// Steady motion is stable, or as good as: α is below αc.
+    Stability,
+    /// The stable periodic solution of (18).
+    Cycle,
+    /// The end of a run, from a disturbed steady state unless the sweep says otherwise.
+    Run,
+}
+
+impl std::fmt::Display for SourceName {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::Stability => "stability",
+            Self::Cycle => "cycle",
+            Self::Run => "run",
+        })
+    }
+}
+
+/// One point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepPoint {
+    /// Its place in the grid.
+    pub index: usize,
+    /// Width of the footprint, in σ, where it varies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Side lobes, where they were given.
+    pub beta: Option<f64>,
+    /// r, dimensionless.
+    pub r: f64,
+    /// α, dimensionless; null where αc(r) + D could not be found.
+    pub alpha: Option<f64>,
+    /// Values of the further axes, in their order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<f64>,
+    /// αc(r), if there is one.
+    pub critical_alpha: Option<f64>,
+    /// What the tip settles into; "transient" where a run of thousands of time units did not settle. Null
+    /// where `error` says why.
+    pub regime: Option<RegimeName>,
+    /// How that was found.
+    pub source: Option<SourceName>,
+    /// Period of l(t), Γ/k.
+    pub period: Option<f64>,
+    /// Error of `period`, Γ/k.
+    #[serde(default)]
+    pub period_error: Option<f64>,
+    /// Wavelength of the surface left behind, σ.
+    pub wavelength: Option<f64>,
+    /// Error of `wavelength`, σ.
+    #[serde(default)]
+    pub wavelength_error: Option<f64>,
+    /// Half peak-to-peak of l, σ.
+    pub amplitude_x0: Option<f64>,
+    /// Error of `amplitude_x0`, σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
+    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles, and of runs that were asked for.
+    pub amplitude_u: Option<f64>,
+    /// Error of `amplitude_u`, kσ²/a.
+    #[serde(default)]
+    pub amplitude_u_error: Option<f64>,
+    /// Mean of l at 2,001 times evenly from the middle of the run to its end, σ; of runs that were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_l: Option<f64>,
+    /// Standard deviation of l at these times, σ: how far the tip swings, be it in stick-slip or on noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deviation_l: Option<f64>,
+    /// Maxima of l in one period.
+    pub slips: Option<usize>,
+    /// Largest modulus of the Floquet multipliers but that of a shift in time, in error by up to 5e-8 above 0.01, by
+    /// up to 1e-6 below; of cycles only.
+    pub multiplier: Option<f64>,
+    /// Why nothing was found.
+    pub error: Option<String>,
+}
+
+impl SweepPoint {
+    /// A point of which nothing is known yet but where it is: its index, β, r and α.
+    pub fn at(index: usize, beta: Option<f64>, r: f64, alpha: Option<f64>) -> Self {
+        Self {
+            index,
+            width: None,
+            beta,
+            r,
+            alpha,
+            at: vec![],
+            critical_alpha: None,
+            regime: None,
+            source: None,
+            period: None,
+            period_error: None,
+            wavelength: None,
+            wavelength_error: None,
+            amplitude_x0: None,
+            amplitude_x0_error: None,
+            amplitude_u: None,
+            amplitude_u_error: None,
+            mean_l: None,
+            deviation_l: None,
+            slips: None,
+            multiplier: None,
+            error: None,
+        }
+    }
+
+    /// With what the tip settles into there.
+    #[must_use]
+    pub fn settled(mut self, motion: Motion) -> Self {
+        match motion {
+            Motion::Steady => {
+                self.regime = Some(RegimeName::Steady);
+                self.source = Some(SourceName::Stability);
+            }
+            Motion::Cycle(cycle) => self.is_periodic(&cycle),
+            Motion::Run(outcome) => self.ended(&outcome),
+        }
+        self
+    }
+
+    fn is_periodic(&mut self, cycle: &Cycle) {
+        (self.regime, self.source) = (Some(RegimeName::StickSlip), Some(SourceName::Cycle));
+        (self.period, self.wavelength) = (Some(cycle.period()), Some(cycle.wavelength()));
+        self.amplitude_x0 = Some(cycle.amplitude_x0());
+        self.amplitude_u = Some(cycle.amplitude_u());
+        let error = cycle.error();
+        (self.period_error, self.wavelength_error) = (Some(error), Some(self.r * error));
+        self.amplitude_x0_error = Some(error);
+        self.amplitude_u_error = Some(cycle.amplitude_u_error());
+        self.slips = Some(cycle.slips());
+        let moduli = cycle.nontrivial_multipliers().map(|m| m.norm());
+        self.multiplier = moduli.max_by(f64::total_cmp);
+    }
+
+    fn ended(&mut self, outcome: &Outcome) {
+        (self.regime, self.source) = (Some(outcome.regime.into()), Some(SourceName::Run));
+        if let Some(motion) = &outcome.oscillation {
+            (self.period, self.wavelength) = (Some(motion.period), Some(motion.wavelength));
+            self.period_error = Some(motion.period_error);
+            self.wavelength_error = Some(motion.wavelength_error);
+            self.amplitude_x0 = Some(motion.amplitude_x0);
+            self.amplitude_x0_error = Some(motion.amplitude_x0_error);
+            self.slips = Some(motion.slips);
+        }
+    }
+}

@@ -172,12 +172,18 @@ impl<'a, M: Memory> Integrator<'a, M> {
     ///
     /// # Errors
     /// The tolerance cannot be met.
+    #[inline]
     pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
         if self.step_by_series(until)
             && let Some(step) = self.taylor.taken()
         {
             return Ok(*step);
         }
+        self.step_by_collocation(until)
+    }
+
+    #[inline(never)]
+    fn step_by_collocation(&mut self, until: f64) -> Result<Step, IntegrationError> {
         self.enter_stretch();
         let (limit, end) = (self.length_limit(), self.next_end(until));
         let mut h = self.control.proposal(limit, end - self.t);

@@ -60,6 +60,7 @@ impl<'a> Running<'a> {
     ///
     /// # Errors
     /// The tolerance cannot be met.
+    #[inline]
     pub fn step(&mut self) -> Result<Option<Step>, RunError> {
         if self.integrator.t() >= self.scenario.until {
             return Ok(None);

@@ -95,17 +95,10 @@ impl Taylor {
 
 impl<M: Memory> Integrator<'_, M> {
     /// Takes the next piece of a step by series, or of a new one; false where collocation is to make the step.
+    #[inline]
     pub(super) fn step_by_series(&mut self, until: f64) -> bool {
-        if self.taylor.pieces.left().is_empty() {
-            if self.control.is_fixed() || !self.taylor.switch.is_to_series() {
-                return false;
-            }
-            if !self.expand(until) {
-                if self.taylor.switch.left_series() {
-                    self.hand_over();
-                }
-                return false;
-            }
+        if self.taylor.pieces.left().is_empty() && !self.is_expanded(until) {
+            return false;
         }
         let velocity = self.support.velocity(self.t);
         let Some(step) = self.taylor.pieces.take(until, velocity) else { return false };
@@ -113,6 +106,19 @@ impl<M: Memory> Integrator<'_, M> {
         self.t = step.end();
         self.work.steps += 1;
         true
+    }
+
+    /// Whether a new step by series could be made.
+    #[inline(never)]
+    fn is_expanded(&mut self, until: f64) -> bool {
+        if self.control.is_fixed() || !self.taylor.switch.is_to_series() {
+            return false;
+        }
+        let made = self.expand(until);
+        if !made && self.taylor.switch.left_series() {
+            self.hand_over();
+        }
+        made
     }
 
     /// Makes a step: its pieces wait, the memory knows of all of it.

@@ -15,7 +15,7 @@ import numpy as np
 TARGETS = (1e-6, 1e-9, 1e-11)
 # Of the error asked: which exponentials, in digits more, and the tolerances tried.
 FITS = (-1, 0, 1)
-DECADES = (1, 0, -1, -2, -3)
+DECADES = (1, 0.5, 0, -0.5, -1, -1.5, -2, -3)
 # Options of the compiler: faster than its own choice.
 OPTIONS = {"fast_math": True, "slp_vectorize": True}
 
@@ -112,7 +112,7 @@ def scalar(document):
                         "contestant": "heyoka",
                         "motion": motion["name"],
                         "target": target,
-                        "setting": f"{len(fit['terms'])} exponentials, tolerance {tolerance:.0e}, order {integrator.order}",
+                        "setting": f"{len(fit['terms'])} exponentials, tolerance {tolerance:.1e}, order {integrator.order}",
                         "seconds": seconds,
                         "compiling": compiling,
                         "error": miss,

@@ -6,9 +6,9 @@
 use allocation_counter::measure;
 use stickslip_tip::{MemoryChoice, Model, Running, Scenario, TipFunction};
 
-/// Steps before those that are counted, and these. Nodes are gathered into bins every 2,700 steps: both spans hold several
-/// such times.
-const SPANS: (usize, usize) = (6_000, 20_000);
+/// Steps before those that are counted, and these. Nodes are dropped or gathered into bins every 6,000 steps: both spans hold
+/// several such times. Room for bins is taken once, when nodes are first gathered.
+const SPANS: (usize, usize) = (20_000, 40_000);
 
 /// Allocations in the steps after the warm-up.
 fn allocations(

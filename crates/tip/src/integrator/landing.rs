@@ -1,7 +1,8 @@
-//! Where a step ends: at a time that is a number, and not short of one where it has to.
+//! Where a step ends: at a time that is a number, not short of one where it has to, and where the tip leaves the stretch.
 
 use super::Integrator;
 use crate::memory::Memory;
+use crate::roots::zero_between;
 
 /// By which a step may be longer to end where it is to.
 const MOST_ROUNDINGS: usize = 64;
@@ -35,5 +36,30 @@ impl<M: Memory> Integrator<'_, M> {
             h = end - self.t;
         }
         (h > least).then_some(h)
+    }
+
+    /// When the tip leaves the stretch, if it does: a polynomial, of which values at nodes are known.
+    pub(super) fn leaves(
+        &self,
+        nodes: &[f64],
+        displacement: &[f64],
+        at: impl Fn(f64) -> f64,
+    ) -> Option<f64> {
+        let stretch = &self.stretch;
+        let (x, slack) = (self.position(), stretch.slack);
+        // A tip that already stands beyond an end, within the slack, has its end where it stands.
+        let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
+        let outside = |d: f64| d < low - slack || d > high + slack;
+        let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
+        // Nearer than where the tip is found outside, farther than where it starts: the sign changes
+        // between the two, whatever the nodes between them do.
+        let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
+            (true, true, _) => high,
+            (true, false, _) => 0.5 * slack,
+            (false, _, true) => low,
+            (false, _, false) => -0.5 * slack,
+        };
+        let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
+        Some(zero_between(beyond, 0.0, nodes[after]))
     }
 }

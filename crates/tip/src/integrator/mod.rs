@@ -18,7 +18,6 @@ use crate::elementary::exp;
 use crate::history::{Heights, Step};
 use crate::initial_surface::Stretch;
 use crate::memory::{Memory, longest_look};
-use crate::roots::zero_between;
 use crate::step;
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model, Support};
@@ -270,26 +269,6 @@ impl<'a, M: Memory> Integrator<'a, M> {
             side: self.corner.map_or(0.0, |corner| corner.side),
             age: self.t - self.start,
         }
-    }
-
-    /// When the tip leaves the stretch, if it does: a polynomial, of which values at nodes are known.
-    fn leaves(&self, nodes: &[f64], displacement: &[f64], at: impl Fn(f64) -> f64) -> Option<f64> {
-        let stretch = &self.stretch;
-        let (x, slack) = (self.position(), stretch.slack);
-        // A tip that already stands beyond an end, within the slack, has its end where it stands.
-        let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
-        let outside = |d: f64| d < low - slack || d > high + slack;
-        let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
-        // Nearer than where the tip is found outside, farther than where it starts: the sign changes
-        // between the two, whatever the nodes between them do.
-        let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
-            (true, true, _) => high,
-            (true, false, _) => 0.5 * slack,
-            (false, _, true) => low,
-            (false, _, false) => -0.5 * slack,
-        };
-        let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
-        Some(zero_between(beyond, 0.0, nodes[after]))
     }
 
     /// Defect, and error as an interpolant, against the step before.

@@ -8,7 +8,7 @@ use std::fs;
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
-use std::thread::sleep;
+use std::thread::{JoinHandle, sleep, spawn};
 use std::time::{Duration, Instant};
 use wait4::Wait4;
 
@@ -26,7 +26,8 @@ pub struct Measured {
     pub peak: u64,
 }
 
-fn measured(command: &mut Command) -> Measured {
+/// A command run to its end.
+pub fn measured(command: &mut Command) -> Measured {
     let files = ["out", "err"].map(|_| tempfile::tempfile().unwrap());
     let [stdout, stderr] = files.each_ref().map(|file| file.try_clone().unwrap());
     let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().unwrap();
@@ -136,6 +137,22 @@ impl Folder {
             assert!(said.contains(word), "{line}\nsaid nothing of {word:?}:\n{said}");
         }
     }
+}
+
+/// What a child says to its end, and all that it has had of the processor.
+pub fn waited(mut child: Child) -> (Output, Duration) {
+    fn reader(pipe: Option<impl Read + Send + 'static>) -> JoinHandle<Vec<u8>> {
+        spawn(move || {
+            let mut bytes = vec![];
+            pipe.map(|mut pipe| pipe.read_to_end(&mut bytes).unwrap());
+            bytes
+        })
+    }
+    let (stdout, stderr) = (reader(child.stdout.take()), reader(child.stderr.take()));
+    let ended = child.wait4().unwrap();
+    let [stdout, stderr] = [stdout, stderr].map(|reader| reader.join().unwrap());
+    let output = Output { status: ended.status, stdout, stderr };
+    (output, ended.rusage.utime + ended.rusage.stime)
 }
 
 /// What a process that goes on has had of the processor, where the system tells: in hundredths of a second.

@@ -211,7 +211,7 @@ fn the_help_of_every_command_shows_an_example() {
 #[cfg(unix)]
 mod on_unix {
     use super::*;
-    use crate::folder::{processor_time, waited};
+    use crate::folder::ended_by;
     use std::ffi::OsStr;
     use std::io::Read;
     use std::os::unix::ffi::OsStrExt;
@@ -246,10 +246,7 @@ mod on_unix {
 
     /// How the program ends after a signal, within a second of the processor.
     fn after(child: Child, signal: &str) -> Output {
-        let before = processor_time(child.id()).unwrap_or_default();
-        Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-        let (output, in_all) = waited(child);
-        let took = in_all.saturating_sub(before);
+        let (output, took) = ended_by(signal, child);
         assert!(took < Duration::from_secs(1), "took {took:?}");
         output
     }

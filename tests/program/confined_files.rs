@@ -1,7 +1,7 @@
 //! Checkpoints that were moved, forged, or made by a machine that rounds otherwise; names that collide; results cut
 //! short; and what is read of files that are something else.
 
-use crate::folder::{Folder, Measured, measured, processor_time, said, waited};
+use crate::folder::{Folder, Measured, ended_by, measured, said};
 use std::fs;
 use std::process::Stdio;
 use std::thread::sleep;
@@ -167,17 +167,13 @@ fn what_is_cut_short_says_so_in_every_format() {
 #[cfg(unix)]
 #[test]
 fn a_step_full_of_samples_can_be_interrupted() {
-    use std::process::Command;
     let folder = Folder::new("full_step");
     let line = "run --alpha 1 --r 1 --until 30 --tolerance 1e-2 --sample-every 1e-11 -o a.jsonl --checkpoint ck";
     let mut child = folder.command(line).stderr(Stdio::piped()).spawn().unwrap();
     crate::folder::wait_until_it_listens(&mut child);
     sleep(Duration::from_millis(200));
-    let before = processor_time(child.id()).unwrap_or_default();
-    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    let (output, in_all) = waited(child);
+    let (output, took) = ended_by("-INT", child);
     assert_eq!(output.status.code(), Some(130));
-    let took = in_all.saturating_sub(before);
     assert!(took < Duration::from_secs(2), "{took:?}");
 }
 

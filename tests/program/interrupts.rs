@@ -1,12 +1,12 @@
 //! Signals end every command at once, whatever it is at, and whatever it was started with; and what would go on
 //! for ever is refused, or given up with a reason.
 
-use crate::folder::{Folder, processor_time, said, wait_until_it_listens, waited};
+use crate::folder::{Folder, ended_by, said, wait_until_it_listens};
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// 0.2 s, and what a busy machine adds to it.
+/// Of the processor: 0.2 s, and what a slow machine adds to it.
 const AT_ONCE: Duration = Duration::from_millis(1000);
 
 /// A table of a smooth shape with a step at its end, that everything takes long with.
@@ -49,10 +49,7 @@ fn a_signal_ends_every_command_even_where_it_was_to_be_ignored() {
             wait_until_it_listens(&mut child);
             sleep(Duration::from_millis(100));
             assert!(child.try_wait().unwrap().is_none(), "{line}: it must take longer");
-            let (id, before) = (child.id().to_string(), processor_time(child.id()));
-            Command::new("kill").args(["-s", signal, &id]).status().unwrap();
-            let (output, in_all) = waited(child);
-            let took = in_all.saturating_sub(before.unwrap_or_default());
+            let (output, took) = ended_by(&format!("-{signal}"), child);
             assert_eq!(output.status.code(), Some(status), "{line}: {}", said(&output));
             assert!(said(&output).contains("interrupted"), "{line}: {}", said(&output));
             assert!(took < AT_ONCE, "{line}: {signal} took {took:?}");

@@ -139,8 +139,10 @@ impl Folder {
     }
 }
 
-/// What a child says to its end, and all that it has had of the processor.
-pub fn waited(mut child: Child) -> (Output, Duration) {
+/// What a child says once it has a signal, and what it still has of the processor until it ends.
+pub fn ended_by(signal: &str, mut child: Child) -> (Output, Duration) {
+    let (before, sent) = (processor_time(child.id()).unwrap_or_default(), Instant::now());
+    Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
     fn reader(pipe: Option<impl Read + Send + 'static>) -> JoinHandle<Vec<u8>> {
         spawn(move || {
             let mut bytes = vec![];
@@ -151,8 +153,9 @@ pub fn waited(mut child: Child) -> (Output, Duration) {
     let (stdout, stderr) = (reader(child.stdout.take()), reader(child.stderr.take()));
     let ended = child.wait4().unwrap();
     let [stdout, stderr] = [stdout, stderr].map(|reader| reader.join().unwrap());
+    assert!(sent.elapsed() < LONGEST, "it waited, {:?} long", sent.elapsed());
     let output = Output { status: ended.status, stdout, stderr };
-    (output, ended.rusage.utime + ended.rusage.stime)
+    (output, (ended.rusage.utime + ended.rusage.stime).saturating_sub(before))
 }
 
 /// What a process that goes on has had of the processor, where the system tells: in hundredths of a second.

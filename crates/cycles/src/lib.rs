@@ -52,7 +52,9 @@ pub use embedding::Parameter;
 pub use ended::{Ended, Tried};
 pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
-pub use search::{Settled, cycle, cycle_near, cycle_within, settle, small_cycle};
+pub use search::{
+    ROUGHEST_RESIDUAL, Settled, cycle, cycle_near, cycle_within, settle, small_cycle,
+};
 
 use multipliers::multipliers;
 use num_complex::Complex;

@@ -167,8 +167,8 @@ struct Search {
     coarse: Option<Coarse>,
 }
 
-/// A residual that is no less may still be that of a cycle whose ends of steps are much better than it.
-const ROUGHEST: f64 = 1e-7;
+/// The largest residual of a cycle that a motion is still judged by: its ends of steps are much better than it.
+pub const ROUGHEST_RESIDUAL: f64 = 1e-7;
 
 /// A guess that closes, but not to the residual asked for.
 #[derive(Clone)]
@@ -184,7 +184,7 @@ impl Coarse {
     /// The cycle to the residual that can be had, if it is stable.
     fn stable(self) -> Option<Cycle> {
         let Self { equation, guess, reached, .. } = self;
-        let found = (reached <= ROUGHEST).then(|| solve(&equation, guess, reached));
+        let found = (reached <= ROUGHEST_RESIDUAL).then(|| solve(&equation, guess, reached));
         found?.ok().filter(Cycle::is_stable)
     }
 

@@ -1,6 +1,6 @@
 //! The cycle that a motion is on or near, by which it is judged.
 
-use stickslip_cycles::{Cycle, CycleError, cycle_near, cycle_within};
+use stickslip_cycles::{Cycle, CycleError, ROUGHEST_RESIDUAL, cycle_near, cycle_within};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
@@ -8,8 +8,6 @@ use stickslip_tip::{Model, Trajectory};
 const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
-/// The largest residual of a cycle that a run is still judged by.
-const ROUGHEST: f64 = 1e-7;
 
 /// A cycle beside a motion.
 pub(crate) struct Reference {
@@ -76,7 +74,7 @@ impl Reference {
 /// The cycle beside a period of a motion, to the residual that can be had: round-off of long periods leaves more.
 fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
     match cycle_within(model, tail, span, RESIDUAL) {
-        Err(CycleError::Rough { reached, .. }) if reached <= ROUGHEST => {
+        Err(CycleError::Rough { reached, .. }) if reached <= ROUGHEST_RESIDUAL => {
             cycle_within(model, tail, span, reached).ok()
         }
         found => found.ok(),

@@ -55,7 +55,7 @@ impl Record {
         Self::new(tip, Kept::All(vec![]), vec![])
     }
 
-    /// Keeps a bounded stretch, and takes its room once: no visit allocates.
+    /// Keeps a bounded stretch, and takes its room once, that of bins when visits are first gathered: no other visit allocates.
     pub(super) fn bounded(tip: &TipFunction) -> Self {
         Self::new(tip, Kept::Gathered(Bins::new(tip)), Vec::with_capacity(MOST_NODES))
     }

@@ -7,7 +7,12 @@ const MOST_ITERATIONS: usize = 60;
 ///
 /// Ridders' method: the false position of `f e^{kx}`, k such that the midpoint falls on a line too.
 /// Reference: C. Ridders, IEEE Trans. Circuits Syst. 26, 979 (1979).
-pub fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+pub fn zero_between(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    zero_to(f, (a, b), 0.0)
+}
+
+/// The same, or a place near it where the function is at most `enough`.
+pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     let mut last = a;
     for _ in 0..MOST_ITERATIONS {
@@ -19,7 +24,7 @@ pub fn zero_between(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
         let x = if shift.is_finite() { middle + shift } else { middle };
         let at_x = f(x);
         let narrow = 2.0 * f64::EPSILON * x.abs().max(f64::MIN_POSITIVE);
-        if at_x.abs() <= 0.0 || (b - a).abs().min((x - last).abs()) <= narrow {
+        if at_x.abs() <= enough || (b - a).abs().min((x - last).abs()) <= narrow {
             return x;
         }
         last = x;

@@ -4,7 +4,7 @@ use super::{Integrator, Retry, Solution};
 use crate::Model;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
-use crate::roots::zero_between;
+use crate::roots::zero_to;
 use crate::state::{Damaged, Reader, State};
 use crate::step;
 
@@ -32,6 +32,8 @@ const SHARE_OF_DENSE: f64 = 0.1;
 const ROUND_OFF: f64 = 4e-13;
 /// A step on the wrong side indents by 2|h|/b too much or little: this share of what it may err.
 const SHARE: f64 = 0.1;
+/// The zero of a height is found to this part of the slack.
+const SHARE_OF_SLACK: f64 = 0.1;
 
 impl Corner {
     /// Of a tip that starts at this height; `None` without a depth limit.
@@ -51,10 +53,14 @@ impl Corner {
         self.slack.max(ROUNDINGS_OF_TIME * f64::EPSILON * t.abs() * rise / h)
     }
 
+    /// Whether all these heights are well on its side, as those of most steps.
+    pub(super) fn keeps(&self, heights: &[f64]) -> bool {
+        heights.iter().all(|height| self.side * height >= 0.0)
+    }
+
     /// Whether a step of length h from t is right to be where it is.
     pub(super) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
-        // Most steps keep well to their side.
-        if heights.nodes.iter().all(|height| self.side * height >= 0.0) {
+        if self.keeps(&heights.nodes) {
             return Ok(());
         }
         let slack = self.slack(heights, (t, h));
@@ -66,8 +72,16 @@ impl Corner {
             return Err(Retry::OtherSide);
         }
         let (end, beyond) = (heights.nodes[STAGES - 1], RADAU.about_the_end(&heights.rise()));
-        let tau = zero_between(|tau| end + beyond(tau - 1.0), 0.0, RADAU.c[after]);
+        let (from, to) = self.bracket(heights, after);
+        let height = |tau: f64| end + beyond(tau - 1.0);
+        let tau = zero_to(height, (from, to), SHARE_OF_SLACK * slack);
         Err(Retry::ToKnot(tau * h))
+    }
+
+    /// Where in a step the height passes 0, if it is beyond at this node and at none before.
+    fn bracket(&self, heights: &Heights, after: usize) -> (f64, f64) {
+        let before = after.checked_sub(1).filter(|i| self.side * heights.nodes[*i] > 0.0);
+        (before.map_or(0.0, |i| RADAU.c[i]), RADAU.c[after])
     }
 
     /// The tip stands at this height, as its memory tells.

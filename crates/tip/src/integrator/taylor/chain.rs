@@ -10,11 +10,10 @@
 //! and of `g_n` the coefficients up to `t^{p-n}` are all that x0 takes up to `t^p`: a triangle of p³/6 products, the n
 //! side by side. Under a depth limit `-g_0` is the height, and `w' = σ w g_0'/b` on its side σ of the corner; else w = 1.
 
+use super::series::{MOST_ORDER, Series};
 use crate::memory::ROOM;
 use multiversion::multiversion;
 
-/// The highest order.
-pub(super) const MOST_ORDER: usize = 28;
 /// Lanes that are summed side by side.
 const LANES: usize = 4;
 /// Of a row, with room for a group of lanes that begins one after the first.
@@ -66,8 +65,9 @@ pub(super) struct Chain {
     weight: [f64; MOST_ORDER + LANES],
     /// Of `g_0'` times what it does to w.
     rate: [f64; MOST_ORDER],
-    /// Of x0 less its value at the start.
-    displacement: [f64; MOST_ORDER + 1],
+    displacement: Series,
+    height: Series,
+    weights: Series,
 }
 
 impl Chain {
@@ -81,13 +81,25 @@ impl Chain {
             velocity: [0.0; MOST_ORDER],
             weight: [0.0; MOST_ORDER + LANES],
             rate: [0.0; MOST_ORDER],
-            displacement: [0.0; MOST_ORDER + 1],
+            displacement: Series::zero(0),
+            height: Series::zero(0),
+            weights: Series::zero(0),
         }
     }
 
     /// Of x0 less its value at the start.
-    pub(super) fn displacement(&self) -> &[f64] {
-        &self.displacement[..=self.order]
+    pub(super) fn displacement(&self) -> &Series {
+        &self.displacement
+    }
+
+    /// Of the height under the tip, where there is a depth limit.
+    pub(super) fn height(&self) -> &Series {
+        &self.height
+    }
+
+    /// Of w, likewise.
+    pub(super) fn weights(&self) -> &Series {
+        &self.weights
     }
 
     /// `g_2`, minus the stiffness of the groove, at the start.
@@ -100,19 +112,6 @@ impl Chain {
         self.rows[0][0]
     }
 
-    /// Of the height; how many there are.
-    pub(super) fn heights(&self, heights: &mut [f64; MOST_ORDER]) -> usize {
-        heights.iter_mut().zip(&self.rows[..self.order]).for_each(|(h, row)| *h = -row[0]);
-        self.order
-    }
-
-    /// Of w, likewise.
-    pub(super) fn weights(&self, weights: &mut [f64; MOST_ORDER]) -> usize {
-        let known = self.weight[..MOST_ORDER].iter().rev().take(self.order);
-        weights.iter_mut().zip(known).for_each(|(weight, known)| *weight = *known);
-        self.order
-    }
-
     /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
     /// `relief` are u0 and its derivatives.
     pub(super) fn start(
@@ -122,7 +121,11 @@ impl Chain {
         (past, of_tip): (&[f64; ROOM], &[f64; ROOM]),
         relief: [f64; 4],
     ) {
-        self.order = order;
+        if order != self.order {
+            self.order = order;
+            self.displacement = Series::zero(order);
+            (self.height, self.weights) = (Series::zero(order - 1), Series::zero(order - 1));
+        }
         self.slope = usize::from(with_height);
         let from = 1 - self.slope;
         let first = &mut self.rows[0];
@@ -143,6 +146,8 @@ impl Chain {
             self.velocity[MOST_ORDER - 1] = velocity;
         }
         self.weight[MOST_ORDER - 1] = acting.depth.map_or(1.0, |(weight, _)| weight);
+        self.weights.set(0, self.weight[MOST_ORDER - 1]);
+        self.height.set(0, -self.rows[0][0]);
         self.rate = [0.0; MOST_ORDER];
         // Of each row so many as the order needs: ever fewer groups of lanes.
         let k = self.rows_of::<7>(0, acting);
@@ -176,8 +181,8 @@ impl Chain {
         let next = INVERSE[k + 1];
         let extension = match k {
             0 => acting.extension,
-            1 => acting.support - self.displacement[1],
-            _ => -self.displacement[k],
+            1 => acting.support - self.displacement.at(1),
+            _ => -self.displacement.at(k),
         };
         let pull = self.rows[k][self.slope] + (acting.spring * extension + self.force[k]);
         let at = MOST_ORDER - 1 - k;
@@ -188,7 +193,7 @@ impl Chain {
             }
             Some(_) => {}
         }
-        self.displacement[k + 1] = self.velocity[at] * next;
+        self.displacement.set(k + 1, self.velocity[at] * next);
     }
 
     /// Row k + 1, by `Σ_i v_i g_{n+1, k-i}`, of few lanes every other product in a sum of its own: in this order on every
@@ -233,7 +238,9 @@ impl Chain {
     /// The next coefficient of w, by `w' = rate w g_0'`.
     #[inline(always)]
     fn weigh(&mut self, k: usize, rate: f64) {
-        let newest = rate * (k + 1) as f64 * self.rows[k + 1][0];
+        let depth = self.rows[k + 1][0];
+        let newest = rate * (k + 1) as f64 * depth;
+        self.height.set(k + 1, -depth);
         // What is not yet known counts as 0.
         let known = self.rate.as_chunks::<LANES>().0[..k.div_ceil(LANES)].iter();
         let weights = self.weight[MOST_ORDER - 1 - k..].as_chunks::<LANES>().0;
@@ -247,7 +254,9 @@ impl Chain {
         if k + 1 < MOST_ORDER {
             let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
             let first = self.weight[MOST_ORDER - 1];
-            self.weight[MOST_ORDER - 2 - k] = INVERSE[k + 1] * (sum + newest * first);
+            let weight = INVERSE[k + 1] * (sum + newest * first);
+            self.weight[MOST_ORDER - 2 - k] = weight;
+            self.weights.set(k + 1, weight);
         }
     }
 }

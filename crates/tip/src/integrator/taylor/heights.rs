@@ -3,9 +3,7 @@
 
 use super::super::corner::Corner;
 use super::super::{Integrator, Retry};
-use super::chain::MOST_ORDER;
-use super::pieces::{self, NODES};
-use super::values::{Outlook, Scaled, Table};
+use super::values::{Block, Outlook, Table};
 use super::{length, visits};
 use crate::collocation::STAGES;
 use crate::elementary::exp;
@@ -40,26 +38,26 @@ impl<M: Memory> Integrator<'_, M> {
             return f64::INFINITY;
         };
         let felt = (self.model.alpha() / limit).abs() + SHARE_OF_DENSE / depth(corner);
-        let mut heights = [0.0; MOST_ORDER];
-        let order = self.taylor.chain.heights(&mut heights);
-        length::length(&heights[..order], error / felt)
+        length::length(self.taylor.chain.height().coefficients(), error / felt)
     }
 
-    /// The longest part of this length that may be a piece, for its heights.
-    pub(super) fn piece_by_heights(&self, over: f64, error: f64) -> f64 {
-        let Some((corner, height)) = self.corner.as_ref().zip(self.height_over(over)) else {
-            return f64::INFINITY;
-        };
-        pieces::longest(&Outlook::of(&height), error * depth(corner))
+    /// How steep the heights over this length are, as an interpolant of them errs beside one of the displacement.
+    pub(super) fn steepness_of_heights(&self, length: f64) -> f64 {
+        let Some(corner) = &self.corner else { return 0.0 };
+        Outlook::of(&self.taylor.chain.height().over(length)).steepest / depth(corner)
     }
 
-    /// The height over this length, where there is a depth limit.
+    /// Heights at the nodes of a step of this length, where there is a depth limit.
     #[inline]
-    pub(super) fn height_over(&self, length: f64) -> Option<Scaled> {
+    pub(super) fn heights_over<'a>(
+        &self,
+        length: f64,
+        table: &Table,
+        room: &'a mut [Block],
+    ) -> Option<Along<'a>> {
         self.corner.as_ref()?;
-        let mut heights = [0.0; MOST_ORDER];
-        let order = self.taylor.chain.heights(&mut heights);
-        Some(Scaled::new(&heights[..order], length))
+        let height = self.taylor.chain.height();
+        Some(Along { start: height.start(), nodes: table.sums(&height.over(length), room) })
     }
 
     /// Times spent at the nodes of a step of this length, each times what it weighs under a depth limit.
@@ -67,20 +65,24 @@ impl<M: Memory> Integrator<'_, M> {
         if self.corner.is_none() {
             return;
         }
-        let (mut coefficients, mut weights) = ([0.0; MOST_ORDER], [0.0; visits::MOST_NODES]);
-        let order = self.taylor.chain.weights(&mut coefficients);
-        let weights = &mut weights[..spent.len()];
-        table.sums(&Scaled::new(&coefficients[..order], length), weights);
+        let weights = self.taylor.chain.weights().over(length);
+        let mut room = visits::ROOM;
+        let weights = table.sums(&weights, &mut room);
         spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= *weight);
     }
 
     /// Where the heights of the pieces of a step lead.
-    pub(super) fn at_corner(&self, heights: &[Heights], total: f64) -> AtCorner {
-        let Some(corner) = &self.corner else { return AtCorner::Apart };
-        let h = total / heights.len() as f64;
-        for (i, piece) in heights.iter().enumerate() {
+    pub(super) fn at_corner(&self, heights: Option<Along>, total: f64) -> AtCorner {
+        let Some((corner, heights)) = self.corner.as_ref().zip(heights) else {
+            return AtCorner::Apart;
+        };
+        if corner.keeps(heights.nodes) {
+            return AtCorner::Apart;
+        }
+        let h = total / heights.count() as f64;
+        for i in 0..heights.count() {
             let before = i as f64 * h;
-            match corner.passed(piece, (self.t + before, h)) {
+            match corner.passed(&heights.piece(i), (self.t + before, h)) {
                 Ok(()) => {}
                 Err(Retry::ToKnot(shorter)) => return AtCorner::Ends(before + shorter),
                 Err(_) if i > 0 => return AtCorner::Ends(before),
@@ -96,19 +98,22 @@ fn depth(corner: &Corner) -> f64 {
     corner.height.abs().max(1.0)
 }
 
-/// Heights of pieces, from the table of their nodes.
-pub(super) fn of_pieces<'a>(
-    height: &Scaled,
-    table: &Table,
-    room: &'a mut [Heights],
-) -> &'a [Heights] {
-    let mut nodes = [0.0; NODES];
-    let nodes = &mut nodes[..STAGES * room.len()];
-    table.sums(height, nodes);
-    let mut start = height.start();
-    for (piece, nodes) in room.iter_mut().zip(nodes.as_chunks().0) {
-        *piece = Heights { start, nodes: *nodes };
-        start = nodes[STAGES - 1];
+/// Heights along a step, at the nodes of all its pieces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Along<'a> {
+    start: f64,
+    nodes: &'a [f64],
+}
+
+impl Along<'_> {
+    /// Of pieces.
+    fn count(&self) -> usize {
+        self.nodes.len() / STAGES
     }
-    room
+
+    pub(super) fn piece(&self, i: usize) -> Heights {
+        let nodes = self.nodes.as_chunks().0;
+        let start = if i == 0 { self.start } else { nodes[i - 1][STAGES - 1] };
+        Heights { start, nodes: nodes[i] }
+    }
 }

@@ -4,7 +4,8 @@
 //! Experimental Mathematics 14 (2005) 99: with coefficients that fall as ρ^{-k} a step of the length
 //! `ρ ε^{1/p}` errs by ε, whatever ρ is; the order is that of the least work per time.
 
-use super::chain::{INVERSE, MOST_ORDER};
+use super::chain::INVERSE;
+use super::series::MOST_ORDER;
 
 /// The order for an error ε of a step.
 pub(super) fn order(error: f64) -> usize {

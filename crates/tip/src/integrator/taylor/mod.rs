@@ -8,6 +8,7 @@ mod heights;
 mod length;
 mod pieces;
 mod plan;
+mod series;
 mod switch;
 mod values;
 mod visits;
@@ -15,16 +16,16 @@ mod visits;
 use super::Integrator;
 use crate::collocation::STAGES;
 use crate::elementary::exp;
-use crate::history::{Heights, Step};
+use crate::history::Step;
 use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
 use chain::Chain;
-use heights::AtCorner;
-use pieces::{MOST_PIECES, NODES, Pieces};
+use heights::{Along, AtCorner};
+use pieces::Pieces;
 use plan::Plan;
+use series::Series;
 use switch::Switch;
-use values::Scaled;
 use visits::Visits;
 
 /// What steps by series need.
@@ -145,29 +146,23 @@ impl<M: Memory> Integrator<'_, M> {
         let Plan { mut length, mut pieces, .. } = *plan;
         for _ in 0..MOST_SHORTENINGS {
             let Some(total) = self.landing(length, end) else { return Made::Nothing };
-            let part = total / plan.over;
-            let scaled = plan.scaled.over(part);
             let nodes = pieces::nodes(pieces);
-            let mut positions = [0.0; NODES];
-            let positions = &mut positions[..nodes.parts.len()];
-            nodes.table.sums(&scaled, positions);
-            let mut room;
-            let heights = if let Some(height) = self.height_over(total) {
-                room = [Heights { start: 0.0, nodes: [0.0; STAGES] }; MOST_PIECES];
-                Some(heights::of_pieces(&height, &nodes.table, &mut room[..pieces]))
-            } else {
-                None
-            };
-            let shorter = self.broken(&nodes.parts, positions, total);
-            let shorter = match self.at_corner(heights.unwrap_or_default(), total) {
-                AtCorner::Apart => shorter,
-                AtCorner::Ends(at) => Some(shorter.map_or(at, |shorter| shorter.min(at))),
+            let mut room = pieces::ROOM_FOR_NODES;
+            let heights = self.heights_over(total, &nodes.table, &mut room);
+            let shorter = match self.at_corner(heights, total) {
+                AtCorner::Apart => {
+                    let displacement = self.taylor.chain.displacement().over(total);
+                    let mut room = pieces::ROOM_FOR_NODES;
+                    let positions = nodes.table.sums(&displacement, &mut room);
+                    let Some(shorter) = self.broken(&nodes.parts, positions, total) else {
+                        self.accept_series(positions, heights, total);
+                        self.remember_series(&displacement, plan.fastest, total);
+                        return Made::Step;
+                    };
+                    shorter
+                }
+                AtCorner::Ends(at) => at,
                 AtCorner::OtherSide => return Made::OtherSide,
-            };
-            let Some(shorter) = shorter else {
-                self.accept_series(positions, heights, total);
-                self.remember_series(&scaled, plan.fastest, total);
-                return Made::Step;
             };
             pieces = ((pieces as f64 * shorter / length).ceil() as usize).clamp(1, pieces);
             length = shorter;
@@ -177,7 +172,7 @@ impl<M: Memory> Integrator<'_, M> {
 
     /// A shorter length for a step that leaves the stretch, or retreats too far.
     fn broken(&self, parts: &[f64], positions: &[f64], total: f64) -> Option<f64> {
-        let displacement = self.taylor.chain.displacement();
+        let displacement = self.taylor.chain.displacement().coefficients();
         let value = |part: f64| pieces::value(displacement, part * total);
         if let Some(part) = self.leaves(parts, positions, value) {
             return Some(part * total);
@@ -194,7 +189,7 @@ impl<M: Memory> Integrator<'_, M> {
         None
     }
 
-    fn accept_series(&mut self, positions: &[f64], heights: Option<&[Heights]>, total: f64) {
+    fn accept_series(&mut self, positions: &[f64], heights: Option<Along>, total: f64) {
         let support = self.support.velocity(self.t);
         let (mut t, mut extension, mut before) = (self.t, self.extension, 0.0);
         let (pieces, _) = positions.as_chunks::<STAGES>();
@@ -204,7 +199,7 @@ impl<M: Memory> Integrator<'_, M> {
             // Ends are representable times.
             let end = if i + 1 < pieces.len() { self.t + part * total } else { self.t + total };
             let displacement = positions.map(|position| position - before);
-            let height = heights.map(|heights| heights[i]);
+            let height = heights.map(|heights| heights.piece(i));
             let step = Step { t, h: end - t, extension, displacement, height };
             self.taylor.pieces.push(step);
             if i + 1 == pieces.len()
@@ -220,14 +215,13 @@ impl<M: Memory> Integrator<'_, M> {
     }
 
     /// Tells the memory of the whole step.
-    fn remember_series(&mut self, scaled: &Scaled, fastest: f64, total: f64) {
-        self.velocity = scaled.slope_at_end() / total;
+    fn remember_series(&mut self, displacement: &Series, fastest: f64, total: f64) {
+        self.velocity = displacement.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
         let rule = self.taylor.visits.rule(fastest * total).unwrap_or_else(visits::last);
-        let (mut positions, mut weights) = ([0.0; visits::MOST_NODES], [0.0; visits::MOST_NODES]);
-        let count = rule.nodes.len();
-        let (positions, weights) = (&mut positions[..count], &mut weights[..count]);
-        rule.table.sums(scaled, positions);
+        let (mut room, mut weights) = (visits::ROOM, [0.0; visits::MOST_NODES]);
+        let positions = rule.table.sums(displacement, &mut room);
+        let weights = &mut weights[..positions.len()];
         for (weight, (node, spent)) in weights.iter_mut().zip(rule.nodes.iter().zip(&rule.weights))
         {
             *weight = spent * total * self.model.wider().left_after((1.0 - node) * total);

@@ -1,7 +1,7 @@
 //! A long polynomial as steps: each of them its interpolant of degree s on a piece.
 
 use super::length;
-use super::values::{Outlook, Table};
+use super::values::{BLOCK, Block, Table};
 use crate::collocation::{RADAU, STAGES};
 use crate::history::{Heights, Step};
 use crate::state::{Damaged, Reader, State};
@@ -9,7 +9,9 @@ use std::sync::LazyLock;
 
 /// Of one series at most.
 pub(super) const MOST_PIECES: usize = 8;
-pub(super) const NODES: usize = MOST_PIECES * STAGES;
+/// For values at the nodes of all of them.
+pub(super) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =
+    [[0.0; BLOCK]; (MOST_PIECES * STAGES).div_ceil(BLOCK)];
 
 /// Steps made: those before `next` have been handed out, those up to `end` are yet to be.
 #[derive(Debug, Clone)]
@@ -110,9 +112,10 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
     (first, second)
 }
 
-/// The longest part of a step that may be a piece, for interpolation to err by at most `error`.
-pub(super) fn longest(outlook: &Outlook, error: f64) -> f64 {
-    let size = RADAU.interpolation_bound(outlook.steepest, 1.0);
+/// The longest part of a step that may be a piece, for interpolation to err by at most `error`, where the step has a
+/// divided difference as steep as this.
+pub(super) fn longest(steepest: f64, error: f64) -> f64 {
+    let size = RADAU.interpolation_bound(steepest, 1.0);
     length::root(error, size, STAGES + 1)
 }
 
@@ -146,19 +149,24 @@ pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::values::Scaled;
+    use super::super::series::Series;
+    use super::super::values::Outlook;
     use super::*;
 
     /// 1/(1 + t) - 1, about 0: a pole at the distance 1.
-    fn coefficients() -> Vec<f64> {
-        (0..=20).map(|k| if k == 0 { 0.0 } else { (-1.0_f64).powi(k) }).collect()
+    fn coefficients() -> [f64; 21] {
+        std::array::from_fn(|k| if k == 0 { 0.0 } else { (-1.0_f64).powi(k as i32) })
+    }
+
+    fn series() -> Series {
+        Series::of(&coefficients())
     }
 
     #[test]
     fn pieces_as_long_as_said_interpolate_as_well_as_asked() {
         let (length, error) = (0.4, 1e-9);
-        let outlook = Outlook::of(&Scaled::new(&coefficients(), length));
-        let piece = length * longest(&outlook, error);
+        let outlook = Outlook::of(&series().over(length));
+        let piece = length * longest(outlook.steepest, error);
         let worst = |h: f64| {
             let nodes = RADAU.c.map(|c| value(&coefficients(), c * h));
             let miss = |i: i32| {
@@ -174,8 +182,9 @@ mod tests {
     #[test]
     fn nodes_of_pieces_are_those_of_each() {
         let (length, pieces) = (0.3, 3);
-        let mut found = [0.0; 3 * STAGES];
-        nodes(pieces).table.sums(&Scaled::new(&coefficients(), length), &mut found);
+        let mut room = ROOM_FOR_NODES;
+        let found = nodes(pieces).table.sums(&series().over(length), &mut room);
+        assert_eq!(found.len(), pieces * STAGES);
         for (i, found) in found.iter().enumerate() {
             let from = (i / STAGES) as f64 * length / 3.0;
             let t = from + RADAU.c[i % STAGES] * length / 3.0;

@@ -1,9 +1,9 @@
 //! How long a step by series is to be.
 
 use super::super::Integrator;
-use super::chain::MOST_ORDER;
 use super::pieces::{self, MOST_PIECES};
-use super::values::{Outlook, Scaled};
+use super::series::MOST_ORDER;
+use super::values::Outlook;
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
 use crate::memory::Memory;
 use crate::step;
@@ -12,9 +12,6 @@ use crate::step;
 pub(super) struct Plan {
     pub(super) length: f64,
     pub(super) pieces: usize,
-    /// The displacement over the length `over`.
-    pub(super) scaled: Scaled,
-    pub(super) over: f64,
     /// Displacement per time at its fastest, about.
     pub(super) fastest: f64,
 }
@@ -29,7 +26,8 @@ const FARTHEST: f64 = 3.0;
 impl<M: Memory> Integrator<'_, M> {
     /// How long a step, in how many pieces; `None` where collocation gets farther.
     pub(super) fn plan(&mut self, end: f64) -> Option<Plan> {
-        let displacement = self.taylor.chain.displacement();
+        let series = self.taylor.chain.displacement();
+        let displacement = series.coefficients();
         let error = SHARE_OF_SERIES * self.control.target();
         let mut over = length::length(displacement, error).min(self.force.longest_step(self.t));
         if let Some(mass) = self.model.wider().inertia {
@@ -42,21 +40,19 @@ impl<M: Memory> Integrator<'_, M> {
         over = over.min(self.length_by_heights(error));
         let limited = self.reach_of_piece();
         let longest = (FARTHEST * limited).min(self.taylor.visits.farthest());
-        let mut scaled = Scaled::new(displacement, over);
-        let mut outlook = Outlook::of(&scaled);
+        let mut outlook = Outlook::of(&series.over(over));
         for _ in 0..MOST_SHORTENINGS {
             let moved = outlook.moved.abs();
             if moved <= longest {
                 break;
             }
-            let part = (0.9 * longest / moved).max(0.3);
-            (over, scaled) = (part * over, scaled.over(part));
-            outlook = Outlook::of(&scaled);
+            over *= (0.9 * longest / moved).max(0.3);
+            outlook = Outlook::of(&series.over(over));
         }
         let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
-        let piece = pieces::longest(&outlook, error);
-        let piece = piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
-        let piece = over * piece.min(self.piece_by_heights(over, error));
+        let steepest = outlook.steepest.max(self.steepness_of_heights(over));
+        let piece = pieces::longest(steepest, error);
+        let piece = over * piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
         let length = over.min(MOST_PIECES as f64 * piece);
         let fastest = outlook.fastest / over;
         let fades = self.fastest(-self.taylor.chain.curvature());
@@ -76,7 +72,7 @@ impl<M: Memory> Integrator<'_, M> {
         };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
-        Some(Plan { length, pieces, scaled, over, fastest })
+        Some(Plan { length, pieces, fastest })
     }
 
     /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.

@@ -1,79 +1,19 @@
 //! A series at fixed parts of a step: a table of powers times its coefficients, side by side, where Horner's rule would
 //! wait for each product.
 
-use super::chain::MOST_ORDER;
+use super::series::{MOST_ORDER, Series};
 use crate::collocation::STAGES;
 use multiversion::multiversion;
 use std::sync::LazyLock;
 
 /// Points that are summed side by side.
 pub(super) const BLOCK: usize = 8;
-type Block = [f64; BLOCK];
-const LANES: usize = 4;
-/// Coefficients, with room to fill the lanes.
-const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
-
-/// k
-const ORDERS: [f64; WIDTH] = {
-    let mut orders = [0.0; WIDTH];
-    let mut k = 0;
-    while k < WIDTH {
-        orders[k] = k as f64;
-        k += 1;
-    }
-    orders
-};
-
-/// Coefficients of powers of the part of a step: `c_k h^k`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scaled {
-    order: usize,
-    coefficients: [f64; WIDTH],
-}
-
-impl Scaled {
-    /// Of powers of time, over a step of this length.
-    pub(super) fn new(coefficients: &[f64], length: f64) -> Self {
-        let mut scaled = Self { order: coefficients.len() - 1, coefficients: [0.0; WIDTH] };
-        scaled.coefficients[..coefficients.len()].copy_from_slice(coefficients);
-        scaled.over(length)
-    }
-
-    /// Where the step starts.
-    pub(super) fn start(&self) -> f64 {
-        self.coefficients[0]
-    }
-
-    /// The derivative at the end of the step, per step.
-    pub(super) fn slope_at_end(&self) -> f64 {
-        let mut sums = [0.0; LANES];
-        let groups = self.coefficients.as_chunks::<LANES>().0.iter();
-        for (coefficients, orders) in groups.zip(ORDERS.as_chunks::<LANES>().0) {
-            for i in 0..LANES {
-                sums[i] += orders[i] * coefficients[i];
-            }
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
-    }
-
-    /// Over this part of the step, or beyond.
-    pub(super) fn over(mut self, part: f64) -> Self {
-        let square = part * part;
-        let mut power = [1.0, part, square, square * part];
-        let fourth = square * square;
-        for group in self.coefficients.as_chunks_mut::<LANES>().0 {
-            for i in 0..LANES {
-                group[i] *= power[i];
-                power[i] *= fourth;
-            }
-        }
-        self
-    }
-}
+pub(super) type Block = [f64; BLOCK];
 
 /// What each coefficient counts for in sums, `BLOCK` of them side by side.
 #[derive(Debug, Clone)]
 pub(super) struct Table {
+    sums: usize,
     blocks: Vec<[Block; MOST_ORDER + 1]>,
 }
 
@@ -83,7 +23,7 @@ impl Table {
         let entry = |n: usize, k: usize| if n < sums { of(n, k) } else { 0.0 };
         let row = |b: usize, k: usize| std::array::from_fn(|i| entry(b * BLOCK + i, k));
         let block = |b: usize| std::array::from_fn(|k| row(b, k));
-        Self { blocks: (0..sums.div_ceil(BLOCK)).map(block).collect() }
+        Self { sums, blocks: (0..sums.div_ceil(BLOCK)).map(block).collect() }
     }
 
     /// Values of the polynomial at these parts of the step.
@@ -91,34 +31,33 @@ impl Table {
         Self::new(parts.len(), |n, k| parts[n].powi(k as i32))
     }
 
-    /// The sums, as many as there is room for.
-    pub(super) fn sums(&self, scaled: &Scaled, sums: &mut [f64]) {
-        let rows = scaled.order + 1;
-        for (block, sums) in self.blocks.iter().zip(sums.chunks_mut(BLOCK)) {
-            let found = block_of_sums(&block[..rows], &scaled.coefficients[..rows]);
-            sums.copy_from_slice(&found[..sums.len()]);
-        }
+    /// The sums, in this room.
+    pub(super) fn sums<'a>(&self, series: &Series, room: &'a mut [Block]) -> &'a mut [f64] {
+        sums(&self.blocks, series, room);
+        &mut room.as_flattened_mut()[..self.sums]
     }
 }
 
 /// Even and odd rows in sums of their own: in this order on every machine.
 #[multiversion(targets("x86_64+avx2"))]
-fn block_of_sums(rows: &[Block], coefficients: &[f64]) -> Block {
-    let (mut even, mut odd) = ([0.0; BLOCK], [0.0; BLOCK]);
-    let (rows, last) = rows.as_chunks::<2>();
-    let (pairs, rest) = coefficients.as_chunks::<2>();
-    for ([first, second], [a, b]) in rows.iter().zip(pairs) {
-        for i in 0..BLOCK {
-            even[i] += a * first[i];
-            odd[i] += b * second[i];
+fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block]) {
+    let (pairs, rest) = series.coefficients().as_chunks::<2>();
+    for (block, sums) in blocks.iter().zip(room) {
+        let (mut even, mut odd) = ([0.0; BLOCK], [0.0; BLOCK]);
+        let (rows, _) = block.as_chunks::<2>();
+        for ([first, second], [a, b]) in rows.iter().zip(pairs) {
+            for i in 0..BLOCK {
+                even[i] += a * first[i];
+                odd[i] += b * second[i];
+            }
         }
-    }
-    for (row, coefficient) in last.iter().zip(rest) {
-        for i in 0..BLOCK {
-            even[i] += coefficient * row[i];
+        for (row, coefficient) in block[2 * pairs.len()..].iter().zip(rest) {
+            for i in 0..BLOCK {
+                even[i] += coefficient * row[i];
+            }
         }
+        *sums = std::array::from_fn(|i| even[i] + odd[i]);
     }
-    std::array::from_fn(|i| even[i] + odd[i])
 }
 
 /// What is asked of a series before it is made a step.
@@ -133,9 +72,9 @@ pub(super) struct Outlook {
 }
 
 impl Outlook {
-    pub(super) fn of(scaled: &Scaled) -> Self {
-        let mut sums = [0.0; BLOCK];
-        OUTLOOK.sums(scaled, &mut sums);
+    pub(super) fn of(series: &Series) -> Self {
+        let mut room = [[0.0; BLOCK]];
+        let sums = OUTLOOK.sums(series, &mut room);
         let largest = |sums: &[f64]| sums.iter().fold(0.0, |most: f64, sum| most.max(sum.abs()));
         let (fastest, steepest) = (largest(&sums[1..4]), largest(&sums[4..]));
         Self { moved: sums[0], fastest, steepest }
@@ -167,31 +106,32 @@ mod tests {
     use super::*;
 
     /// 1/(1 + t) - 1, and its derivatives, in closed form.
-    fn coefficients() -> Vec<f64> {
-        (0..=MOST_ORDER).map(|k| if k == 0 { 0.0 } else { (-1.0_f64).powi(k as i32) }).collect()
+    fn series() -> Series {
+        let minus_one = |k: usize| if k == 0 { 0.0 } else { (-1.0_f64).powi(k as i32) };
+        Series::of(&std::array::from_fn::<_, { MOST_ORDER + 1 }, _>(minus_one))
     }
 
     #[test]
     fn sums_are_values_of_the_polynomial() {
         let parts: Vec<f64> = (1..=11).map(|i| f64::from(i) / 11.0).collect();
         let (table, length) = (Table::of_parts(&parts), 0.2);
-        let scaled = Scaled::new(&coefficients(), 0.1).over(2.0);
-        let mut sums = [0.0; 11];
-        table.sums(&scaled, &mut sums);
+        let mut room = [[0.0; BLOCK]; 2];
+        let sums = table.sums(&series().over(0.1).over(2.0), &mut room);
+        assert_eq!(sums.len(), parts.len());
         for (part, sum) in parts.iter().zip(sums) {
             let exact = 1.0 / (1.0 + part * length) - 1.0;
-            assert!((sum - exact).abs() < 1e-14, "{part}: {sum} {exact}");
+            assert!((*sum - exact).abs() < 1e-14, "{part}: {sum} {exact}");
         }
     }
 
     #[test]
     fn an_outlook_is_that_of_the_function() {
         let length: f64 = 0.2;
-        let scaled = Scaled::new(&coefficients(), length);
-        let Outlook { moved, fastest, steepest } = Outlook::of(&scaled);
+        let series = series().over(length);
+        let Outlook { moved, fastest, steepest } = Outlook::of(&series);
         let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
         close(moved, 1.0 / (1.0 + length) - 1.0);
-        close(scaled.slope_at_end(), -length / (1.0 + length).powi(2));
+        close(series.slope_at_end(), -length / (1.0 + length).powi(2));
         close(fastest, length);
         // Derivatives of 1/(1 + t), at the start the largest.
         close(steepest, length.powi(7));

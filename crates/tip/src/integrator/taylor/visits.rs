@@ -1,6 +1,6 @@
 //! What a memory is told of a long step: where the tip was, and for how long.
 
-use super::values::Table;
+use super::values::{BLOCK, Block, Table};
 use crate::elementary::{cos, exp, ln};
 use crate::roots::zero_between;
 use std::sync::LazyLock;
@@ -17,6 +17,9 @@ pub(super) struct Rule {
 /// Numbers of nodes.
 const COUNTS: [usize; 9] = [6, 8, 10, 12, 14, 16, 18, 20, 24];
 pub(super) const MOST_NODES: usize = 24;
+/// For values at the nodes of any of them.
+pub(super) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
+    [[0.0; BLOCK]; MOST_NODES.div_ceil(BLOCK)];
 
 static RULES: LazyLock<[Rule; COUNTS.len()]> = LazyLock::new(|| COUNTS.map(Rule::new));
 

@@ -106,13 +106,13 @@ impl Corner {
 
     /// The step of length h from t has been accepted.
     pub(super) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
-        let rate = RADAU.slope(&heights.rise(), 1.0);
         self.height = heights.nodes[STAGES - 1];
         let slack = self.slack(heights, (t, h));
         // A height that stays where it is, as in steady motion, goes to no side: its rate is round-off.
-        self.turned = self.height.abs() <= slack && rate.abs() > slack;
-        let towards = if self.turned { rate } else { self.height };
-        self.side = if towards > 0.0 { 1.0 } else { -1.0 };
+        let rate = (self.height.abs() <= slack).then(|| RADAU.slope(&heights.rise(), 1.0));
+        let turns = rate.filter(|rate| rate.abs() > slack);
+        self.turned = turns.is_some();
+        self.side = if turns.unwrap_or(self.height) > 0.0 { 1.0 } else { -1.0 };
     }
 }
 

@@ -242,17 +242,18 @@ impl Chain {
         let newest = rate * (k + 1) as f64 * depth;
         self.height.set(k + 1, -depth);
         // What is not yet known counts as 0.
-        let known = self.rate.as_chunks::<LANES>().0[..k.div_ceil(LANES)].iter();
+        let count = k.div_ceil(LANES);
+        let known = self.rate.as_chunks::<LANES>().0[..count].iter();
         let weights = self.weight[MOST_ORDER - 1 - k..].as_chunks::<LANES>().0;
         let mut sums = [0.0; LANES];
-        for (rates, weights) in known.zip(weights) {
+        for (rates, weights) in known.zip(&weights[..count]) {
             for i in 0..LANES {
                 sums[i] += rates[i] * weights[i];
             }
         }
         self.rate[k] = newest;
         if k + 1 < MOST_ORDER {
-            let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+            let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
             let first = self.weight[MOST_ORDER - 1];
             let weight = INVERSE[k + 1] * (sum + newest * first);
             self.weight[MOST_ORDER - 2 - k] = weight;

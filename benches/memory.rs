@@ -7,7 +7,7 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use stickslip_tip::memory::{Groove, Memory, Policy};
+use stickslip_tip::memory::{Groove, Memory, Policy, Retreat};
 use stickslip_tip::{MemoryChoice, STAGES, TipFunction, nodes_and_weights};
 
 /// A memory with this many nodes within reach, spread over a fifth of a width about the tip.
@@ -44,7 +44,8 @@ fn timed(name: &str, tip: &TipFunction, nodes: usize, steps: u64) -> Duration {
             "modes" => MemoryChoice::Modes,
             _ => MemoryChoice::Direct,
         };
-        let mut memory = filled(Policy::new(choice, tip.clone(), 1e-10).expect("a fit"), nodes);
+        let mut memory =
+            filled(Policy::new(choice, tip.clone(), 1e-10, Retreat::Small).expect("a fit"), nodes);
         // The first look at a memory just filled pays for the cache, not for the method.
         a_step(&mut memory, 1.0);
         let batch = left.min(before_it_grows);

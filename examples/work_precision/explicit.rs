@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use differential_equations::prelude::*;
-use stickslip_tip::memory::{Fit, Term, accuracy_needed};
+use stickslip_tip::memory::{Fit, Retreat, Term, accuracy_needed};
 use stickslip_tip::{InitialSurface, MemoryChoice, Model};
 
 /// l at the ends of the steps.
@@ -14,7 +14,7 @@ pub(super) struct Solved {
 /// `None` where the method gives up.
 pub(super) fn solve(case: &Case, tolerance: f64) -> Option<Solved> {
     let model = case.model();
-    let fit = Fit::cached(model.tip(), accuracy_needed(&model, tolerance)).ok()?;
+    let fit = Fit::cached(model.tip(), accuracy_needed(&model, tolerance), Retreat::Small).ok()?;
     let terms = fit.terms();
     // The state has its size at compile time: fast, and enough sizes to waste little.
     match terms.len() {

@@ -2,7 +2,7 @@
 
 use super::{CycleError, lattice};
 use std::sync::Arc;
-use stickslip_tip::memory::{Fit, FitError, accuracy_needed};
+use stickslip_tip::memory::{Fit, FitError, Retreat, accuracy_needed};
 use stickslip_tip::step::Law;
 use stickslip_tip::{Model, TipFunction, Wider, tip_function};
 
@@ -88,7 +88,7 @@ impl Embedding {
             if far {
                 return lattice::reaching_back(&tip, needed, most);
             }
-            match Fit::cached(&tip, needed) {
+            match Fit::cached(&tip, needed, Retreat::Small) {
                 Err(FitError::NotMet { .. }) => lattice::fit(&tip, needed, most),
                 fit => fit,
             }
@@ -108,7 +108,8 @@ impl Embedding {
             Arc::clone(&short)
         };
         let nominal = tip.band();
-        let is_usual = Fit::cached(&tip, accuracy_needed(model, ACCURACY_OF_SHORT)).is_ok();
+        let is_usual =
+            Fit::cached(&tip, accuracy_needed(model, ACCURACY_OF_SHORT), Retreat::Small).is_ok();
         let band = if is_usual {
             nominal
         } else {

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::TipFunction;
 use stickslip_tip::exponential::exponentials;
-use stickslip_tip::memory::Fit;
+use stickslip_tip::memory::{Fit, Retreat};
 
 /// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f', where one is good enough,
 /// else visit by visit.
@@ -36,7 +36,8 @@ impl<'a> Ahead<'a> {
         let lasted: f64 = visits.iter().map(|(_, weight)| weight).sum();
         let nearest = visits.iter().fold(0.0, |m: f64, (x, _)| m.min(*x));
         let wanted = 10_f64.powf((allowed / lasted).log10().floor());
-        let fit = if wanted >= FINEST { Fit::cached(tip, wanted).ok() } else { None };
+        let fit =
+            if wanted >= FINEST { Fit::cached(tip, wanted, Retreat::Small).ok() } else { None };
         let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));
         Self { tip, reach, visits, sum }
     }

@@ -67,6 +67,12 @@ impl Wider {
         Ok(())
     }
 
+    /// Whether the tip swings back after a slip: from M = 1/2 on its spring alone makes it resonate.
+    #[must_use]
+    pub fn swings_back(&self) -> bool {
+        self.inertia.is_some_and(|mass| mass > 0.5)
+    }
+
     /// Whether a tip can be held for ever: a depth limit lets the groove deepen ever more slowly, healing lets it go.
     #[must_use]
     pub fn traps(&self) -> bool {

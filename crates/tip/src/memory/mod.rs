@@ -21,6 +21,6 @@ mod report;
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use derivatives::{Derivatives, ROOM, SteadyPast};
 pub use groove::{Groove, Memory, longest_look};
-pub use modes::{Fit, FitCertificate, FitError, Term, accuracy_needed, displacement};
+pub use modes::{Fit, FitCertificate, FitError, Retreat, Term, accuracy_needed, displacement};
 pub use policy::Policy;
 pub use report::{MemoryReport, Sum};

@@ -8,7 +8,7 @@ use super::derivatives::{Derivatives, SteadyPast};
 use super::direct;
 use super::fft::{Fft, Lattice};
 use super::groove::{Groove, Memory, range};
-use super::modes::{Fit, FitError, Modes};
+use super::modes::{Fit, FitError, Modes, Retreat};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
@@ -27,6 +27,7 @@ pub struct Policy {
     choice: MemoryChoice,
     /// Largest error of f' that modes may have.
     accuracy: f64,
+    back: Retreat,
     record: Option<Record>,
     now: Now,
     fading: Fading,
@@ -49,34 +50,38 @@ struct Retreats {
 }
 
 impl Policy {
-    /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`.
+    /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`, for a tip that comes
+    /// back so far.
     ///
     /// # Errors
     /// `modes` was asked for, and the footprint is one that they cannot represent so well.
-    pub fn new(choice: MemoryChoice, tip: TipFunction, accuracy: f64) -> Result<Self, FitError> {
+    pub fn new(
+        choice: MemoryChoice,
+        tip: TipFunction,
+        accuracy: f64,
+        back: Retreat,
+    ) -> Result<Self, FitError> {
         let nothing = || std::iter::empty();
         let (record, now) = match choice {
             MemoryChoice::Auto | MemoryChoice::Direct => (Some(Record::whole(&tip)), Now::Direct),
             MemoryChoice::Fft => with_fft(&tip, nothing(), None),
-            MemoryChoice::Modes => with_modes(&tip, Fit::cached(&tip, accuracy)?, nothing()),
+            MemoryChoice::Modes => with_modes(&tip, Fit::cached(&tip, accuracy, back)?, nothing()),
         };
-        Ok(Self { tip, choice, accuracy, record, now, fading: Fading::default(), measured: vec![] })
+        Ok(Self { accuracy, back, ..Self::of(choice, tip, (record, now)) })
     }
 
     /// The definition.
     #[must_use]
     pub fn direct(tip: TipFunction) -> Self {
         let record = Some(Record::whole(&tip));
-        let (choice, fading) = (MemoryChoice::Direct, Fading::default());
-        Self { tip, choice, accuracy: 0.0, record, now: Now::Direct, fading, measured: vec![] }
+        Self::of(MemoryChoice::Direct, tip, (record, Now::Direct))
     }
 
     /// The convolution.
     #[must_use]
     pub fn fft(tip: TipFunction) -> Self {
-        let (record, now) = with_fft(&tip, std::iter::empty(), None);
-        let (choice, fading) = (MemoryChoice::Fft, Fading::default());
-        Self { tip, choice, accuracy: 0.0, record, now, fading, measured: vec![] }
+        let sum = with_fft(&tip, std::iter::empty(), None);
+        Self::of(MemoryChoice::Fft, tip, sum)
     }
 
     /// The sum of these exponentials, however good it is.
@@ -86,9 +91,13 @@ impl Policy {
     pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
         tip.reach().ok_or(FitError::NeverFades)?;
         let accuracy = fit.wanted();
-        let (record, now) = with_modes(&tip, fit, std::iter::empty());
-        let (choice, fading) = (MemoryChoice::Modes, Fading::default());
-        Ok(Self { tip, choice, accuracy, record, now, fading, measured: vec![] })
+        let sum = with_modes(&tip, fit, std::iter::empty());
+        Ok(Self { accuracy, ..Self::of(MemoryChoice::Modes, tip, sum) })
+    }
+
+    fn of(choice: MemoryChoice, tip: TipFunction, (record, now): (Option<Record>, Now)) -> Self {
+        let (fading, measured) = (Fading::default(), vec![]);
+        Self { tip, choice, accuracy: 0.0, back: Retreat::Small, record, now, fading, measured }
     }
 
     /// Which sum is in use, and why.
@@ -150,7 +159,7 @@ impl Policy {
         &self,
         past: impl Iterator<Item = (f64, f64)>,
     ) -> Option<(Option<Record>, Now)> {
-        Some(match Fit::cached(&self.tip, self.accuracy) {
+        Some(match Fit::cached(&self.tip, self.accuracy, self.back) {
             Ok(fit) => with_modes(&self.tip, fit, past),
             Err(FitError::Stopped) => return None,
             Err(why) => with_fft(&self.tip, past, Some(why)),

@@ -1,7 +1,7 @@
 //! Everything that defines a run, and what no run can be made of.
 
 use crate::integrator::IntegrationError;
-use crate::memory::{FitError, MemoryChoice, Policy, accuracy_needed};
+use crate::memory::{FitError, MemoryChoice, Policy, Retreat, accuracy_needed};
 use crate::series::SeriesError;
 use crate::state::Damaged;
 use crate::support::PathError;
@@ -320,6 +320,8 @@ impl Scenario {
 
     pub(super) fn new_memory(&self) -> Result<Policy, RunError> {
         let accuracy = accuracy_needed(&self.model, self.tolerance);
-        Ok(Policy::new(self.memory, self.model.tip().clone(), accuracy)?)
+        let swings = self.model.wider().swings_back();
+        let back = if swings { Retreat::Swing } else { Retreat::Small };
+        Ok(Policy::new(self.memory, self.model.tip().clone(), accuracy, back)?)
     }
 }

@@ -5,7 +5,7 @@
 
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_tip::memory::{Groove, Memory, Policy};
+use stickslip_tip::memory::{Groove, Memory, Policy, Retreat};
 use stickslip_tip::{MemoryChoice, STAGES, TipFunction, nodes_and_weights};
 
 const CHOICES: [MemoryChoice; 4] =
@@ -30,7 +30,7 @@ fn footprints() -> Vec<TipFunction> {
 fn each(judge: impl Fn(&TipFunction, MemoryChoice, &mut Policy)) {
     for tip in footprints() {
         for choice in CHOICES {
-            let Ok(mut memory) = Policy::new(choice, tip.clone(), 1e-10) else {
+            let Ok(mut memory) = Policy::new(choice, tip.clone(), 1e-10, Retreat::Small) else {
                 assert_eq!((choice, &tip), (MemoryChoice::Modes, &TipFunction::Bessel));
                 continue;
             };
@@ -144,7 +144,7 @@ fn slices_may_be_of_any_length() {
     each(|tip, choice, memory| {
         let way: Vec<f64> = (1..=77).map(|i| 0.03 * f64::from(i)).collect();
         memory.remember(&way, &[0.1; 77]);
-        let mut other = Policy::new(choice, tip.clone(), 1e-10).unwrap();
+        let mut other = Policy::new(choice, tip.clone(), 1e-10, Retreat::Small).unwrap();
         way.iter().for_each(|_| other.remember(&[0.03], &[0.1]));
         memory.remember(&[], &[]);
         let together = told(memory, &AT);
@@ -166,7 +166,7 @@ fn slices_may_be_of_any_length() {
 #[test]
 fn asking_for_heights_changes_nothing_else() {
     each(|tip, choice, memory| {
-        let mut silent = Policy::new(choice, tip.clone(), 1e-10).unwrap();
+        let mut silent = Policy::new(choice, tip.clone(), 1e-10, Retreat::Small).unwrap();
         let (c, b) = nodes_and_weights();
         for n in 0..300 {
             let length = if n % 20 < 14 { 0.3 } else { -0.25 };

@@ -8,7 +8,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Sum, accuracy_needed};
+use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Retreat, Sum, accuracy_needed};
 use stickslip_tip::{
     Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Stages, Start,
     TipFunction, nodes_and_weights, run,
@@ -107,7 +107,7 @@ fn random_path(seed: u64, back: f64, steps: usize) -> Vec<([f64; STAGES], [f64; 
 }
 
 fn modes_of(tip: TipFunction, accuracy: f64) -> Result<Policy, FitError> {
-    Policy::new(MemoryChoice::Modes, tip, accuracy)
+    Policy::new(MemoryChoice::Modes, tip, accuracy, Retreat::Small)
 }
 
 /// What a memory tells about some points.

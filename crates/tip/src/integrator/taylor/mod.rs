@@ -67,7 +67,7 @@ impl Taylor {
             told: Derivatives::nothing(),
             chain: Chain::new(),
             pieces: Pieces::none(),
-            switch: Switch::default(),
+            switch: Switch::new(model.wider().inertia.is_some()),
             visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
         }
     }

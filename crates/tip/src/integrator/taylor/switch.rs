@@ -11,6 +11,8 @@ use crate::state::{Damaged, Reader, State};
 /// The way in use.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Switch {
+    /// What a step of collocation costs, over one by series.
+    cost: f64,
     collocation: bool,
     /// Steps of the way in use that are to be made before the other is tried.
     wait: u64,
@@ -20,8 +22,9 @@ pub(super) struct Switch {
     in_series: bool,
 }
 
-/// What a step of collocation costs, over one by series.
+/// What a step of collocation costs, over one by series; with inertia, where it takes more iterations.
 const COST: f64 = 4.0;
+const COST_WITH_INERTIA: f64 = 8.0;
 /// How far a series of order p gets where the groove is stiff: so many times p/K.
 const REACH: f64 = 0.25;
 /// Steps of collocation before it is judged: their lengths grow from one to the next.
@@ -29,14 +32,13 @@ const TRIAL: u64 = 8;
 /// Steps by series before the first trial, and at most between two.
 const PATIENCE: (u64, u64) = (8, 1 << 10);
 
-impl Default for Switch {
-    fn default() -> Self {
-        let (patience, _) = PATIENCE;
-        Self { collocation: false, wait: patience, patience, in_series: false }
-    }
-}
-
 impl Switch {
+    pub(super) fn new(has_inertia: bool) -> Self {
+        let cost = if has_inertia { COST_WITH_INERTIA } else { COST };
+        let (patience, _) = PATIENCE;
+        Self { cost, collocation: false, wait: patience, patience, in_series: false }
+    }
+
     /// Whether the next step is to be tried by series.
     pub(super) fn is_to_series(&self) -> bool {
         !self.collocation
@@ -45,7 +47,7 @@ impl Switch {
     /// Whether collocation is to take over from a series of this order, that is as long as accuracy allows and
     /// of this stiffness over its length; `most` is that over the longest step that collocation could make.
     pub(super) fn leaves(&mut self, stiffness: f64, most: f64, order: usize) -> bool {
-        if stiffness < REACH * order as f64 || !is_ahead(most, order) {
+        if stiffness < REACH * order as f64 || !self.is_ahead(most, order) {
             return false;
         }
         if self.wait > 0 {
@@ -67,13 +69,18 @@ impl Switch {
             return;
         }
         self.wait = self.wait.saturating_sub(1);
-        if is_ahead(stiffness, order) {
+        if self.is_ahead(stiffness, order) {
             self.patience = PATIENCE.0;
         } else if self.wait == 0 {
             self.collocation = false;
             self.wait = self.patience;
             self.patience = (2 * self.patience).min(PATIENCE.1);
         }
+    }
+
+    /// Whether a step of collocation of this stiffness leads farther than the series that it costs.
+    fn is_ahead(&self, stiffness: f64, order: usize) -> bool {
+        stiffness > self.cost * REACH * order as f64
     }
 
     /// Whether the way changes from series to collocation just now.
@@ -95,11 +102,6 @@ impl Switch {
     }
 }
 
-/// Whether a step of collocation of this stiffness leads farther than the series that it costs.
-fn is_ahead(stiffness: f64, order: usize) -> bool {
-    stiffness > COST * REACH * order as f64
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,7 +111,7 @@ mod tests {
     /// A groove in which both ways get equally far, for ever: trials become rare.
     #[test]
     fn where_neither_way_is_ahead_trials_become_rare() {
-        let mut switch = Switch::default();
+        let mut switch = Switch::new(false);
         let (mut series, mut trials) = (0, 0);
         while series < 20_000 {
             if switch.leaves(8.0, 50.0, ORDER) {
@@ -125,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_stiff_groove_is_left_to_collocation_until_it_is_no_longer_stiff() {
-        let mut switch = Switch::default();
+        let mut switch = Switch::new(false);
         while !switch.leaves(7.0, 50.0, ORDER) {}
         for _ in 0..1000 {
             switch.made(50.0, ORDER);

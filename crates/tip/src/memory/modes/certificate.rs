@@ -5,7 +5,7 @@ use crate::elementary::{complex_exp, exp, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
 
-/// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ ≥ -δ.
+/// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ from minus the retreat on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitCertificate {
     /// Of f'(ξ): an error of the force per time spent within reach, over α.
@@ -23,7 +23,7 @@ const FARTHEST: f64 = 100.0;
 /// Powers `e^{s n h}` are formed by so many multiplications at most, then afresh.
 const BLOCK: usize = 32;
 
-/// On a grid from -δ to where the sum of moduli, `Σ|w_j| e^{Re s_j ξ}`, bounds the rest.
+/// On a grid from minus the retreat to where the sum of moduli, `Σ|w_j| e^{Re s_j ξ}`, bounds the rest.
 ///
 /// Between grid points the error is at most that at the nearest of them, plus half a spacing times the
 /// largest error of the derivative.

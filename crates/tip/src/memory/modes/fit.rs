@@ -4,18 +4,20 @@ use super::certificate::{FitCertificate, certify};
 use super::pencil::Pencil;
 use super::term::Term;
 use super::weights::weights;
-use crate::elementary::{complex_exp, cos, ln, norm};
+use super::window::{Retreat, Window, samples};
+use crate::elementary::{complex_exp, ln, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, with its certified error.
+/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from a little behind 0 on, with its certified error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     terms: Vec<Term>,
     retreat: f64,
+    between_steps: f64,
     wanted: f64,
     certificate: FitCertificate,
 }
@@ -72,22 +74,27 @@ const LEAST_ROUND_OFF: f64 = 2e-15;
 const FINER: usize = 2;
 /// The pencil is given up beyond this many terms (pairs count twice).
 const MOST_TERMS: usize = 40;
-/// The retreat allowed for, over the distance within which f falls about its apex.
-const RETREAT: f64 = 0.5;
 
 impl Fit {
     /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and the area of that
-    /// error at most 4 δ times that.
+    /// error at most that times two widths of a Gaussian.
     ///
     /// # Errors
     /// A footprint that never fades, or an accuracy out of reach.
     pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
+        Self::reaching_back(tip, wanted, Retreat::Small)
+    }
+
+    /// The same for a tip that comes back so far.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn reaching_back(tip: &TipFunction, wanted: f64, back: Retreat) -> Result<Self, FitError> {
         if *tip == TipFunction::Cosine {
             return Ok(Self::of_cosine(wanted));
         }
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
-        let retreat = retreat(tip, reach);
-        let window = Window { reach, retreat, largest: largest_slope(tip, (retreat, reach)) };
+        let window = Window::of(tip, reach, back);
         // f' itself is known no better.
         let roundings = f64::EPSILON * window.largest;
         if wanted < roundings {
@@ -103,7 +110,7 @@ impl Fit {
         let mut lattices = false;
         for period in PERIODS.into_iter().take_while(|_| !stop::is_asked()) {
             let Some(fit) = damped_fourier(tip, &window, period, wanted) else { continue };
-            if fit.meets() {
+            if fit.meets(&window) {
                 return Ok(fit);
             }
             reached = reached.min(fit.certificate.slope);
@@ -120,25 +127,28 @@ impl Fit {
     fn of_cosine(wanted: f64) -> Self {
         let terms = vec![Term { exponent: Complex::i(), weight: Complex::i() }];
         let certificate = FitCertificate { slope: 0.0, curvature: 0.0, area: 0.0 };
-        Self { terms, retreat: f64::INFINITY, wanted, certificate }
+        let everywhere = f64::INFINITY;
+        Self { terms, retreat: everywhere, between_steps: everywhere, wanted, certificate }
     }
 
-    /// As [`new`](Self::new), or a fit made before for the same footprint and accuracy.
+    /// As [`reaching_back`](Self::reaching_back), or a fit made before for the same.
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn cached(tip: &TipFunction, wanted: f64) -> Result<Arc<Self>, FitError> {
-        type Cache = Mutex<Vec<(TipFunction, f64, Result<Arc<Fit>, FitError>)>>;
+    pub fn cached(tip: &TipFunction, wanted: f64, back: Retreat) -> Result<Arc<Self>, FitError> {
+        type Known = (TipFunction, f64, Retreat, Result<Arc<Fit>, FitError>);
+        type Cache = Mutex<Vec<Known>>;
         static CACHE: Cache = Mutex::new(vec![]);
         const MOST: usize = 32;
         let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
         // A thread that panicked did not leave half an entry behind.
         let lock = || CACHE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let known = lock().iter().find(|(t, w, _)| same(*w, wanted) && t == tip).cloned();
+        let known =
+            lock().iter().find(|(t, w, b, _)| same(*w, wanted) && *b == back && t == tip).cloned();
         if let Some((.., fit)) = known {
             return fit;
         }
-        let fit = Self::new(tip, wanted).map(Arc::new);
+        let fit = Self::reaching_back(tip, wanted, back).map(Arc::new);
         if fit == Err(FitError::Stopped) {
             return fit;
         }
@@ -146,7 +156,7 @@ impl Fit {
         if cache.len() == MOST {
             drop(cache.remove(0));
         }
-        cache.push((tip.clone(), wanted, fit.clone()));
+        cache.push((tip.clone(), wanted, back, fit.clone()));
         fit
     }
 
@@ -156,7 +166,7 @@ impl Fit {
     /// A footprint that never fades, no terms, or terms that do not fade.
     pub fn from_terms(tip: &TipFunction, terms: Vec<Term>) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
-        Self::from_terms_within(tip, terms, retreat(tip, reach))
+        Self::of_terms(tip, terms, &Window::of(tip, reach, Retreat::Small))
     }
 
     /// The same, certified for a retreat of this length.
@@ -169,17 +179,22 @@ impl Fit {
         retreat: f64,
     ) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
+        let window = Window::of(tip, reach, Retreat::Small);
+        Self::of_terms(tip, terms, &window.reaching_back(retreat))
+    }
+
+    fn of_terms(tip: &TipFunction, terms: Vec<Term>, window: &Window) -> Result<Self, FitError> {
         let fades = |term: &Term| {
             term.exponent.re < 0.0 && term.exponent.is_finite() && term.weight.is_finite()
         };
         if terms.is_empty() || !terms.iter().all(fades) {
             return Err(FitError::Terms);
         }
-        let certificate = certify(tip, reach, retreat, &terms);
+        let fit = Self::certified(tip, window, terms);
         if stop::is_asked() {
             return Err(FitError::Stopped);
         }
-        Ok(Self { terms, retreat, wanted: certificate.slope, certificate })
+        Ok(Self { wanted: fit.certificate.slope, ..fit })
     }
 
     /// The terms.
@@ -194,10 +209,16 @@ impl Fit {
         self.wanted
     }
 
-    /// δ, how far behind the farthest point remembered the sum still holds.
+    /// How far behind the farthest point remembered the sum still holds.
     #[must_use]
     pub fn retreat(&self) -> f64 {
         self.retreat
+    }
+
+    /// How far behind it a step may begin, so that its looks stay within.
+    #[must_use]
+    pub fn retreat_between_steps(&self) -> f64 {
+        self.between_steps
     }
 
     /// Its largest errors.
@@ -215,20 +236,19 @@ impl Fit {
         })
     }
 
-    /// Whether f' is as near as wanted, and the error not all of one sign: its area, over two widths or four
-    /// δ, is no larger.
-    fn meets(&self) -> bool {
+    /// Whether f' is as near as wanted, and the error not all of one sign: its area over two widths is no larger.
+    fn meets(&self, window: &Window) -> bool {
         let wanted = self.wanted;
         let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(norm(t.weight)));
         self.certificate.slope <= wanted
-            && self.certificate.area <= 4.0 * self.retreat * wanted
+            && self.certificate.area <= window.area(wanted)
             && f64::EPSILON * largest <= (SHARE_OF_ROUND_OFF * wanted).max(LEAST_ROUND_OFF)
     }
 
     /// These exponents with the weights that least squares gives them.
     fn with_exponents(
         tip: &TipFunction,
-        &Window { reach, retreat, .. }: &Window,
+        window: &Window,
         exponents: &[Complex<f64>],
         samples: &[(f64, f64)],
         wanted: f64,
@@ -236,42 +256,14 @@ impl Fit {
         let weights = weights(exponents, samples)?;
         let term = |(s, w): (&Complex<f64>, Complex<f64>)| Term { exponent: *s, weight: w };
         let terms: Vec<Term> = exponents.iter().zip(weights).map(term).collect();
-        let certificate = certify(tip, reach, retreat, &terms);
-        Some(Self { terms, retreat, wanted, certificate })
+        Some(Self { wanted, ..Self::certified(tip, window, terms) })
     }
-}
 
-/// δ: half the width of a Gaussian, and in general of what f falls by at its apex.
-fn retreat(tip: &TipFunction, reach: f64) -> f64 {
-    let (f, curvature) = (tip.value(0.0), tip.slope_and_curvature(0.0).1);
-    let apex = (f / curvature).abs().sqrt();
-    let apex = if apex.is_finite() { apex.min(reach / 8.0) } else { 0.0 };
-    RETREAT * apex.max(tip.widths(1.0))
-}
-
-/// Where f' is to be fitted, from -δ to its reach.
-struct Window {
-    reach: f64,
-    retreat: f64,
-    /// max |f'|
-    largest: f64,
-}
-
-/// max |f'|, about.
-fn largest_slope(tip: &TipFunction, span: (f64, f64)) -> f64 {
-    let (count, _) = MORE_SAMPLES;
-    let samples = samples(tip, span, count);
-    samples.iter().map(|(_, slope)| slope.abs()).fold(0.0, f64::max)
-}
-
-/// (ξ, f'(ξ)) at n points from -δ to the end, denser towards -δ, where a fit is free to stray.
-fn samples(tip: &TipFunction, (retreat, end): (f64, f64), n: usize) -> Vec<(f64, f64)> {
-    let sample = |i: usize| {
-        let part = 1.0 - cos(FRAC_PI_2 * i as f64 / (n - 1) as f64);
-        let xi = (end + retreat) * part - retreat;
-        (xi, tip.slope(xi))
-    };
-    (0..n).map(sample).collect()
+    fn certified(tip: &TipFunction, window: &Window, terms: Vec<Term>) -> Self {
+        let Window { reach, retreat, between_steps, .. } = *window;
+        let certificate = certify(tip, reach, retreat, &terms);
+        Self { terms, retreat, between_steps, wanted: certificate.slope, certificate }
+    }
 }
 
 /// The pencil with ever more terms, until one meets the accuracy or no longer gains.
@@ -300,7 +292,7 @@ fn by_pencil(
         let Some(fit) = fit else { continue };
         let error = fit.certificate.slope;
         *reached = reached.min(error);
-        let (is_met, terms) = (fit.meets(), fit.terms.len());
+        let (is_met, terms) = (fit.meets(window), fit.terms.len());
         if is_met && error < best {
             met = Some(fit);
             first.get_or_insert(terms);

@@ -10,11 +10,13 @@ mod powers;
 mod prepared;
 mod term;
 mod weights;
+mod window;
 
 pub use accuracy::{accuracy_needed, displacement};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub use term::Term;
+pub use window::Retreat;
 
 use super::derivatives::{Derivatives, SteadyPast};
 use super::groove::{Groove, range};
@@ -26,11 +28,11 @@ use num_complex::Complex;
 use prepared::Prepared;
 use std::sync::Arc;
 
-/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -δ, the groove at `at` from the tip is
+/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is
 /// `Σ_j Re(w_j z_j e^{s_j at})`, and the state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` is all of the past: it fades as
 /// the tip moves on, and a step costs the same for ever.
 ///
-/// As exact as the [`Fit`], as long as the tip looks no farther back than δ behind the farthest point that
+/// As exact as the [`Fit`], as long as the tip looks no farther back than its retreat behind the farthest point that
 /// it has been to.
 pub(super) struct Modes {
     fit: Arc<Fit>,
@@ -44,8 +46,6 @@ pub(super) struct Modes {
 /// An expansion is made to hold a little beyond the stages that ask for it: Newton's next iteration asks
 /// nearby.
 const BEYOND_THE_STAGES: f64 = 1.05;
-/// A retreat by more than this fraction of δ, between steps, leaves too little for the looks of the next.
-const SHARE_OF_RETREAT: f64 = 0.5;
 
 impl Modes {
     /// Nothing remembered yet.
@@ -67,7 +67,7 @@ impl Modes {
 
     /// Whether the tip has retreated so far that the next step may look too far back.
     pub(super) fn retreated(&self) -> bool {
-        self.farthest > SHARE_OF_RETREAT * self.fit.retreat()
+        self.farthest > self.fit.retreat_between_steps()
     }
 
     /// Whether the tip stands at its farthest point.

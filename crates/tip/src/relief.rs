@@ -235,6 +235,9 @@ impl SteadyPast {
     }
 
     fn height(&self, x: f64) -> f64 {
+        if x - self.position >= self.reach {
+            return 0.0;
+        }
         -self.depth * self.tip.fading_tail(x - self.position, self.fading)
     }
 

@@ -1,6 +1,7 @@
 //! Which sum over the past is in use: the one place that decides between `direct`, `fft` and `modes`.
 
 mod fading;
+mod retreats;
 mod saved;
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
@@ -13,6 +14,7 @@ use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
 use fading::Fading;
+use retreats::Retreats;
 use std::sync::Arc;
 
 /// The memory of a run: one record of the past, and the sum over it that was chosen.
@@ -40,13 +42,6 @@ enum Now {
     Direct,
     Fft(Box<Fft>, Option<FitError>),
     Modes(Box<Modes>, Retreats),
-}
-
-/// How often the tip has retreated beyond what the modes hold for, and what tells the groove if it has.
-#[derive(Default)]
-struct Retreats {
-    fft: Option<Box<Fft>>,
-    count: u64,
 }
 
 impl Policy {
@@ -140,14 +135,16 @@ impl Policy {
                 }
             }
             Now::Modes(modes, retreats) if retreats.fft.is_some() => {
-                if modes.are_in_front() {
+                if modes.behind() <= 0.0 {
                     retreats.fft = None;
                     modes.sum_up(record.near(0.0, 0.0));
+                } else {
+                    retreats.goes_on(&self.tip, record, modes.behind());
                 }
             }
             Now::Modes(modes, retreats) => {
                 if modes.retreated() {
-                    retreats.begin(&self.tip, record);
+                    retreats.begin(&self.tip, record, modes.behind());
                 }
             }
             Now::Fft(..) => {}
@@ -249,13 +246,6 @@ impl Memory for Policy {
     }
 }
 
-impl Retreats {
-    fn begin(&mut self, tip: &TipFunction, record: &Record) {
-        self.fft = Some(Box::new(Fft::new(tip, record.all())));
-        self.count += 1;
-    }
-}
-
 /// Whether a direct sum costs more than the others.
 fn is_long(record: &Record) -> bool {
     record.nodes_within_reach() > CROSSOVER_NODES || record.steps() > CROSSOVER_STEPS
@@ -270,7 +260,7 @@ fn with_modes(
     let (mut modes, mut retreats) = (Box::new(Modes::new(fit)), Retreats::default());
     let record = Record::bounded(tip).with(past.inspect(|(position, _)| modes.reached(*position)));
     if modes.retreated() {
-        retreats.begin(tip, &record);
+        retreats.begin(tip, &record, modes.behind());
     } else {
         modes.sum_up(record.near(0.0, 0.0));
     }

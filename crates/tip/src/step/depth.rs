@@ -143,10 +143,10 @@ impl Depth {
         let height_by_displacement = self.height_slopes(equations, known, &indenting, &slopes);
         let height = Factors::of(own_by_height)?;
         let mut reduced = by_displacement;
-        for k in 0..STAGES {
-            let column = height.solve(&std::array::from_fn(|i| height_by_displacement[i][k]));
-            for (row, by) in reduced.iter_mut().zip(&displacement_by_height) {
-                row[k] -= by.iter().zip(&column).map(|(a, b)| a * b).sum::<f64>();
+        let eliminated = height.solve_columns(&height_by_displacement);
+        for (row, by) in reduced.iter_mut().zip(&displacement_by_height) {
+            for k in 0..STAGES {
+                row[k] -= (0..STAGES).map(|j| by[j] * eliminated[j][k]).sum::<f64>();
             }
         }
         let displacement = Factors::of(reduced)?;

@@ -1,6 +1,7 @@
 //! Elimination for the s×s systems of a step. They are solved once or twice a step, and so small that a
 //! general routine spends its time on bookkeeping.
 
+use super::own::Matrix;
 use crate::collocation::{STAGES, Stages};
 
 /// P J = L U with partial pivoting: L below the diagonal, U on and above it.
@@ -52,6 +53,28 @@ impl Factors {
         }
         x
     }
+
+    /// The same for all columns of a matrix, side by side.
+    pub(crate) fn solve_columns(&self, right: &Matrix) -> Matrix {
+        let mut x = self.order.map(|i| right[i]);
+        for i in 0..STAGES {
+            for j in 0..i {
+                x[i] = less(x[i], self.rows[i][j], x[j]);
+            }
+        }
+        for i in (0..STAGES).rev() {
+            for j in i + 1..STAGES {
+                x[i] = less(x[i], self.rows[i][j], x[j]);
+            }
+            x[i] = x[i].map(|x| x / self.rows[i][i]);
+        }
+        x
+    }
+}
+
+/// a - factor b
+fn less(a: Stages, factor: f64, b: Stages) -> Stages {
+    std::array::from_fn(|i| a[i] - factor * b[i])
 }
 
 #[cfg(test)]
@@ -69,9 +92,17 @@ mod tests {
             })
         });
         let wanted: Stages = std::array::from_fn(|i| i as f64 - 2.5);
-        let found = Factors::of(matrix).unwrap().solve(&apply(&matrix, &wanted));
+        let (factors, right) = (Factors::of(matrix).unwrap(), apply(&matrix, &wanted));
+        let found = factors.solve(&right);
         for (a, b) in found.iter().zip(wanted) {
             assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+        // Columns of which each is another multiple.
+        let columns =
+            factors.solve_columns(&right.map(|b| [b, 2.0 * b, -b, 0.5 * b, 4.0 * b, 0.0]));
+        for (row, x) in columns.iter().zip(found) {
+            let wanted = [x, 2.0 * x, -x, 0.5 * x, 4.0 * x, 0.0];
+            assert_eq!(row.map(f64::to_bits), wanted.map(f64::to_bits));
         }
     }
 

@@ -190,6 +190,20 @@ fn a_retreat_goes_over_to_fft_and_comes_back_without_a_trace() {
     }
 }
 
+/// The same path is too much for modes that expect a small retreat.
+#[test]
+fn modes_for_a_tip_that_swings_back_need_no_fft() {
+    let path = random_path(2, 0.3, 600);
+    for (back, stays) in [(Retreat::Small, false), (Retreat::Swing, true)] {
+        let mut modes = Policy::new(MemoryChoice::Modes, triple(), 1e-10, back).unwrap();
+        let error = difference(&mut modes, &mut Policy::direct(triple()), &path);
+        let note = modes.report().reason();
+        assert_eq!(stays, !note.contains("fft took over"), "{note}");
+        assert!(error.slope < 5e-9, "{back:?}: {error:?}");
+        assert!(error.height < 2e-8, "{back:?}: {error:?}");
+    }
+}
+
 /// More nodes than are kept as they are, then a retreat over all of them.
 #[test]
 fn a_long_past_is_there_when_the_tip_comes_back() {

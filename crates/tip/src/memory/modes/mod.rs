@@ -70,9 +70,9 @@ impl Modes {
         self.farthest > self.fit.retreat_between_steps()
     }
 
-    /// Whether the tip stands at its farthest point.
-    pub(super) fn are_in_front(&self) -> bool {
-        self.farthest <= 0.0
+    /// How far the tip is behind its farthest point.
+    pub(super) fn behind(&self) -> f64 {
+        self.farthest
     }
 
     /// The tip has been to this displacement.

@@ -20,7 +20,10 @@ impl Saved for Policy {
                 state.count(retreats.count);
                 state.flag(record.is_some_and(Record::missed));
                 state.flag(retreats.fft.is_some());
-                retreats.fft.iter().for_each(|fft| fft.save(None, state));
+                if let Some(fft) = &retreats.fft {
+                    fft.save(None, state);
+                    state.number(retreats.farthest_back);
+                }
             }
         }
     }
@@ -40,12 +43,16 @@ impl Saved for Policy {
             (Now::Modes(modes, retreats), Some(record)) => {
                 modes.restore(state)?;
                 record.restore(state)?;
-                *retreats = Retreats { count: state.count()?, fft: None };
+                *retreats = Retreats { count: state.count()?, ..Retreats::default() };
                 record.set_missed(state.flag()?);
                 if state.flag()? {
                     let mut fft = Fft::new(&self.tip, std::iter::empty());
                     fft.restore(state)?;
                     retreats.fft = Some(Box::new(fft));
+                    retreats.farthest_back = state.number()?;
+                    if retreats.farthest_back.is_nan() {
+                        return Err(Damaged::OutOfRange);
+                    }
                 }
             }
             (_, Some(record)) => record.restore(state)?,

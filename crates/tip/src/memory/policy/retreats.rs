@@ -1,0 +1,36 @@
+//! The tip farther behind its farthest point than the modes hold: the lattice takes over, from the record.
+
+use super::super::fft::Fft;
+use super::super::groove::longest_look;
+use super::super::record::Record;
+use crate::TipFunction;
+
+/// How often the tip has retreated beyond what the modes hold for, and what tells the groove while it has.
+#[derive(Default)]
+pub(super) struct Retreats {
+    pub(super) fft: Option<Box<Fft>>,
+    pub(super) count: u64,
+    /// The lattice has what may be seen from so far behind the farthest point.
+    pub(super) farthest_back: f64,
+}
+
+/// At first the lattice takes up what may be seen from so many reaches behind the tip: few retreats are longer.
+const NEAR: f64 = 4.0;
+
+impl Retreats {
+    /// The tip is so far behind its farthest point.
+    pub(super) fn begin(&mut self, tip: &TipFunction, record: &Record, back: f64) {
+        let near = NEAR * tip.reach().unwrap_or(f64::INFINITY);
+        self.fft = Some(Box::new(Fft::new(tip, record.near(-near, back))));
+        self.farthest_back = back + near - longest_look(tip);
+        self.count += 1;
+    }
+
+    /// Likewise, later on.
+    pub(super) fn goes_on(&mut self, tip: &TipFunction, record: &Record, back: f64) {
+        if back > self.farthest_back {
+            self.fft = Some(Box::new(Fft::new(tip, record.all())));
+            self.farthest_back = f64::INFINITY;
+        }
+    }
+}

@@ -5,7 +5,7 @@
 
 use crate::{case, timed};
 use serde_json::{Value, json};
-use stickslip_tip::memory::{Fit, accuracy_needed};
+use stickslip_tip::memory::{Fit, Retreat, accuracy_needed};
 use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, Trajectory, run};
 
 /// (name, α, kick)
@@ -48,7 +48,8 @@ pub(crate) fn document() -> Value {
     let fit = |digits: i32| {
         let model = scenario(MOTIONS[1], MemoryChoice::Modes, 1e-9).model;
         let accuracy = accuracy_needed(&model, 10.0_f64.powi(-digits));
-        let fit = Fit::cached(model.tip(), accuracy).expect("a footprint that modes fit");
+        let fit =
+            Fit::cached(model.tip(), accuracy, Retreat::Small).expect("a footprint that modes fit");
         let term = |t: &stickslip_tip::memory::Term| {
             [t.exponent.re, t.exponent.im, t.weight.re, t.weight.im]
         };

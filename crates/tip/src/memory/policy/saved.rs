@@ -50,9 +50,6 @@ impl Saved for Policy {
                     fft.restore(state)?;
                     retreats.fft = Some(Box::new(fft));
                     retreats.farthest_back = state.number()?;
-                    if retreats.farthest_back.is_nan() {
-                        return Err(Damaged::OutOfRange);
-                    }
                 }
             }
             (_, Some(record)) => record.restore(state)?,

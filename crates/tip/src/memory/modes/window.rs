@@ -9,13 +9,13 @@ use std::f64::consts::FRAC_PI_2;
 pub enum Retreat {
     /// By δ at most: where friction is all that holds it, it goes back only if it is pushed.
     Small,
-    /// By 3δ: with inertia it overshoots, and swings back after each slip. A term or two more.
+    /// By 2δ: with inertia it overshoots, and swings back after each slip. A term or two more.
     Swing,
 }
 
 /// δ over the distance within which f falls about its apex, and what a tip that swings back is allowed over that.
 const DELTA: f64 = 0.5;
-const SWING: f64 = 3.0;
+const SWING: f64 = 2.0;
 /// What a step begins with is to leave room for its looks: this part of δ.
 const LOOKS: f64 = 0.5;
 /// For the largest slope.

@@ -75,6 +75,9 @@ pub struct Integrator<'a, M> {
 /// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
 const ENOUGH: f64 = 0.01;
 
+/// An error of the velocity is so many times what a step errs by, over its length: it leads M times as far astray.
+const COASTING: f64 = 10.0;
+
 impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
     /// remembered but what `memory` brings along. With inertia it starts at the velocity r.
@@ -275,7 +278,9 @@ impl<'a, M: Memory> Integrator<'a, M> {
     fn signs_of_error(&self, displacement: &Stages, h: f64) -> (f64, f64) {
         let before =
             |last: Step| step::interpolation_error(displacement, h, (&last.displacement, last.h));
-        (step::defect(displacement, h, self.velocity), self.last.map_or(0.0, before))
+        let coasting = self.model.wider().inertia.map_or(1.0, |mass| 1.0 + COASTING * mass / h);
+        let defect = step::defect(displacement, h, self.velocity);
+        (coasting * defect, coasting * self.last.map_or(0.0, before))
     }
 
     fn accept(&mut self, h: f64, solution: &Solution, height: Option<Heights>) -> Step {

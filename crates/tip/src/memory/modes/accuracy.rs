@@ -6,6 +6,8 @@ use crate::elementary::{log10, pow};
 /// The error of x0 that the fit may bring about, over the tolerance of the run.
 /// Motions near onset amplify it a hundredfold, as they do the error of a step, of which they allow as much.
 const SHARE: f64 = 0.025;
+/// Of that for a tip that swings back: it turns where its groove does not hold it, and carves another.
+const SWINGING: f64 = 0.1;
 /// Errors of a fit change sign within about this distance, in widths of the apex: what a moving tip feels
 /// of them is that much at a time.
 const WIDTHS: f64 = 2.0;
@@ -17,8 +19,10 @@ const SPARE: f64 = 0.1;
 
 /// Heights are forgotten more slowly than slopes, by about this factor.
 const HEIGHTS: f64 = 4.0;
-/// Exponentials do not fit much better than this: heights alone do not ask for more.
+/// Exponentials do not fit much better than this: heights alone do not ask for more, nor, where they are to hold
+/// farther back, does a tip that swings.
 const FINEST: f64 = 2.5e-14;
+const FINEST_OF_SWINGING: f64 = 5e-14;
 
 /// The largest error ε of f' that moves the tip by a small part of the tolerance.
 ///
@@ -35,7 +39,10 @@ const FINEST: f64 = 2.5e-14;
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
     let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
-    let of_slope = SHARE * tolerance / displacement(model, 1.0);
+    let mut of_slope = SHARE * tolerance / displacement(model, 1.0);
+    if model.wider().swings_back() {
+        of_slope = of_slope.min(FINEST_OF_SWINGING.max(SWINGING * of_slope));
+    }
     let largest = of_slope.min(FINEST.max(of_height * of_slope)).min(CHEAP.max(SPARE * of_slope));
     pow(10.0, (4.0 * log10(largest)).floor() / 4.0)
 }

@@ -37,11 +37,11 @@ fn cases() -> Vec<(&'static str, Scenario)> {
         ("corner", case(wider(Some(5.0), None, None), (1.0, 1.3, 1.0), 100.0)),
         ("healing", case(wider(None, Some(10.0), None), (1.0, 1.5, 1.0), 100.0)),
         ("fast healing", case(wider(None, Some(1.5), None), (1.0, 4.0, 0.7), 100.0)),
-        ("inertia", case(wider(None, None, Some(0.5)), (1.0, 1.2, 1.0), 100.0)),
+        ("inertia", case(wider(None, None, Some(0.5)), (1.0, 1.2, 1.0), 70.0)),
         ("swinging back", case(wider(Some(10.0), None, Some(1.0)), (1.0, 2.0, 1.0), 40.0)),
         ("light", case(wider(None, None, Some(0.01)), (1.0, 1.2, 1.0), 100.0)),
         ("limit, healing", case(wider(Some(5.0), Some(20.0), None), (0.5, 3.0, 1.0), 100.0)),
-        ("all", case(wider(Some(4.0), Some(15.0), Some(0.3)), (1.0, 2.0, 1.0), 100.0)),
+        ("all", case(wider(Some(4.0), Some(15.0), Some(0.3)), (1.0, 2.0, 1.0), 70.0)),
         ("path", on_path),
     ]
 }

@@ -196,18 +196,23 @@ impl Record {
 
     /// Displacements from the tip, and weights, of all that is kept.
     pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        self.within(f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Of what lies between two displacements.
+    fn within(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
         let bins = match &self.kept {
-            Kept::Gathered(bins) => Some(bins.points()),
+            Kept::Gathered(bins) => Some(bins.points(self.position + low, self.position + high)),
             Kept::All(_) | Kept::OnLattice => None,
         };
         let gathered = bins.into_iter().flatten();
-        gathered.chain(self.nodes.iter().copied()).map(|(x, w)| (x - self.position, w))
+        let told = gathered.chain(self.nodes.iter().copied()).map(|(x, w)| (x - self.position, w));
+        told.filter(move |(x, _)| (low..=high).contains(x))
     }
 
     /// Of what may be seen from displacements in [low, high].
     pub(super) fn near(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
-        let seen = low - self.reach..=high + self.reach;
-        self.all().filter(move |(x, _)| seen.contains(x))
+        self.within(low - self.reach, high + self.reach)
     }
 
     /// The blocks of which any node may be seen from positions in [low, high], if all is kept.

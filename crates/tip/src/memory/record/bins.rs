@@ -4,6 +4,7 @@ use crate::TipFunction;
 use crate::elementary::{cos, exp2, log2};
 use std::collections::VecDeque;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 pub(super) const MOMENTS: usize = 16;
 pub(super) type Bin = [f64; MOMENTS];
@@ -145,10 +146,12 @@ impl Bins {
         self.moments.get_mut(usize::try_from(number - self.first).ok()?)
     }
 
-    /// Positions and weights that act as all that was gathered.
-    pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
-        self.moments.iter().enumerate().flat_map(move |(i, bin)| {
-            let start = (self.first + i as i64) as f64 * self.length;
+    /// Positions and weights that act as all that was gathered in bins of which a part lies in [low, high].
+    pub(super) fn points(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
+        let starts = (self.first..).map(|number| number as f64 * self.length);
+        let seen = move |start: f64| start + self.length >= low && start <= high;
+        let bins = starts.zip(&self.moments).filter(move |(start, _)| seen(*start));
+        bins.flat_map(move |(start, bin)| {
             points(bin).map(move |(y, w)| (start + 0.5 * (y + 1.0) * self.length, w))
         })
     }
@@ -172,14 +175,17 @@ fn add_polynomials(bin: &mut Bin, y: f64, weight: f64) {
 
 /// The weights on Chebyshev points that have the moments of the bin.
 fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
-    let n = MOMENTS as f64;
-    (0..MOMENTS).map(move |k| {
-        let angle = PI * (k as f64 + 0.5) / n;
-        let term = |(m, moment): (usize, &f64)| moment * cos(m as f64 * angle);
-        let sum: f64 = bin.iter().enumerate().map(term).sum();
-        (cos(angle), (2.0 * sum - bin[0]) / n)
+    COSINES.iter().map(move |cosines| {
+        let sum: f64 = bin.iter().zip(cosines).map(|(moment, cos)| moment * cos).sum();
+        (cosines[1], (2.0 * sum - bin[0]) / MOMENTS as f64)
     })
 }
+
+/// `T_m` at the Chebyshev points, a row for each of them.
+static COSINES: LazyLock<[Bin; MOMENTS]> = LazyLock::new(|| {
+    let angle = |k: usize| PI * (k as f64 + 0.5) / MOMENTS as f64;
+    std::array::from_fn(|k| std::array::from_fn(|m| cos(m as f64 * angle(k))))
+});
 
 #[cfg(test)]
 mod tests {

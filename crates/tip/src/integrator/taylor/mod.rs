@@ -222,12 +222,10 @@ impl<M: Memory> Integrator<'_, M> {
         let (mut room, mut weights) = (visits::ROOM, [0.0; visits::MOST_NODES]);
         let positions = rule.table.sums(displacement, &mut room);
         let weights = &mut weights[..positions.len()];
-        for (weight, (node, spent)) in weights.iter_mut().zip(rule.nodes.iter().zip(&rule.weights))
-        {
-            *weight = spent * total * self.model.wider().left_after((1.0 - node) * total);
-        }
+        weights.iter_mut().zip(&rule.weights).for_each(|(weight, spent)| *weight = spent * total);
         self.weigh(&rule.table, total, weights);
         if let Some(time) = self.model.wider().healing_time {
+            visits::fade(&rule.nodes, total / time, weights);
             self.memory.fade(exp(-total / time));
         }
         self.memory.remember(positions, weights);

@@ -1,8 +1,9 @@
 //! What a memory is told of a long step: where the tip was, and for how long.
 
 use super::values::{BLOCK, Block, Table};
-use crate::elementary::{cos, exp, ln};
+use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
 use crate::roots::zero_between;
+use multiversion::multiversion;
 use std::sync::LazyLock;
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
@@ -69,6 +70,23 @@ impl Visits {
 /// The rule of most nodes.
 pub(super) fn last() -> &'static Rule {
     &RULES[COUNTS.len() - 1]
+}
+
+/// What is left of these weights at the end of a step, of so many healing times.
+pub(super) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
+    if times <= LARGEST {
+        fade_side_by_side(nodes, times, weights);
+    } else {
+        let faded = weights.iter_mut().zip(nodes);
+        faded.for_each(|(weight, node)| *weight *= exp((node - 1.0) * times));
+    }
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn fade_side_by_side(nodes: &[f64], times: f64, weights: &mut [f64]) {
+    for (weight, node) in weights.iter_mut().zip(nodes) {
+        *weight *= exp_within((node - 1.0) * times);
+    }
 }
 
 fn log_factorial(n: usize) -> f64 {

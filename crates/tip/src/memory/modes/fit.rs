@@ -96,7 +96,8 @@ impl Fit {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         let window = Window::of(tip, reach, back);
         // f' itself is known no better.
-        let roundings = f64::EPSILON * window.largest;
+        let largest = window.largest_slope(tip);
+        let roundings = f64::EPSILON * largest;
         if wanted < roundings {
             return Err(FitError::NotMet { wanted, reached: roundings });
         }
@@ -109,7 +110,9 @@ impl Fit {
         }
         let mut lattices = false;
         for period in PERIODS.into_iter().take_while(|_| !stop::is_asked()) {
-            let Some(fit) = damped_fourier(tip, &window, period, wanted) else { continue };
+            let Some(fit) = damped_fourier(tip, (&window, largest), period, wanted) else {
+                continue;
+            };
             if fit.meets(&window) {
                 return Ok(fit);
             }
@@ -310,11 +313,16 @@ fn by_pencil(
 }
 
 /// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
-/// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`.
-fn damped_fourier(tip: &TipFunction, window: &Window, period: f64, wanted: f64) -> Option<Fit> {
+/// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`. `largest` is max |f'|.
+fn damped_fourier(
+    tip: &TipFunction,
+    (window, largest): (&Window, f64),
+    period: f64,
+    wanted: f64,
+) -> Option<Fit> {
     let Window { reach, retreat, .. } = *window;
     let period = period * (reach + retreat);
-    let share = SHARE_OF_LATTICE * wanted / window.largest.max(1.0);
+    let share = SHARE_OF_LATTICE * wanted / largest.max(1.0);
     let digits = -ln(share.clamp(f64::EPSILON * f64::EPSILON, SHARE_OF_LATTICE));
     let (rate, lattice) = (-digits / period, TAU / period);
     let pairs = waves(tip, lattice, SHARE_OF_LATTICE * wanted);

@@ -28,8 +28,6 @@ pub(super) struct Window {
     pub(super) retreat: f64,
     /// The retreat that a step may begin with.
     pub(super) between_steps: f64,
-    /// max |f'|, about.
-    pub(super) largest: f64,
     delta: f64,
 }
 
@@ -37,9 +35,13 @@ impl Window {
     pub(super) fn of(tip: &TipFunction, reach: f64, back: Retreat) -> Self {
         let delta = delta(tip, reach);
         let retreat = if back == Retreat::Swing { SWING * delta } else { delta };
-        let slopes = samples(tip, (retreat, reach), SAMPLES).into_iter().map(|(_, slope)| slope);
-        let largest = slopes.fold(0.0, |largest: f64, slope| largest.max(slope.abs()));
-        Self { reach, retreat, between_steps: retreat - LOOKS * delta, largest, delta }
+        Self { reach, retreat, between_steps: retreat - LOOKS * delta, delta }
+    }
+
+    /// max |f'|, about.
+    pub(super) fn largest_slope(&self, tip: &TipFunction) -> f64 {
+        let samples = samples(tip, (self.retreat, self.reach), SAMPLES);
+        samples.iter().map(|(_, slope)| slope.abs()).fold(0.0, f64::max)
     }
 
     /// With this retreat instead.

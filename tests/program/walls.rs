@@ -1,13 +1,9 @@
-//! Do the walls stand? No two files of a crate import each other, by whatever way round, none is longer than a
-//! few screens, and what is to be used without files and arguments does not know of them. Judged by the sources
-//! and manifests themselves.
+//! The structure of the sources: no two files of a crate import each other in a circle, and crates that are used without
+//! files and arguments do not know of them. Judged by the sources and manifests themselves.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Lines of a file with its tests.
-const LONGEST: usize = 350;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -235,18 +231,6 @@ fn documents_and_figures_know_neither_arguments_nor_files() {
         for word in ["clap", "tempfile", "std::fs", "std::env", "std::process", "std::net"] {
             assert!(!all.contains(word), "{name} knows {word}");
         }
-    }
-}
-
-#[test]
-fn no_file_is_too_long_to_be_one_idea() {
-    let mut files = vec![];
-    for folder in ["crates", "tests", "benches", "examples", "peers"] {
-        sources(&root().join(folder), &mut files);
-    }
-    for file in files {
-        let lines = fs::read_to_string(&file).unwrap().lines().count();
-        assert!(lines <= LONGEST, "{}: {lines} lines", file.display());
     }
 }
 

@@ -1,19 +1,10 @@
 //! Why a command failed, and the exit status that says so.
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 use std::io;
 use thiserror::Error;
 
-/// A number in a message, as one would type it: `1e300` rather than three hundred digits.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Typed(pub(crate) f64);
-
-impl Display for Typed {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (digits, exponent) = (self.0.to_string(), format!("{:e}", self.0));
-        out.write_str(if digits.len() > exponent.len() + 4 { &exponent } else { &digits })
-    }
-}
+pub(crate) use stickslip_documents::Typed;
 
 /// A command that did not end as asked.
 #[derive(Debug, Error)]

@@ -15,6 +15,7 @@ mod examples;
 mod grids_converge;
 mod memories_agree;
 mod properties;
+mod questions;
 mod raster_documents;
 mod rasters_on_grids;
 mod regimes;

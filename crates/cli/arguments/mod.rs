@@ -40,7 +40,7 @@ pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use fit::FitArguments;
 pub(crate) use in_units::InUnitsArguments;
 pub(crate) use interval::Interval;
-pub(crate) use model::{ModelArguments, TipArguments, TipName, WiderArguments};
+pub(crate) use model::{ModelArguments, TipArguments, WiderArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use range::Range;

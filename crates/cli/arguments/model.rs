@@ -1,25 +1,15 @@
 //! Tip, r and α: the options of every command that needs a model, or only a tip.
 
-use clap::{Args, ValueEnum};
+use super::named::named;
+use clap::Args;
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TipName {
-    /// (48): a Gaussian with side lobes of weight -beta/2 at ±2 widths.
-    TripleGaussian,
-    /// exp(-x²/(2 W²)).
-    Gaussian,
-    /// The Bessel function J0(x).
-    Bessel,
-    /// cos x, for tips without a spring or on a surface that heals.
-    Cosine,
-}
+use stickslip_documents::TipName;
 
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct TipArguments {
     /// Footprint f(x) of the tip [default: triple-gaussian].
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = named::<TipName>(), value_name = "NAME")]
     pub(crate) tip: Option<TipName>,
 
     /// Side lobes of the triple Gaussian; 1 keeps the volume [default: 1].

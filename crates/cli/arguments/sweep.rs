@@ -1,13 +1,15 @@
 //! `stickslip sweep`.
 
 use super::examples::examples;
+use super::named::named;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
 use super::shard::Shard;
 use super::sweep_start::SweepRunArguments;
-use super::{InUnitsArguments, OutletArguments, TipName};
+use super::{InUnitsArguments, OutletArguments};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+use stickslip_documents::TipName;
 
 /// What the tip settles into, over a grid of α, r and any other number of the model or of the start.
 ///
@@ -26,7 +28,7 @@ pub(crate) struct SweepArguments {
     pub(crate) then: Option<SweepThen>,
 
     /// Footprint f(x) of the tip [default: triple-gaussian].
-    #[arg(long, value_enum, value_name = "NAME", help_heading = "Model")]
+    #[arg(long, value_parser = named::<TipName>(), value_name = "NAME", help_heading = "Model")]
     pub(crate) tip: Option<TipName>,
 
     /// Side lobes of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1].

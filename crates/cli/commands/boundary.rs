@@ -1,22 +1,17 @@
 //! `stickslip boundary`.
 
 mod raster;
-mod wider;
 
+use super::asking::context;
 use super::figure::{Figure, undrawn};
 use super::in_units::scales;
 use super::job::Job;
-use super::model::{refuse_endless, tip, wider};
-use super::progress::Progress;
+use super::model::{law, tip};
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use stickslip_documents::{
-    BoundaryDocument, BoundaryParameters, OnsetColumns, Physical, SpacingName,
-};
+use stickslip_documents::{Ask, Boundary, BoundaryDocument, Physical, SpacingName, Tip};
 use stickslip_figures::{Size, View};
-use stickslip_stability::{Boundary, Critical, StabilityError};
-use stickslip_tip::{TipFunction, Wider};
 
 const DEFAULT_POINTS: usize = 200;
 const MOST_POINTS: usize = 100_000;
@@ -36,23 +31,12 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     let scales = scales(&arguments.in_units, arguments.tip.tip_file.as_deref(), arguments.r)?;
     let missing = || Failure::input(OPTION, "give the range of r, LO:HI:N");
     let typed = arguments.r_range.as_ref().ok_or_else(missing)?;
-    let range = range(OPTION, typed, arguments.points)?;
-    refuse_endless(&arguments.tip, &arguments.wider)?;
-    let law = wider(&arguments.wider);
-    let papers = law.is_papers() && tip != TipFunction::Cosine;
+    let (r_range, points) = range(OPTION, typed, arguments.points)?;
+    let (spacing, law) = (spacing(arguments), law(&arguments.wider));
     let job = Job::open::<BoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", arguments.plot_onset.as_deref())?;
-
-    let spacing =
-        if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
-    let (ends, points) = range;
-    let asked = Asked { ends, values: abscissas(ends, points, spacing), spacing };
-    let document = if papers {
-        document(&asked, &tip, typed)?
-    } else {
-        wider::document(&asked, (&law, &tip), typed)?
-    };
-    let document = document.in_units(scales.as_ref());
+    let question = Boundary { tip: Tip(tip), r_range, points, spacing, law };
+    let document = question.ask(&context())?.in_units(scales.as_ref());
     if let Some(figure) = plot_onset {
         let onset = stickslip_figures::onset_of(&document, &View::default())
             .map_err(|error| undrawn(&error))?;
@@ -63,17 +47,8 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
 
 const OPTION: &str = "--r-range";
 
-/// The r asked for.
-struct Asked {
-    ends: [f64; 2],
-    values: Vec<f64>,
-    spacing: SpacingName,
-}
-
-impl Asked {
-    fn parameters(&self, law: &Wider, tip: &TipFunction) -> BoundaryParameters {
-        BoundaryParameters::new((tip, law), self.ends, (self.values.len(), self.spacing))
-    }
+fn spacing(arguments: &BoundaryArguments) -> SpacingName {
+    if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear }
 }
 
 /// First and last, and how many.
@@ -99,56 +74,4 @@ fn range(
         return Err(Failure::input(format!("{option} {points}"), message));
     }
     Ok(([low, high], points))
-}
-
-/// The values asked for, both ends exactly.
-fn abscissas([low, high]: [f64; 2], points: usize, spacing: SpacingName) -> Vec<f64> {
-    let last = points - 1;
-    let between = |i: usize| {
-        let part = i as f64 / last as f64;
-        match spacing {
-            SpacingName::Linear => low + part * (high - low),
-            SpacingName::Logarithmic => low * (high / low).powf(part),
-        }
-    };
-    (0..points).map(|i| if i == last { high } else { between(i) }).collect()
-}
-
-fn document(
-    asked: &Asked,
-    tip: &TipFunction,
-    typed: &Interval,
-) -> Result<BoundaryDocument, Failure> {
-    let refused = |error: StabilityError| typed.refused(OPTION, error);
-    let boundary = Boundary::new(tip);
-    let points = asked.values.len();
-    let mut progress = Progress::new(0.0, 2.0 * points as f64).at_every_call();
-    let mut done = 0.0;
-    let mut found = Vec::with_capacity(points);
-    for r in &asked.values {
-        found.push(boundary.at(*r));
-        done += 1.0;
-        progress.counted(done, || format!("{done} of {} steps", 2 * points));
-    }
-    let first_error = found.iter().find_map(|at| at.err());
-    let along: Vec<Critical> = found.into_iter().filter_map(Result::ok).collect();
-    if let (true, Some(error)) = (along.is_empty(), first_error) {
-        return Err(refused(error));
-    }
-    let left_out = points - along.len();
-    let [low, high] = asked.ends;
-    let branches = boundary.branches(low, high, points).map_err(refused)?;
-    let mut onset = OnsetColumns::default();
-    for at in &along {
-        onset.push(tip, at);
-        done += 1.0;
-        progress.counted(done, || format!("{done} of {} steps", 2 * points));
-    }
-    let remark = first_error.map(|error| format!("{left_out} values of r are left out: {error}"));
-    let parameters = asked.parameters(&Wider::default(), tip);
-    Ok(BoundaryDocument {
-        branches: branches.into_iter().map(Into::into).collect(),
-        remarks: remark.into_iter().collect(),
-        ..BoundaryDocument::new(parameters, along.iter(), onset)
-    })
 }

@@ -2,7 +2,8 @@
 
 mod document;
 
-use super::cycle::start::{Start, explain};
+use super::asking::context;
+use super::cycle::start::question;
 use super::in_units::scales;
 use super::job::{Job, judge_places};
 use super::model::{refuse_endless, refused_wider, tip, wider};
@@ -12,9 +13,13 @@ use crate::arguments::ContinueArguments;
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
-use stickslip_documents::{ContinueDocument, OverName, Physical};
-use stickslip_tip::{TipFunction, Wider, stop};
+use stickslip_cycles::{
+    Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind, TOLERANCES,
+};
+use stickslip_documents::{
+    self as documents, Ask, ContinueDocument, Cycle as Question, OverName, Physical,
+};
+use stickslip_tip::{Model, TipFunction, Wider, stop};
 
 /// Branches of twice the period, of four times and so on: a cascade has no end.
 const MOST_BRANCHES: usize = 12;
@@ -50,7 +55,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
 
 /// What the first branch begins with.
 enum Origin {
-    Cycle(Start),
+    Cycle(Box<Question>, Model),
     /// Onset at this value of what does not vary.
     Onset {
         law: Wider,
@@ -68,9 +73,11 @@ impl Origin {
             OverName::R => (asked.r.is_some(), asked.alpha),
         };
         if varies || arguments.start.from.is_some() {
-            return Start::asked(&arguments.start).map(Self::Cycle);
+            let question = question(&arguments.start)?.resolved(&context())?;
+            let model = question.model()?;
+            return Ok(Self::Cycle(Box::new(question), model));
         }
-        Start::judge_tolerance(&arguments.start)?;
+        judge_tolerance(arguments.start.tolerance)?;
         let missing = match arguments.over {
             OverName::Alpha => Failure::input("--r", "missing: give --r R, at which α is to vary"),
             OverName::R => {
@@ -86,24 +93,31 @@ impl Origin {
     /// Where α varies.
     fn r(&self) -> f64 {
         match self {
-            Self::Cycle(start) => start.model().r(),
+            Self::Cycle(_, model) => model.r(),
             Self::Onset { other, .. } => *other,
         }
     }
 
     fn wider(&self) -> &Wider {
         match self {
-            Self::Cycle(start) => start.model().wider(),
+            Self::Cycle(_, model) => model.wider(),
             Self::Onset { law, .. } => law,
         }
     }
 
     fn tip(&self) -> &TipFunction {
         match self {
-            Self::Cycle(start) => start.model().tip(),
+            Self::Cycle(_, model) => model.tip(),
             Self::Onset { tip, .. } => tip,
         }
     }
+}
+
+fn judge_tolerance(tolerance: f64) -> Result<(), Failure> {
+    if (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance) {
+        return Ok(());
+    }
+    Err(documents::Failure::from(CycleError::Tolerance(tolerance)).into())
 }
 
 fn settings(arguments: &ContinueArguments) -> Result<Continuation, Failure> {
@@ -159,7 +173,7 @@ fn branches(
         }
     };
     let first = match origin {
-        Origin::Cycle(start) => settings.from_cycle(&start.solve()?, &mut observe),
+        Origin::Cycle(question, _) => settings.from_cycle(&question.solve()?, &mut observe),
         Origin::Onset { law, tip, other } => {
             settings.from_onset_under((law, tip), *other, &mut observe)
         }
@@ -221,6 +235,6 @@ fn explain_onset(error: &CycleError, arguments: &ContinueArguments) -> Failure {
                  {further}, or with --from and a document of `stickslip cycle`"
             ))
         }
-        _ => explain(error),
+        _ => documents::Failure::from(error.clone()).into(),
     }
 }

@@ -2,10 +2,11 @@
 
 use super::job::{Job, judge_places};
 use super::model::tip;
-use crate::arguments::{FitArguments, TipArguments, TipName};
+use crate::arguments::{FitArguments, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::measured::{Measured, read_measured, unit_of};
 use std::path::Path;
+use stickslip_documents::TipName;
 use stickslip_documents::{FitDocument, FitParameters, NumberHeld};
 use stickslip_measurement::{
     Data, Fit, FitError, FitRequest, Name, Shape, Track, Values, fit as fitted,

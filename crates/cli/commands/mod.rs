@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod asking;
 pub(crate) mod boundary;
 pub(crate) mod compare;
 pub(crate) mod continuation;

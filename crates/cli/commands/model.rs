@@ -1,23 +1,15 @@
 //! From the model's options to a model.
 
 use super::judged::judge_table;
-use crate::arguments::{ModelArguments, TipArguments, TipName, WiderArguments};
+use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip_stability as stability;
-use stickslip_tip::{
-    Footprint, Gaussian, Gaussian2d, Model, ModelError, TipFunction, Wider, WiderError,
-};
+use stickslip_documents::{Indentation, Law, NamedTip, Refused, TipName};
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
 /// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
 /// holds the groove.
 const MOST_DETAILS: f64 = 1e5;
-
-/// The model that the options ask for, of a tip that is dragged: with a spring, and a past that ends.
-pub(crate) fn dragged_model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    refuse_endless(&arguments.tip, &arguments.wider)?;
-    wide_model(arguments)
-}
 
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
@@ -41,6 +33,11 @@ pub(crate) fn refuse_endless_past(
     Ok(())
 }
 
+/// What is added to the basic law, in a question.
+pub(crate) fn law(arguments: &WiderArguments) -> Law {
+    wider(arguments).into()
+}
+
 /// What the options ask for of the wider law.
 pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
     let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *arguments;
@@ -51,9 +48,6 @@ pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
 pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
     let (wider, no_spring) = (wider(&arguments.wider), arguments.wider.no_spring);
     let tip = tip(&arguments.tip)?;
-    if wider.is_papers() && tip != TipFunction::Cosine {
-        return model_of(tip, r(arguments)?, arguments.alpha, arguments.alpha_above);
-    }
     if let Some(above) = arguments.alpha_above.filter(|_| no_spring) {
         return Err(Failure::input(
             format!("--alpha-above {}", Typed(above)),
@@ -70,58 +64,36 @@ pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
     model_under((wider, tip), r, (arguments.alpha, arguments.alpha_above))
 }
 
+/// α, or αc(r) + D.
+pub(crate) fn indentation(arguments: &ModelArguments) -> Result<Indentation, Failure> {
+    one_of(arguments.alpha, arguments.alpha_above)
+}
+
+fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
+    if alpha.is_some() && alpha_above.is_some() {
+        return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));
+    }
+    Ok(Indentation { alpha, alpha_above })
+}
+
 /// The model under a law at this r, α given as such or as αc(r) + D.
 pub(crate) fn model_under(
     (wider, tip): (Wider, TipFunction),
     r: f64,
-    (given, above): (Option<f64>, Option<f64>),
+    (alpha, alpha_above): (Option<f64>, Option<f64>),
 ) -> Result<Model, Failure> {
-    if wider.is_papers() && tip != TipFunction::Cosine {
-        return model_of(tip, r, given, above);
-    }
-    let alpha = alpha((given, above), (&wider, &tip), r)?;
-    let named = |option: &str, value: f64| format!("{option} {}", Typed(value));
-    Model::under(wider, tip, alpha, r).map_err(|error| {
-        let option = match error {
-            ModelError::R(r) | ModelError::SupportWithoutSpring(r) => named("--r", r),
-            ModelError::Alpha(alpha) => named("--alpha", alpha),
-            ModelError::Wider(error) => return refused_wider(&error),
-            ModelError::Cosine => "--tip cosine".into(),
-        };
-        Failure::input(option, error)
-    })
+    let indentation = one_of(alpha, alpha_above)?.resolved(&tip, wider, r)?;
+    Ok(indentation.model(&tip, wider, r)?)
 }
 
 /// A parameter of the wider law that is refused, by its option.
 pub(crate) fn refused_wider(error: &WiderError) -> Failure {
-    let (option, value) = match *error {
-        WiderError::DepthLimit(b) => ("--depth-limit", b),
-        WiderError::HealingTime(time) => ("--healing-time", time),
-        WiderError::Inertia(mass) => ("--inertia", mass),
-    };
-    Failure::input(format!("{option} {}", Typed(value)), error)
+    Refused::from(*error).into()
 }
 
-fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
+/// The support velocity, which the question cannot do without.
+pub(crate) fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
     arguments.r.ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))
-}
-
-/// The same under the paper's law.
-pub(crate) fn model_of(
-    tip: TipFunction,
-    r: f64,
-    given: Option<f64>,
-    above: Option<f64>,
-) -> Result<Model, Failure> {
-    let alpha = alpha((given, above), (&Wider::default(), &tip), r)?;
-    Model::new(tip, alpha, r).map_err(|error| match error {
-        ModelError::R(r) => Failure::input(format!("--r {}", Typed(r)), error),
-        ModelError::Alpha(_) => match above {
-            Some(above) => Failure::input(format!("--alpha-above {}", Typed(above)), error),
-            None => Failure::input(format!("--alpha {}", Typed(alpha)), error),
-        },
-        other => Failure::Run(other.to_string()),
-    })
 }
 
 /// The footprint that the options ask for.
@@ -147,37 +119,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         }
         return Ok(tip);
     }
-    let name = tip.unwrap_or(TipName::TripleGaussian);
-    if let Some(beta) = beta.filter(|_| name != TipName::TripleGaussian) {
-        return Err(unused(format!("--beta {}", Typed(beta)), "a tip without side lobes"));
-    }
-    let endless = match name {
-        TipName::Bessel => Some("--tip bessel"),
-        TipName::Cosine => Some("--tip cosine"),
-        TipName::TripleGaussian | TipName::Gaussian => None,
-    };
-    if let Some((width, name)) = width.zip(endless) {
-        return Err(unused(format!("--width {}", Typed(width)), name));
-    }
-    let (b, w) = (beta.unwrap_or(1.0), width.unwrap_or(1.0));
-    if !(w.is_finite() && w > 0.0) {
-        return Err(Failure::input(
-            format!("--width {}", Typed(w)),
-            "must be a finite number above 0",
-        ));
-    }
-    match name {
-        TipName::Bessel => Ok(TipFunction::Bessel),
-        TipName::Cosine => Ok(TipFunction::Cosine),
-        TipName::Gaussian => TipFunction::gaussian(w)
-            .map_err(|error| Failure::input(format!("--width {}", Typed(w)), error)),
-        TipName::TripleGaussian => TipFunction::triple_gaussian(b, w).map_err(|error| {
-            // Gaussian number 1 has amplitude 1 whatever beta.
-            let widthless = TipFunction::gaussian(w).is_err() || !(2.0 * w).is_finite();
-            let (option, value) = if widthless { ("--width", w) } else { ("--beta", b) };
-            Failure::input(format!("{option} {}", Typed(value)), error)
-        }),
-    }
+    Ok(NamedTip { name: *tip, beta: *beta, width: *width }.tip()?)
 }
 
 /// The rows of f(x,y) with x ≥ 0 that are on the path of the tip, by ascending x.
@@ -250,41 +192,4 @@ fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
     let GaussianEntry { amplitude, center, width, .. } = *entry;
     let center_y = entry.center_y.unwrap_or(0.0);
     entry.width_y.map(|width_y| Gaussian2d { amplitude, center, width, center_y, width_y })
-}
-
-/// The α that the options ask for at this r.
-fn alpha(
-    asked: (Option<f64>, Option<f64>),
-    (wider, tip): (&Wider, &TipFunction),
-    r: f64,
-) -> Result<f64, Failure> {
-    match asked {
-        (Some(alpha), None) => Ok(alpha),
-        (None, Some(above)) => {
-            // A bad r is reported as such when the model is made.
-            if !(r.is_finite() && r > 0.0) {
-                return Ok(0.0);
-            }
-            let found = if wider.is_papers() {
-                stability::critical(tip, r)
-            } else {
-                stability::critical_under(wider, tip, r).map(|found| found.critical)
-            };
-            let critical = found.map_err(|error| {
-                let advice = "give --alpha instead";
-                Failure::input(
-                    format!("--alpha-above {}", Typed(above)),
-                    format!("{error}; {advice}"),
-                )
-            })?;
-            Ok(critical.alpha + above)
-        }
-        (Some(_), Some(_)) => {
-            Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"))
-        }
-        (None, None) => Err(Failure::input(
-            "--alpha",
-            "the indentation rate is missing: give --alpha A, or --alpha-above D for αc(r) + D",
-        )),
-    }
 }

@@ -1,29 +1,161 @@
-//! `stickslip/cycle`.
+//! The question `cycle`, and its answer.
 
 use crate::table::{Column, Named, Tabular};
-use crate::{ComplexDocument, FORMAT_VERSION, History, InUnits, ModelParameters, Software};
+use crate::{
+    Ask, ComplexDocument, Context, Document, Failure, History, Indentation, Law, ModelParameters,
+    Refused, Tip, Unusable,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_cycles::Cycle;
-use stickslip_tip::Step;
+use stickslip_cycles as cycles;
+use stickslip_cycles::CycleError;
+use stickslip_tip::{Model, Step, Support, TipFunction, Trajectory};
 
 /// Intervals of the profile in a step of the mesh, at least: the largest velocity is then seen to 0.3 %, with one
 /// to 1.4 % (α from 1.2 to 2, the loosest tolerance).
 const FEWEST_PARTS: usize = 2;
+/// More do not fit in a picture, nor are they needed in a table.
+const MOST_POINTS: usize = 1_000_000;
+
+/// The periodic motion at given α and r, and its stability.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Cycle {
+    /// Footprint f(x) of the tip.
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    pub r: f64,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// Intervals of the profile, about, and not fewer; up to 1,000,000. They are uneven in time: each step of the cycle's
+    /// mesh, short where the motion is fast, is divided evenly, in two at least.
+    #[serde(default = "default_points")]
+    pub points: usize,
+    /// One period of a motion nearby from which Newton's method starts; without it the small oscillation at αc or a short
+    /// run.
+    #[serde(skip)]
+    pub start: Option<Trajectory>,
+}
+
+fn default_tolerance() -> f64 {
+    cycles::DEFAULT_TOLERANCE
+}
+
+fn default_points() -> usize {
+    400
+}
+
+/// A cycle and the question that it answers.
+pub type CycleDocument = Document<Cycle>;
+
+impl Cycle {
+    /// The cycle of a footprint at an indentation rate and a support velocity, under the basic law.
+    pub fn new(tip: Tip, indentation: Indentation, r: f64) -> Self {
+        Self {
+            tip,
+            indentation,
+            r,
+            law: Law::default(),
+            tolerance: default_tolerance(),
+            points: default_points(),
+            start: None,
+        }
+    }
+
+    /// The question of a document again, started from its answer. It is resolved: its α is a number.
+    ///
+    /// # Errors
+    /// The history of the document is damaged, or is not one of a cycle.
+    pub fn again(document: &CycleDocument) -> Result<Self, Unusable> {
+        let question = document.parameters.clone();
+        let support = Support::Moving(question.r);
+        let start = document.history.under(question.law.into(), support)?;
+        if start.start().abs() > 0.0 {
+            return Err(Unusable::new("history: a cycle starts at t = 0"));
+        }
+        Ok(Self { start: Some(start), ..question })
+    }
+
+    /// Footprint, law, α and r of a resolved question.
+    ///
+    /// # Errors
+    /// A number is out of its range.
+    pub fn model(&self) -> Result<Model, Refused> {
+        let law = self.law.dragged(&self.tip.0)?;
+        self.indentation.model(&self.tip.0, law, self.r)
+    }
+
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    /// The cycle of a resolved question.
+    ///
+    /// # Errors
+    /// A number is out of its range; no cycle was found.
+    pub fn solve(&self) -> Result<cycles::Cycle, Failure> {
+        let model = self.model()?;
+        let found = match &self.start {
+            Some(start) => cycles::cycle_near(&model, start, self.tolerance),
+            None => cycles::cycle(&model, self.tolerance),
+        };
+        Ok(found?)
+    }
+
+    /// Refuses a tolerance out of its range.
+    fn judged(&self) -> Result<(), Refused> {
+        let (least, most) = cycles::TOLERANCES;
+        if !(least..=most).contains(&self.tolerance) {
+            let error = CycleError::Tolerance(self.tolerance);
+            return Err(Refused::number("tolerance", self.tolerance, error));
+        }
+        if matches!(self.tip.0, TipFunction::Bessel) {
+            let value = Some("bessel".into());
+            let why = CycleError::NeverFades.to_string();
+            return Err(Refused { parameter: "tip", value, why });
+        }
+        if !(1..=MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 1 to {MOST_POINTS}");
+            return Err(Refused::number("points", self.points as f64, why));
+        }
+        Ok(())
+    }
+}
+
+impl Ask for Cycle {
+    const NAME: &'static str = "cycle";
+    const FORMAT: &'static str = "stickslip/cycle";
+    type Answer = CycleFound;
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.judged()?;
+        let law = self.law.dragged(&self.tip.0)?;
+        let indentation = self.indentation.resolved(&self.tip.0, law, self.r)?;
+        let question = Self { indentation, ..self };
+        question.model()?;
+        Ok(question)
+    }
+
+    fn answer(&self, context: &Context) -> Result<(CycleFound, Vec<String>), Failure> {
+        let started = context.seconds();
+        let cycle = self.solve()?;
+        Ok((CycleFound::of(&cycle, self.points, context.seconds() - started), vec![]))
+    }
+}
 
 /// A periodic motion, l(t + T) = l(t). Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
 /// peak-to-peak.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CycleDocument {
-    /// "stickslip/cycle"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: CycleParameters,
+pub struct CycleFound {
     /// T, in Γ/k.
     pub period: f64,
     /// Error of `period`, in Γ/k.
@@ -62,25 +194,14 @@ pub struct CycleDocument {
     pub history: History,
     /// What it took.
     pub work: CycleWork,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl CycleDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/cycle";
-
+impl CycleFound {
     /// A cycle with about `points` intervals of its profile, and what it took to find it.
-    pub fn of(cycle: &Cycle, parameters: CycleParameters, points: usize, seconds: f64) -> Self {
+    fn of(cycle: &cycles::Cycle, points: usize, seconds: f64) -> Self {
         let multipliers = cycle.multipliers();
         let distances = multipliers.iter().map(|m| (m - 1.0).norm());
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
             period: cycle.period(),
             period_error: Some(cycle.error()),
             wavelength: cycle.wavelength(),
@@ -105,16 +226,6 @@ impl CycleDocument {
     }
 }
 
-/// What was asked for.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct CycleParameters {
-    /// Footprint, α and r.
-    #[serde(flatten)]
-    pub model: ModelParameters,
-    /// Largest residual of (18) asked for, in kσ/Γ.
-    pub tolerance: f64,
-}
-
 /// Columns of equal length, at times that are uneven: each step of the cycle's mesh, short where the motion is fast,
 /// is divided evenly. The largest velocity is seen to a per cent.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -134,7 +245,7 @@ pub struct CycleProfile {
 impl CycleProfile {
     /// About `points` intervals. The steps are short where the motion is fast: times even over the period would pass
     /// over its slips.
-    pub fn of(cycle: &Cycle, points: usize) -> Self {
+    fn of(cycle: &cycles::Cycle, points: usize) -> Self {
         let motion = cycle.motion();
         let steps = motion.steps();
         let parts = points.div_ceil(steps.len()).max(FEWEST_PARTS);
@@ -164,7 +275,7 @@ pub struct CycleWork {
     pub seconds: f64,
 }
 
-impl Tabular for CycleDocument {
+impl Tabular for CycleFound {
     /// The profile.
     fn columns(&self) -> Vec<Named<'_>> {
         let CycleProfile { t, l, velocity, height } = &self.profile;
@@ -172,9 +283,5 @@ impl Tabular for CycleDocument {
         let columns =
             [("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))];
         columns.into_iter().chain(height).collect()
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

@@ -22,11 +22,14 @@
     reason = "t[i] is an entry, also in the descriptions of the schemas"
 )]
 
+mod ask;
 mod boundary;
 mod checkpoint;
 mod compare;
+mod context;
 mod continuation;
 mod cycle;
+mod failure;
 mod figure;
 mod fit;
 mod history;
@@ -35,6 +38,7 @@ mod measured_tip;
 mod model;
 mod outcome;
 mod physical;
+mod question;
 mod raster;
 mod raster_stability;
 mod read;
@@ -54,19 +58,24 @@ mod verification;
 mod walking;
 mod work;
 
+pub use ask::{Ask, Document};
 pub use boundary::{
-    BoundaryDocument, BoundaryParameters, BranchDocument, LimitColumns, OnsetColumns, SpacingName,
+    Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
+    SpacingName,
 };
 pub use checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
     GridDocument, GridName, GridWork,
 };
+pub use context::Context;
 pub use continuation::{
     ContinueDocument, ContinueParameters, CycleBranch, EndName, OverName, SpecialDocument,
     SpecialName,
 };
-pub use cycle::{CycleDocument, CycleParameters, CycleProfile, CycleWork};
+pub use cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
+pub use failure::{Failure, Refused, Typed};
+
 pub use figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
@@ -83,6 +92,7 @@ pub use outcome::{
     CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use physical::{InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units};
+pub use question::{Indentation, Law, NamedTip, Tip, TipName};
 pub use raster::{
     AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
     PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,

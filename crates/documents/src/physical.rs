@@ -39,10 +39,8 @@ macro_rules! physical {
 }
 
 physical!(
-    BoundaryDocument,
     CompareDocument,
     ContinueDocument,
-    CycleDocument,
     RasterBoundaryDocument,
     RasterCompareDocument,
     RasterStabilityDocument,

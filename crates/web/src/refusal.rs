@@ -34,5 +34,7 @@ pub(crate) enum Refusal {
     #[error(transparent)]
     Cycle(#[from] CycleError),
     #[error(transparent)]
+    Question(#[from] stickslip_documents::Failure),
+    #[error(transparent)]
     Raster(#[from] RasterError),
 }

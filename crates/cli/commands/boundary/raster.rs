@@ -1,6 +1,6 @@
 //! `stickslip boundary --pitch-range`.
 
-use super::{abscissas, range};
+use super::{range, spacing};
 use crate::arguments::{BoundaryArguments, Interval};
 use crate::commands::footprint::footprint;
 use crate::commands::grooves::left;
@@ -9,9 +9,7 @@ use crate::commands::job::Job;
 use crate::commands::model::wider;
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
-use stickslip_documents::{
-    Physical, RasterBoundaryDocument, RasterBoundaryParameters, SpacingName,
-};
+use stickslip_documents::{Physical, RasterBoundaryDocument, RasterBoundaryParameters};
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError, WiderRaster};
 use stickslip_tip::{Footprint, TipFunction, Wider};
 
@@ -30,8 +28,7 @@ pub(super) fn boundary(
     let tip_file = arguments.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, Some(r))?;
     let job = Job::open::<RasterBoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let spacing =
-        if arguments.logarithmic { SpacingName::Logarithmic } else { SpacingName::Linear };
+    let spacing = spacing(arguments);
     let mut document = RasterBoundaryDocument::new(RasterBoundaryParameters {
         tip: (&tip).into(),
         r,
@@ -45,7 +42,7 @@ pub(super) fn boundary(
         length: arguments.length,
     });
     let mut progress = Progress::new(0.0, points as f64).at_every_call();
-    let (pitches, mut left_out) = (abscissas(ends, points, spacing), vec![]);
+    let (pitches, mut left_out) = (spacing.values(ends, points), vec![]);
     for (n, pitch) in pitches.into_iter().enumerate() {
         match thresholds(&footprint, law, (r, pitch), left) {
             Ok((one_way, zigzag)) => {

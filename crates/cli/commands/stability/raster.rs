@@ -6,14 +6,14 @@ use crate::arguments::StabilityArguments;
 use crate::commands::footprint::footprint;
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
-use crate::commands::model::{model_of, tip, wider as wider_law};
+use crate::commands::model::{model_under, tip, wider as wider_law};
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{
     KnownScales, ModelParameters, PathName, Physical, RasterGrowth, RasterStabilityDocument,
     RasterStabilityParameters,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
-use stickslip_tip::{Footprint, TipFunction};
+use stickslip_tip::{Footprint, TipFunction, Wider};
 
 /// Wave numbers at which growth is told.
 const WAVE_NUMBERS: u32 = 200;
@@ -97,7 +97,7 @@ fn document(
     }
     let band = tip.band();
     let at = critical.filter(|_| !is_given).map(|at| at.alpha);
-    let model = model_of(tip, r, at.or(given.alpha), given.alpha_above)?;
+    let model = model_under((Wider::default(), tip), r, (at.or(given.alpha), given.alpha_above))?;
     let alpha = model.alpha();
     let mut remarks = vec![];
     if path == PathName::Zigzag && is_given {

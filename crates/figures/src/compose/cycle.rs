@@ -7,7 +7,9 @@ use super::run::against;
 use super::tip::model_name;
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
-use stickslip_documents::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName};
+use stickslip_documents::{
+    CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable,
+};
 use stickslip_surface::Surface;
 use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory};
 
@@ -19,11 +21,14 @@ const MOST_PERIODS: f64 = 3000.0;
 
 impl Drawn for CycleDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
-        let model = self.parameters.model.model()?;
+        let question = &self.parameters;
+        let model =
+            question.model().map_err(|refused| Unusable::new(refused.described(str::to_owned)))?;
+        let parameters = question.model_parameters();
         let stable = if self.stable { "stable" } else { "unstable" };
-        let name = model_name(&self.parameters.model);
+        let name = model_name(&parameters);
         let title = format!("{name}: {stable} cycle, T = {}", seven_digits(self.period));
-        let mut figure = FigureDocument::new("cycle", &title, vec![self.parameters.model.clone()]);
+        let mut figure = FigureDocument::new("cycle", &title, vec![parameters]);
         let (r, steady) = (model.r(), model.steady_l());
         let motion = self.history.under(*model.wider(), Support::Moving(r))?;
         let part = Part::of(&motion, view.x_range);

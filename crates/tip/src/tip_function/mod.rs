@@ -32,6 +32,13 @@ pub enum TipFunction {
 /// Products of three numbers within this and their inverses are finite.
 const LARGEST: f64 = 1e100;
 
+impl Default for TipFunction {
+    /// The triple Gaussian (48) with β = 1 and width 1.
+    fn default() -> Self {
+        Self::triple_gaussian(1.0, 1.0).expect("β = 1 and width 1 are in range")
+    }
+}
+
 impl TipFunction {
     /// (48): exp(-ξ²/2) - β/2 (exp(-(ξ+2)²/2) + exp(-(ξ-2)²/2)) with ξ = x/`width`.
     ///

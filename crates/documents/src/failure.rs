@@ -1,0 +1,162 @@
+//! Why a question has no answer, in words that every face can use.
+
+use std::fmt::{self, Display};
+use stickslip_cycles::CycleError;
+use stickslip_stability::StabilityError;
+use stickslip_tip::{ModelError, TipFunctionError, WiderError};
+use thiserror::Error;
+
+/// Why a question has no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Failure {
+    /// A parameter is refused.
+    #[error("{}", .0.described(str::to_owned))]
+    Refused(Refused),
+    /// The computation found nothing.
+    #[error("{0}")]
+    Failed(String),
+    /// [`Context::cancelled_by`].
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// A parameter that cannot be, and what can. Names of parameters in `{}` are written as the face writes them: `--alpha-above`
+/// on a command line, `alpha_above` in Python.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refused {
+    /// Its name, or several joined by " and ".
+    pub parameter: &'static str,
+    /// As it would be typed; `None` where it is missing or the name says enough.
+    pub value: Option<String>,
+    /// The reason and the remedy.
+    pub why: String,
+}
+
+impl Refused {
+    /// A parameter and a number that it cannot have.
+    pub fn number(parameter: &'static str, value: f64, why: impl Display) -> Self {
+        Self { parameter, value: Some(Typed(value).to_string()), why: why.to_string() }
+    }
+
+    /// A parameter, whatever its value.
+    pub fn whole(parameter: &'static str, why: impl Display) -> Self {
+        Self { parameter, value: None, why: why.to_string() }
+    }
+
+    /// The parameter with its value, such as `--r 0`.
+    pub fn named(&self, name: impl Fn(&str) -> String) -> String {
+        let names: Vec<String> = self.parameter.split(" and ").map(name).collect();
+        let value = self.value.iter().map(|value| format!(" {value}"));
+        names.join(" and ") + &value.collect::<String>()
+    }
+
+    /// The reason, with names of parameters as `name` writes them.
+    pub fn reason(&self, name: impl Fn(&str) -> String) -> String {
+        named(&self.why, name)
+    }
+
+    /// Both.
+    pub fn described(&self, name: impl Fn(&str) -> String) -> String {
+        format!("{}: {}", self.named(&name), self.reason(&name))
+    }
+}
+
+/// A text with each `{parameter}` in it as `name` writes it.
+fn named(text: &str, name: impl Fn(&str) -> String) -> String {
+    let mut named = String::new();
+    let mut rest = text;
+    while let Some((before, (parameter, after))) =
+        rest.split_once('{').and_then(|(before, more)| Some((before, more.split_once('}')?)))
+    {
+        named += before;
+        let is_name = parameter.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+        named += &if is_name { name(parameter) } else { format!("{{{parameter}}}") };
+        rest = after;
+    }
+    named + rest
+}
+
+impl Failure {
+    /// The reason, with names of parameters as `name` writes them.
+    pub fn described(&self, name: impl Fn(&str) -> String) -> String {
+        match self {
+            Self::Refused(refused) => refused.described(name),
+            other => named(&other.to_string(), name),
+        }
+    }
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(refused)
+    }
+}
+
+impl From<WiderError> for Refused {
+    fn from(error: WiderError) -> Self {
+        let (parameter, value) = match error {
+            WiderError::DepthLimit(b) => ("depth_limit", b),
+            WiderError::HealingTime(time) => ("healing_time", time),
+            WiderError::Inertia(mass) => ("inertia", mass),
+        };
+        Self::number(parameter, value, error)
+    }
+}
+
+impl From<ModelError> for Refused {
+    fn from(error: ModelError) -> Self {
+        match error {
+            ModelError::R(r) | ModelError::SupportWithoutSpring(r) => Self::number("r", r, error),
+            ModelError::Alpha(alpha) => Self::number("alpha", alpha, error),
+            ModelError::Wider(error) => error.into(),
+            ModelError::Cosine => Self::whole("tip", error),
+        }
+    }
+}
+
+impl From<TipFunctionError> for Refused {
+    fn from(error: TipFunctionError) -> Self {
+        Self::whole("tip", error)
+    }
+}
+
+impl From<StabilityError> for Failure {
+    fn from(error: StabilityError) -> Self {
+        match error {
+            StabilityError::Wider(error) => Refused::from(error).into(),
+            StabilityError::R(r) => Refused::number("r", r, error).into(),
+            StabilityError::Alpha(alpha) => Refused::number("alpha", alpha, error).into(),
+            StabilityError::Stopped => Self::Cancelled,
+            error => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<CycleError> for Failure {
+    /// That nothing was found is no fault of the question, unless there is never anything.
+    fn from(error: CycleError) -> Self {
+        match error {
+            CycleError::NeverFades => Refused::whole("tip", error).into(),
+            CycleError::Tolerance(tolerance) => {
+                Refused::number("tolerance", tolerance, error).into()
+            }
+            CycleError::Stopped => Self::Cancelled,
+            CycleError::NoSmallCycle { .. } => Self::Failed(format!(
+                "{error}; a large one, if there is any, is found {{from}} a cycle nearby"
+            )),
+            error => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+/// A number as one would type it: `1e300` rather than three hundred digits.
+#[derive(Debug, Clone, Copy)]
+pub struct Typed(pub f64);
+
+impl Display for Typed {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (digits, exponent) = (self.0.to_string(), format!("{:e}", self.0));
+        out.write_str(if digits.len() > exponent.len() + 4 { &exponent } else { &digits })
+    }
+}

@@ -1,0 +1,289 @@
+//! Parameters that several questions share: footprint, law, indentation rate.
+
+use crate::{GaussianDocument, LayerDocument, ModelParameters, Refused, TipDocument, Typed};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+use stickslip_stability as stability;
+use stickslip_tip::{Model, ModelError, TipFunction, Wider};
+
+/// A footprint in a question. It is written as [`TipDocument`] and read from that, or from a name with `beta` and `width`,
+/// or from a table with the columns `x` and `f`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tip(pub TipFunction);
+
+/// The footprints that have a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TipName {
+    /// (48): a Gaussian with side lobes of weight -beta/2 at ±2 widths.
+    TripleGaussian,
+    /// exp(-x²/(2 W²)).
+    Gaussian,
+    /// The Bessel function J0(x).
+    Bessel,
+    /// cos x, for tips without a spring or on a surface that heals.
+    Cosine,
+}
+
+/// A footprint by its name, and what the name leaves open.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct NamedTip {
+    /// The triple Gaussian where there is none.
+    pub name: Option<TipName>,
+    /// Weight β of the side lobes of the triple Gaussian; 1 where it is not given.
+    pub beta: Option<f64>,
+    /// Width W of either Gaussian, in σ; 1 where it is not given.
+    pub width: Option<f64>,
+}
+
+impl NamedTip {
+    /// The footprint.
+    ///
+    /// # Errors
+    /// A number that this footprint does not have, or one out of its range.
+    pub fn tip(&self) -> Result<TipFunction, Refused> {
+        let name = self.name.unwrap_or(TipName::TripleGaussian);
+        let unused = |parameter, value, with: &str| {
+            let why = format!("has no meaning with {with}: leave one of them out");
+            Err(Refused::number(parameter, value, why))
+        };
+        if let Some(beta) = self.beta.filter(|_| name != TipName::TripleGaussian) {
+            return unused("beta", beta, "a tip without side lobes");
+        }
+        let endless = match name {
+            TipName::Bessel => Some("{tip} bessel"),
+            TipName::Cosine => Some("{tip} cosine"),
+            TipName::TripleGaussian | TipName::Gaussian => None,
+        };
+        if let Some((width, name)) = self.width.zip(endless) {
+            return unused("width", width, name);
+        }
+        let (b, w) = (self.beta.unwrap_or(1.0), self.width.unwrap_or(1.0));
+        if !(w.is_finite() && w > 0.0) {
+            return Err(Refused::number("width", w, "must be a finite number above 0"));
+        }
+        let width = |error| Refused::number("width", w, error);
+        match name {
+            TipName::Bessel => Ok(TipFunction::Bessel),
+            TipName::Cosine => Ok(TipFunction::Cosine),
+            TipName::Gaussian => TipFunction::gaussian(w).map_err(width),
+            TipName::TripleGaussian => TipFunction::triple_gaussian(b, w).map_err(|error| {
+                // Gaussian number 1 has amplitude 1 whatever beta.
+                let widthless = TipFunction::gaussian(w).is_err() || !(2.0 * w).is_finite();
+                if widthless { width(error) } else { Refused::number("beta", b, error) }
+            }),
+        }
+    }
+}
+
+impl Default for Tip {
+    /// The triple Gaussian (48) with β = 1.
+    fn default() -> Self {
+        Self(TipFunction::default())
+    }
+}
+
+impl Serialize for Tip {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        TipDocument::from(&self.0).serialize(serializer)
+    }
+}
+
+/// All forms of a footprint side by side: an untagged enumeration would only say that no variant fits.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TipFields {
+    /// gaussians, bessel, cosine or footprint, as documents have it; or triple-gaussian or gaussian.
+    name: Option<String>,
+    /// Weight β of the side lobes of triple-gaussian; default 1.
+    beta: Option<f64>,
+    /// Width of gaussian or triple-gaussian, in σ; default 1.
+    width: Option<f64>,
+    /// Terms of a sum of Gaussians.
+    gaussians: Option<Vec<GaussianDocument>>,
+    /// Terms g(x)h(y) of a footprint in three dimensions.
+    layers: Option<Vec<LayerDocument>>,
+    /// Positions x ≥ 0 of a table, in σ, ascending from 0.
+    x: Option<Vec<f64>>,
+    /// f at each x.
+    f: Option<Vec<f64>>,
+}
+
+impl TipFields {
+    fn tip(self) -> Result<TipFunction, String> {
+        let whole = |tip: TipDocument| tip.tip().map_err(|error| error.to_string());
+        let Self { name, beta, width, gaussians, layers, x, f } = self;
+        let named = |name| {
+            let named = NamedTip { name: Some(name), beta, width };
+            named.tip().map_err(|refused| refused.described(str::to_owned))
+        };
+        match (name.as_deref(), gaussians, layers, x.zip(f)) {
+            (None | Some("gaussians"), Some(gaussians), None, None) => {
+                whole(TipDocument::Gaussians { gaussians })
+            }
+            (None | Some("footprint"), None, Some(layers), None) => {
+                whole(TipDocument::Footprint { layers })
+            }
+            (None, None, None, Some((x, f))) => {
+                TipFunction::table(&x, &f).map_err(|error| error.to_string())
+            }
+            (Some("bessel"), None, None, None) => named(TipName::Bessel),
+            (Some("cosine"), None, None, None) => named(TipName::Cosine),
+            (Some("gaussian"), None, None, None) => named(TipName::Gaussian),
+            (None | Some("triple-gaussian"), None, None, None) => named(TipName::TripleGaussian),
+            _ => Err("a tip has a name (triple-gaussian, gaussian, bessel, cosine), or gaussians, or layers, or x and f"
+                .into()),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Tip {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        TipFields::deserialize(deserializer)?.tip().map(Self).map_err(D::Error::custom)
+    }
+}
+
+impl JsonSchema for Tip {
+    fn schema_name() -> Cow<'static, str> {
+        TipDocument::schema_name()
+    }
+
+    /// That of what is written.
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        TipDocument::json_schema(generator)
+    }
+}
+
+/// What is added to the basic law. A question without them is about the basic law.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Law {
+    /// Depth limit b of (61), in kσ²/a; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// Relaxation time T of the surface, in Γ/k; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// Inertia M of the tip, in Γ²/k; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// Whether there is no spring.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub no_spring: bool,
+}
+
+impl From<Wider> for Law {
+    fn from(Wider { depth_limit, healing_time, inertia, spring }: Wider) -> Self {
+        Self { depth_limit, healing_time, inertia, no_spring: !spring }
+    }
+}
+
+impl From<Law> for Wider {
+    fn from(Law { depth_limit, healing_time, inertia, no_spring }: Law) -> Self {
+        Self { depth_limit, healing_time, inertia, spring: !no_spring }
+    }
+}
+
+impl Law {
+    /// Refuses what has no steady motion behind a support: no spring, or a footprint that never fades on a surface that
+    /// never heals.
+    pub(crate) fn dragged(self, tip: &TipFunction) -> Result<Wider, Refused> {
+        if self.no_spring {
+            let why = "nothing drags the tip: there is no steady motion behind a support";
+            return Err(Refused::whole("no_spring", why));
+        }
+        if *tip == TipFunction::Cosine && self.healing_time.is_none() {
+            let why = "does not fade, so that steady motion leaves an infinite groove: give {healing_time}";
+            return Err(Refused {
+                parameter: "tip",
+                value: Some("cosine".into()),
+                why: why.into(),
+            });
+        }
+        Ok(self.into())
+    }
+}
+
+/// Dimensionless indentation rate, given as α or by its distance from the critical one.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Indentation {
+    /// Dimensionless indentation rate α (13); 0 or above with a spring.
+    pub alpha: Option<f64>,
+    /// D of α = αc(r) + D; dimensionless.
+    pub alpha_above: Option<f64>,
+}
+
+/// α and αc + D are the same to this, relatively.
+const SAME: f64 = 1e-9;
+
+impl Indentation {
+    /// α itself.
+    #[must_use]
+    pub fn given(alpha: f64) -> Self {
+        Self { alpha: Some(alpha), alpha_above: None }
+    }
+
+    /// αc(r) + D.
+    #[must_use]
+    pub fn above_critical(distance: f64) -> Self {
+        Self { alpha: None, alpha_above: Some(distance) }
+    }
+
+    /// The same with α, whichever way it was given. A resolved one stays as it is.
+    ///
+    /// # Errors
+    /// Neither is given; both are, and differ; there is no αc.
+    pub fn resolved(self, tip: &TipFunction, law: Wider, r: f64) -> Result<Self, Refused> {
+        let Some(distance) = self.alpha_above else {
+            let why =
+                "the indentation rate is missing: give {alpha}, or {alpha_above} for αc(r) + D";
+            return self.alpha.map(Self::given).ok_or_else(|| Refused::whole("alpha", why));
+        };
+        Model::under(law, tip.clone(), 0.0, r)?;
+        let critical = if law.is_papers() && *tip != TipFunction::Cosine {
+            stability::critical(tip, r)
+        } else {
+            stability::critical_under(&law, tip, r).map(|found| found.critical)
+        };
+        let critical = critical.map_err(|error| {
+            Refused::number("alpha_above", distance, format!("{error}; give {{alpha}} instead"))
+        })?;
+        let found = critical.alpha + distance;
+        match self.alpha {
+            Some(alpha) if (alpha - found).abs() > SAME * found.abs() => {
+                let [alpha, found] = [alpha, found].map(|value| Typed(value).to_string());
+                let why =
+                    format!("give one of them, not both: they are {alpha} and αc(r) + D = {found}");
+                Err(Refused::whole("alpha and alpha_above", why))
+            }
+            Some(_) => Ok(self),
+            None => Ok(Self { alpha: Some(found), ..self }),
+        }
+    }
+
+    /// The model of a resolved one.
+    ///
+    /// # Errors
+    /// A number is out of its range.
+    pub fn model(&self, tip: &TipFunction, law: Wider, r: f64) -> Result<Model, Refused> {
+        let alpha = self.alpha.unwrap_or(f64::NAN);
+        Model::under(law, tip.clone(), alpha, r).map_err(|error| match (error, self.alpha_above) {
+            (ModelError::Alpha(_), Some(distance)) => {
+                Refused::number("alpha_above", distance, error)
+            }
+            _ => error.into(),
+        })
+    }
+}
+
+impl ModelParameters {
+    /// Those of a resolved question.
+    pub(crate) fn asked(tip: &Tip, indentation: Indentation, r: f64, law: Law) -> Self {
+        let Law { depth_limit, healing_time, inertia, no_spring } = law;
+        let alpha = indentation.alpha.unwrap_or(f64::NAN);
+        let alpha_above = indentation.alpha_above;
+        let tip = (&tip.0).into();
+        Self { tip, alpha, alpha_above, r, depth_limit, healing_time, inertia, no_spring }
+    }
+}

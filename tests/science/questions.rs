@@ -1,0 +1,112 @@
+//! Questions as data: read from JSON, saved with their answers, asked again, cancelled, refused by the name of a parameter.
+
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use stickslip_documents::{
+    Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure, Tip, read,
+};
+use stickslip_tip::TipFunction;
+
+fn asked<A: Ask>(question: Value) -> Document<A> {
+    serde_json::from_value::<A>(question).unwrap().ask(&Context::default()).unwrap()
+}
+
+fn text(document: &impl serde::Serialize) -> String {
+    serde_json::to_string(document).unwrap()
+}
+
+#[test]
+fn a_saved_question_asked_again_has_the_same_answer() {
+    let tip = json!({"name": "triple-gaussian", "beta": 0.5});
+    let first: BoundaryDocument =
+        asked(json!({"tip": tip, "r_range": [0.5, 2.0], "points": 5, "depth_limit": 5.0}));
+    let saved: BoundaryDocument = read(&text(&first), BoundaryDocument::FORMAT).unwrap();
+    assert_eq!(text(&saved), text(&first));
+    let again = saved.parameters.ask(&Context::default()).unwrap();
+    assert_eq!(text(&again), text(&first));
+
+    let first: CycleDocument = asked(json!({"tip": tip, "alpha_above": 0.05, "r": 1.0}));
+    let saved: CycleDocument = read(&text(&first), CycleDocument::FORMAT).unwrap();
+    assert_eq!(text(&saved), text(&first));
+    // α and αc + D are both there, and agree.
+    let again = saved.parameters.clone().ask(&Context::default()).unwrap();
+    assert_eq!(text(&again), text(&first));
+    let from_there = Cycle::again(&saved).unwrap().ask(&Context::default()).unwrap();
+    assert!((from_there.period - first.period).abs() < 1e-8);
+    assert!(from_there.work.newton_iterations < first.work.newton_iterations);
+}
+
+#[test]
+fn footprints_are_read_by_name_as_sums_and_as_tables() {
+    let read = |tip: Value| serde_json::from_value::<Tip>(tip);
+    let gaussian = TipFunction::gaussian(2.0).unwrap();
+    for tip in [
+        json!({"name": "gaussian", "width": 2.0}),
+        json!({"name": "gaussians", "gaussians": [{"amplitude": 1.0, "center": 0.0, "width": 2.0}]}),
+        json!({"gaussians": [{"amplitude": 1.0, "center": 0.0, "width": 2.0}]}),
+    ] {
+        assert_eq!(read(tip).unwrap().0, gaussian);
+    }
+    assert_eq!(read(json!({})).unwrap(), Tip::default());
+    let x: Vec<f64> = (0..60).map(|i| 0.25 * f64::from(i)).collect();
+    let f: Vec<f64> = x.iter().map(|x| gaussian.value(*x)).collect();
+    let table = read(json!({"x": x, "f": f})).unwrap().0;
+    assert!((table.value(1.1) - gaussian.value(1.1)).abs() < 1e-6);
+    for (tip, word) in [
+        (json!({"name": "bessel", "width": 2.0}), "width"),
+        (json!({"name": "gaussian", "beta": 1.0}), "beta"),
+        (json!({"name": "none"}), "triple-gaussian"),
+        (json!({"name": "gaussian", "size": 1.0}), "size"),
+        (json!({"name": "gaussian", "width": -1.0}), "above 0"),
+    ] {
+        let refused = read(tip).unwrap_err().to_string();
+        assert!(refused.contains(word), "{refused}");
+    }
+}
+
+#[test]
+fn a_refusal_names_the_parameter_as_each_face_writes_it() {
+    let refusal = |question: Value| match serde_json::from_value::<Cycle>(question)
+        .unwrap()
+        .ask(&Context::default())
+    {
+        Err(Failure::Refused(refused)) => refused,
+        other => panic!("{other:?}"),
+    };
+    let missing = refusal(json!({"r": 1.0}));
+    assert_eq!(missing.parameter, "alpha");
+    let option = |name: &str| format!("--{}", name.replace('_', "-"));
+    assert!(missing.described(option).contains("give --alpha, or --alpha-above for"));
+    assert!(missing.described(str::to_owned).contains("give alpha, or alpha_above for"));
+    // No second list of what is refused: each question judges its own numbers.
+    for (question, parameter) in [
+        (json!({"alpha": 1.2, "r": 0.0}), "r"),
+        (json!({"alpha": -1.2, "r": 1.0}), "alpha"),
+        (json!({"alpha_above": -9.0, "r": 1.0}), "alpha_above"),
+        (json!({"alpha": 1.2, "alpha_above": 0.5, "r": 1.0}), "alpha and alpha_above"),
+        (json!({"alpha": 1.2, "r": 1.0, "depth_limit": 0.0}), "depth_limit"),
+        (json!({"alpha": 1.2, "r": 1.0, "no_spring": true}), "no_spring"),
+        (json!({"alpha": 1.2, "r": 1.0, "tolerance": 1.0}), "tolerance"),
+        (json!({"alpha": 1.2, "r": 1.0, "points": 0}), "points"),
+        (json!({"alpha": 1.2, "r": 1.0, "tip": {"name": "bessel"}}), "tip"),
+    ] {
+        assert_eq!(refusal(question.clone()).parameter, parameter, "{question}");
+    }
+}
+
+#[test]
+fn work_is_watched_and_ends_when_it_is_cancelled() {
+    let question = Boundary { points: 40, ..Boundary::new(Tip::default(), [0.5, 2.0]) };
+    let (cancel, calls) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicUsize::new(0)));
+    let (flag, count) = (Arc::clone(&cancel), Arc::clone(&calls));
+    let context = Context::cancelled_by(cancel).watched_by(move |part, counted| {
+        assert!((0.0..=1.0).contains(&part) && counted.ends_with(" of 80 steps"));
+        count.fetch_add(1, Ordering::Relaxed);
+        flag.store(part > 0.2, Ordering::Relaxed);
+    });
+    assert_eq!(question.clone().ask(&context).unwrap_err(), Failure::Cancelled);
+    let until_then = calls.load(Ordering::Relaxed);
+    assert!((16..80).contains(&until_then), "{until_then}");
+    assert!(question.ask(&Context::default()).is_ok());
+}

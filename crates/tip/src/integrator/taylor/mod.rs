@@ -218,7 +218,8 @@ impl<M: Memory> Integrator<'_, M> {
     fn remember_series(&mut self, displacement: &Series, fastest: f64, total: f64) {
         self.velocity = displacement.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
-        let rule = self.taylor.visits.rule(fastest * total).unwrap_or_else(visits::last);
+        let healing = self.model.wider().healing_time.map_or(0.0, |time| total / time);
+        let rule = self.taylor.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
         let (mut room, mut weights) = (visits::ROOM, [0.0; visits::MOST_NODES]);
         let positions = rule.table.sums(displacement, &mut room);
         let weights = &mut weights[..positions.len()];

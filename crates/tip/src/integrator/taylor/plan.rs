@@ -37,9 +37,10 @@ impl<M: Memory> Integrator<'_, M> {
             coefficients.iter_mut().zip(coasting).for_each(|(c, coasting)| *c = coasting);
             over = over.min(length::length(&coefficients[1..displacement.len()], error));
         }
-        over = over.min(self.length_by_heights(error));
+        over = over.min(self.length_by_heights(error)).min(self.longest_healing());
         let limited = self.reach_of_piece();
-        let longest = (FARTHEST * limited).min(self.taylor.visits.farthest());
+        let healing = self.model.wider().healing_time.map_or(0.0, |time| over / time);
+        let longest = (FARTHEST * limited).min(self.taylor.visits.farthest(healing));
         let mut outlook = Outlook::of(&series.over(over));
         for _ in 0..MOST_SHORTENINGS {
             let moved = outlook.moved.abs();
@@ -73,6 +74,14 @@ impl<M: Memory> Integrator<'_, M> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
         Some(Plan { length, pieces, fastest })
+    }
+
+    /// How long a step may be for what heals within it: rules for visits have an end, and of e^{-t/T} the terms beyond the
+    /// order are to fall by half from one to the next.
+    fn longest_healing(&self) -> f64 {
+        let by_order = 0.5 * self.taylor.order as f64;
+        let times = self.taylor.visits.most_healing().min(by_order);
+        self.model.wider().healing_time.map_or(f64::INFINITY, |time| times * time)
     }
 
     /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.

@@ -32,19 +32,25 @@ static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
     })
 });
 
-/// Which rule will do for a step, by how far it leads.
+/// Which rule is accurate enough for a step, by how far it leads and how much of its groove heals meanwhile.
 #[derive(Debug, Clone)]
 pub(super) struct Visits {
-    /// Up to here each of them will.
+    /// Each of them is so up to this displacement.
     farthest: [f64; COUNTS.len()],
+    /// The wave number that they are chosen for.
+    wave: f64,
 }
+
+/// A step lasts at most so many healing times, over the largest phase that a rule is accurate for.
+const MOST_HEALING: f64 = 0.5;
 
 impl Visits {
     /// For a footprint of this band, to an error of this part of what it integrates.
     ///
     /// The rule of n nodes errs on e^{iφτ} by at most n (n-1)!⁴/(2 (2n-1)!³) φ^{2n-1}. Waves of f that are shorter than
     /// those to φ = qd, d the displacement, are weaker than the error: at the band they are so by round-off, and they
-    /// fall as those of a Gaussian.
+    /// fall as those of a Gaussian. What heals fades by e^{-β(1-τ)}, with β healing times in a step: the derivatives of
+    /// the product are those of e^{iφτ} with |iφ + β| for φ.
     pub(super) fn new(band: f64, error: f64) -> Self {
         let digits = (-ln(error)).max(1.0);
         let wave = band * (digits / -ln(f64::EPSILON)).min(1.0).sqrt();
@@ -52,18 +58,25 @@ impl Visits {
         let mut farthest = [0.0; COUNTS.len()];
         let phases = COUNTS.into_iter().zip(*LOGARITHMS).map(phase);
         farthest.iter_mut().zip(phases).for_each(|(farthest, phase)| *farthest = phase);
-        Self { farthest }
+        Self { farthest, wave }
     }
 
-    /// The rule for a step that leads so far; `None` if it leads too far for any.
-    pub(super) fn rule(&self, moved: f64) -> Option<&'static Rule> {
-        let index = self.farthest.iter().position(|farthest| moved <= *farthest)?;
+    /// The rule for a step that leads so far and lasts so many healing times; `None` if that is too much for any.
+    pub(super) fn rule(&self, moved: f64, healing: f64) -> Option<&'static Rule> {
+        let far = moved.hypot(healing / self.wave);
+        let index = self.farthest.iter().position(|farthest| far <= *farthest)?;
         Some(&RULES[index])
     }
 
-    /// The farthest that a step may lead.
-    pub(super) fn farthest(&self) -> f64 {
-        self.farthest[COUNTS.len() - 1]
+    /// The farthest that a step of so many healing times may lead.
+    pub(super) fn farthest(&self, healing: f64) -> f64 {
+        let most = self.farthest[COUNTS.len() - 1];
+        (most * most - (healing / self.wave).powi(2)).max(0.0).sqrt()
+    }
+
+    /// A step lasts at most so many healing times.
+    pub(super) fn most_healing(&self) -> f64 {
+        MOST_HEALING * self.wave * self.farthest[COUNTS.len() - 1]
     }
 }
 
@@ -145,7 +158,7 @@ mod tests {
         let (band, error) = (8.0, 1e-9);
         let visits = Visits::new(band, error);
         for farthest in visits.farthest {
-            let rule = visits.rule(farthest).unwrap();
+            let rule = visits.rule(farthest, 0.0).unwrap();
             let largest = |phase: f64| {
                 let terms = rule.nodes.iter().zip(&rule.weights);
                 let cos: f64 = terms.map(|(x, w)| w * (phase * x).cos()).sum();
@@ -154,6 +167,31 @@ mod tests {
             let wave = band * (error.ln() / f64::EPSILON.ln()).sqrt();
             assert!(largest(wave * farthest) < error, "{farthest}");
             assert!(largest(2.0 * wave * farthest) > error, "{farthest}");
+        }
+    }
+
+    /// Judged by the integral of a wave that fades, in closed form: (e^{iφ} - e^{-β})/(iφ + β).
+    #[test]
+    fn a_rule_is_as_near_where_the_groove_heals_within_the_step() {
+        for error in [1e-6, 1e-9, 1e-12] {
+            let visits = Visits::new(8.0, error);
+            let most = visits.most_healing();
+            for healing in [0.01, 0.1, 0.3, 0.6, 1.0].map(|part| part * most) {
+                for part in [0.0, 0.3, 1.0] {
+                    let moved = part * visits.farthest(healing);
+                    let rule = visits.rule(moved, healing).unwrap();
+                    let phase = visits.wave * moved;
+                    let mut weights = rule.weights.clone();
+                    fade(&rule.nodes, healing, &mut weights);
+                    let wave = |x: f64| num_complex::Complex64::new(0.0, phase * x).exp();
+                    let terms = rule.nodes.iter().zip(&weights);
+                    let sum: num_complex::Complex64 = terms.map(|(x, w)| wave(*x) * w).sum();
+                    let exact = (wave(1.0) - (-healing).exp())
+                        / num_complex::Complex64::new(healing, phase);
+                    let off = (sum - exact).norm();
+                    assert!(off < 2.0 * error, "{error:e} {healing} {moved}: {off:e}");
+                }
+            }
         }
     }
 }

@@ -19,13 +19,17 @@ impl Fields {
             return Ok(Self::default());
         }
         let schema = schema_for!(D).to_value();
-        for path in paths {
-            match path.strip_prefix("physical.").filter(|below| !below.starts_with("scales")) {
-                Some(below) => judge(&schema, &without_units(below), "physical.")?,
-                None => judge(&schema, path, "")?,
+        let found = |path: &String| match path
+            .strip_prefix("physical.")
+            .filter(|below| !below.starts_with("scales"))
+        {
+            Some(below) => {
+                judge(&schema, &without_units(below), "physical.")?;
+                Ok(path.clone())
             }
-        }
-        Ok(Self(paths.to_vec()))
+            None => named(&schema, path),
+        };
+        Ok(Self(paths.iter().map(found).collect::<Result<_, Failure>>()?))
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -69,6 +73,72 @@ fn strip(name: &str) -> &str {
         Some((rest, "nm" | "nm2" | "nm3" | "s" | "s2" | "nN" | "per")) => strip(rest),
         _ => name,
     }
+}
+
+/// The whole path of a field, of which that may be the end where no other field has the same.
+fn named(schema: &Value, path: &str) -> Result<String, Failure> {
+    let Err(refused) = judge(schema, path, "") else { return Ok(path.into()) };
+    let mut all = vec![];
+    gather(schema, schema, "", 0, &mut all);
+    all.sort();
+    all.dedup();
+    let end = format!(".{path}");
+    let ending: Vec<&String> = all.iter().filter(|whole| whole.ends_with(&end)).collect();
+    if path.is_empty() {
+        return Err(refused);
+    }
+    match ending.as_slice() {
+        [one] => Ok((*one).clone()),
+        [] => Err(nearest(&all, path).map_or(refused, |meant| {
+            let message = format!("there is no such field: did you mean {}?", meant.join(" or "));
+            Failure::input(format!("--print {path}"), message)
+        })),
+        several => {
+            let names: Vec<&str> = several.iter().map(|name| name.as_str()).collect();
+            let message = format!("several fields end so: give one of {}", names.join(", "));
+            Err(Failure::input(format!("--print {path}"), message))
+        }
+    }
+}
+
+/// Parts within parts, at most.
+const DEEPEST: usize = 6;
+
+/// The paths of all fields that need no index, below one part.
+fn gather(root: &Value, part: &Value, before: &str, depth: usize, all: &mut Vec<String>) {
+    let kinds = kinds(root, part);
+    let fields = kinds.iter().filter_map(|kind| kind["properties"].as_object()).flatten();
+    for (name, field) in fields {
+        let path = format!("{before}{name}");
+        if depth < DEEPEST {
+            gather(root, field, &format!("{path}."), depth + 1, all);
+        }
+        all.push(path);
+    }
+}
+
+/// Names are alike from here on, in the measure of Jaro and Winkler.
+const ALIKE: f64 = 0.85;
+/// So many are named.
+const MOST_MEANT: usize = 3;
+
+/// The fields whose path, or its end, is most like this one.
+fn nearest(all: &[String], path: &str) -> Option<Vec<String>> {
+    let segments = path.split('.').count();
+    let likeness = |whole: &String| {
+        let names: Vec<&str> = whole.split('.').collect();
+        let end = names[names.len().saturating_sub(segments)..].join(".");
+        strsim::jaro_winkler(&end, path)
+    };
+    let mut alike: Vec<(f64, &String)> = all
+        .iter()
+        .map(|whole| (likeness(whole), whole))
+        .filter(|(alike, _)| *alike > ALIKE)
+        .collect();
+    alike.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    let best = alike.first()?.0;
+    let near = alike.into_iter().take_while(|(alike, _)| *alike > best - 0.05).take(MOST_MEANT);
+    Some(near.map(|(_, whole)| whole.clone()).collect())
 }
 
 /// `under` is what stands before the path.
@@ -136,12 +206,34 @@ mod tests {
         ];
         let good = good.map(String::from);
         assert!(Fields::asked::<RunDocument>(&good).is_ok());
-        for bad in ["period", "oscillation.perod", "samples.t.first", "regime.x", ""] {
+        for bad in ["oscillation.perod", "samples.t.first", "regime.x", "zzz", ""] {
             let refused = Fields::asked::<RunDocument>(&[bad.into()]).unwrap_err().to_string();
             assert!(refused.contains("there is no such field"), "{refused}");
         }
         let refused = Fields::asked::<StabilityDocument>(&["critical.x".into()]).unwrap_err();
         assert!(refused.to_string().contains("critical.alpha, critical.kind"), "{refused}");
+    }
+
+    #[test]
+    fn a_name_is_enough_where_it_is_the_only_one() {
+        let only = |paths: &[&str]| {
+            let paths: Vec<String> = paths.iter().map(|path| (*path).into()).collect();
+            Fields::asked::<RunDocument>(&paths).map(|fields| fields.0)
+        };
+        let found = only(&["period", "amplitude_u", "steps", "regime"]).unwrap();
+        assert_eq!(
+            found,
+            ["oscillation.period", "oscillation.amplitude_u", "work.steps", "regime"]
+        );
+        let said = |path: &str| only(&[path]).unwrap_err().to_string();
+        let several = said("velocity");
+        assert!(
+            several.contains("samples.velocity") && several.contains("drifting.velocity"),
+            "{several}"
+        );
+        assert!(said("perod").contains("did you mean oscillation.period"), "{}", said("perod"));
+        assert!(said("oscilation.period").contains("oscillation.period?"));
+        assert!(said("zzz").contains("there are "));
     }
 
     #[test]

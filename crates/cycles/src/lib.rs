@@ -156,15 +156,23 @@ impl Cycle {
         0.5 * (self.extremes.1 - self.extremes.0)
     }
 
-    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a; 0 where it heals.
+    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a. Where it heals, u at the distance D behind the
+    /// support is U(x) e^{-D/(rT)} with a periodic U, and this is half peak-to-peak of U: at most `f64::MAX`.
     #[must_use]
     pub fn amplitude_u(&self) -> f64 {
-        *self.amplitude_u.get_or_init(|| self.ripple().amplitude())
+        let amplitude = || self.ripple().amplitude();
+        *self
+            .amplitude_u
+            .get_or_init(|| Some(amplitude()).filter(|u| u.is_finite()).unwrap_or(f64::MAX))
     }
 
-    /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion).
+    /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion). Where the surface
+    /// heals that is 0.
     #[must_use]
     pub fn surface_behind(&self, x: &[f64]) -> Vec<f64> {
+        if self.model.wider().healing_time.is_some() {
+            return vec![0.0; x.len()];
+        }
         let ripple = self.ripple();
         x.iter().map(|x| ripple.height(*x)).collect()
     }

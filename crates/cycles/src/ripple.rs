@@ -2,7 +2,7 @@
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
-use stickslip_tip::elementary::{complex_exp, sin_cos};
+use stickslip_tip::elementary::{complex_exp, exp, sin_cos};
 use stickslip_tip::{TipFunction, Trajectory};
 
 /// One wavelength of u far behind the tip, (35), as a Fourier series.
@@ -10,6 +10,9 @@ use stickslip_tip::{TipFunction, Trajectory};
 /// u(x) = -α ∫ f(x - x0(t))dt over all times, and x0 advances by the wavelength Λ = rT in each period T, so that
 /// by Poisson's formula u(x) = -(α/Λ) `Σ_k f̂(q_k) e^{i q_k x} ∫_0^T e^{-i q_k x0(t)}dt`, `q_k` = 2πk/Λ. The sum ends
 /// where f̂ does.
+///
+/// Where the surface heals, u at the distance D behind the support is U(x) e^{-D/(rT)}, and U is the same series with
+/// f̂(q - i/(rT)) for f̂(q) and e^{(R - x0)/(rT)} for the weight of a visit.
 #[derive(Debug, Clone)]
 pub(super) struct Ripple {
     wavelength: f64,
@@ -22,13 +25,15 @@ pub(super) struct Ripple {
 const POINTS_PER_HARMONIC: usize = 8;
 
 impl Ripple {
-    /// Of one period of the motion, each visit with its weight w under a depth limit; nothing is left where the
-    /// surface heals.
+    /// Of one period of the motion, each visit with its weight w under a depth limit.
     pub(super) fn new(tip: &TipFunction, alpha: f64, period: &Trajectory) -> Self {
-        let (positions, mut weights) = period.residence(period.end());
-        if period.wider().healing_time.is_some() {
-            weights.fill(0.0);
-        }
+        let (positions, weights, exponent) = match period.wider().healing_time {
+            None => {
+                let (positions, weights) = period.residence(period.end());
+                (positions, weights, 0.0)
+            }
+            Some(_) => period.residence_unfaded(),
+        };
         let wavelength = period.r() * (period.end() - period.start());
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let harmonics = (tip.band() * wavelength / TAU).ceil() as usize;
@@ -42,8 +47,16 @@ impl Ripple {
                 waves.next();
             }
         }
+        let fading = period.wider().healing_time.map(|time| 1.0 / (period.r() * time));
         for (k, spent) in spent.iter_mut().enumerate() {
-            *spent *= -alpha / wavelength * tip.fourier(TAU * k as f64 / wavelength);
+            let q = TAU * k as f64 / wavelength;
+            match fading {
+                None => *spent *= -alpha / wavelength * tip.fourier(q),
+                Some(fading) => {
+                    let transform = tip.fourier_fading(q, fading).unwrap_or_default();
+                    *spent *= transform * (-alpha / wavelength * exp(exponent));
+                }
+            }
         }
         Self { wavelength, mean: spent[0].re, coefficients: spent.split_off(1) }
     }

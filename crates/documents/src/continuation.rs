@@ -107,7 +107,8 @@ pub struct CycleBranch {
     pub period: Vec<f64>,
     /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
     pub amplitude_x0: Vec<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
     pub amplitude_u: Vec<f64>,
     /// Whether every small deviation from the cycle but a shift in time dies out.
     pub stable: Vec<bool>,

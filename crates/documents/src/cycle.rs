@@ -171,7 +171,8 @@ pub struct CycleFound {
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; 0 where it heals.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
     pub amplitude_u: f64,
     /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]

@@ -89,7 +89,7 @@ pub use measured_tip::{
 };
 pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
 pub use outcome::{
-    CreepDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
+    CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use physical::{InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units};
 pub use question::{Indentation, Law, NamedTip, Tip, TipName};

@@ -2,14 +2,14 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Creeping, Oscillation, Prospect, Regime};
+use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime};
 use stickslip_surface::Ripple;
 
 /// Kinds of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RegimeName {
-    /// l stays at l0, and linear theory has it that it does.
+    /// l stays at l0, and linear theory has it that it does; without a spring, the tip stays at rest.
     Steady,
     /// A periodic motion that repeats itself.
     StickSlip,
@@ -66,7 +66,8 @@ pub struct OscillationDocument {
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
     /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
-    /// of reach of the tip, or f never fades.
+    /// of reach of the tip, or f never fades. Where the surface heals, u at the distance D behind the support is
+    /// U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
     pub amplitude_u: Option<f64>,
     /// Error of `amplitude_u`, in kσ²/a; null where that is.
     #[serde(default)]
@@ -112,6 +113,22 @@ impl From<Creeping> for CreepDocument {
     }
 }
 
+/// The velocity of a tip without a spring.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DriftDocument {
+    /// x0' at the end of the run, in kσ/Γ; below 0 to the left.
+    pub velocity: f64,
+    /// Its error, in kσ/Γ: the velocity that the run goes to lies within it.
+    pub velocity_error: f64,
+}
+
+impl From<Drift> for DriftDocument {
+    fn from(Drift { velocity, velocity_error }: Drift) -> Self {
+        Self { velocity, velocity_error }
+    }
+}
+
 /// What a run that has not settled seems to go to.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -130,8 +147,11 @@ impl From<Prospect> for TransientDocument {
 
 /// Significant digits of a double, less one.
 const DIGITS: i32 = 14;
+/// Powers of ten that are written without an exponent.
+const PLAIN: std::ops::Range<i32> = -5..15;
 
-/// A value to the digits that hold, with what the last of them may be off by in parentheses: 6.6936889(2).
+/// A value to the digits that hold, with what the last of them may be off by in parentheses: 6.6936889(2). What is too
+/// small or too large to be read so has an exponent: 2.5(3)e-12.
 ///
 /// ```
 /// use stickslip_documents::to_its_digits;
@@ -140,10 +160,34 @@ const DIGITS: i32 = 14;
 /// assert_eq!(to_its_digits(0.196, 0.0099), "0.20(2)");
 /// assert_eq!(to_its_digits(1234.5, 30.0), "1230(40)");
 /// assert_eq!(to_its_digits(2.0, 0.0), "2.00000000000000(1)");
+/// assert_eq!(to_its_digits(2.5e-12, 2e-13), "2.5(3)e-12");
+/// assert_eq!(to_its_digits(0.0, 0.0), "0");
 /// ```
 pub fn to_its_digits(value: f64, error: f64) -> String {
-    #[expect(clippy::cast_possible_truncation, reason = "an exponent of ten")]
-    let place = |size: f64| size.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+    let size = value.abs().max(error.abs());
+    if !size.is_finite() {
+        return format!("{value:e}(?)");
+    }
+    if size <= 0.0 {
+        return "0".into();
+    }
+    let exponent = place(size);
+    if PLAIN.contains(&exponent) {
+        return plainly(value, error.abs());
+    }
+    // In two steps: of the smallest numbers the power itself would overflow.
+    let half = exponent / 2;
+    let scaled = |number: f64| number * 10_f64.powi(-half) * 10_f64.powi(half - exponent);
+    format!("{}e{exponent}", plainly(scaled(value), scaled(error.abs())))
+}
+
+/// The power of ten of its first digit.
+#[expect(clippy::cast_possible_truncation, reason = "an exponent of ten")]
+fn place(size: f64) -> i32 {
+    size.abs().max(f64::MIN_POSITIVE).log10().floor() as i32
+}
+
+fn plainly(value: f64, error: f64) -> String {
     let mut last = place(error).max(place(value) - DIGITS);
     // Rounding takes half a unit of the last digit besides.
     let off_by = |last: i32| (error / 10_f64.powi(last) + 0.5).ceil();
@@ -156,4 +200,32 @@ pub fn to_its_digits(value: f64, error: f64) -> String {
         return format!("{:.0}({:.0})", (value / unit).round() * unit, off * unit);
     }
     format!("{value:.*}({off:.0})", last.unsigned_abs() as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever the value and its error, a person can read it, and a reader of it comes within the error.
+    #[test]
+    fn no_number_is_longer_than_a_person_reads() {
+        let sizes = (-320..=308).step_by(4).map(|e| format!("3.7e{e}").parse::<f64>().unwrap());
+        let sizes: Vec<f64> = sizes.chain([0.0, f64::MIN_POSITIVE, f64::MAX, 5e-324]).collect();
+        for value in sizes.iter().flat_map(|size| [*size, -size]) {
+            for error in &sizes {
+                let shown = to_its_digits(value, *error);
+                assert!(shown.len() <= 40, "{value:e} ± {error:e}: {shown}");
+                let (before, rest) = shown.split_once('(').unwrap_or((&shown, ")"));
+                let after = rest.split_once(')').unwrap().1;
+                let read: f64 = format!("{before}{after}").parse().unwrap();
+                let off = (read - value).abs();
+                assert!(
+                    off <= *error + 1e-13 * value.abs() + 1e-320,
+                    "{value:e} ± {error:e}: {shown}"
+                );
+            }
+        }
+        assert_eq!(to_its_digits(f64::NAN, 1.0), "NaN(?)");
+        assert_eq!(to_its_digits(1.0, f64::INFINITY), "1e0(?)");
+    }
 }

@@ -2,9 +2,9 @@
 
 use crate::table::{Array, Column, Named, Tabular};
 use crate::{
-    CreepDocument, FORMAT_VERSION, History, InUnits, OscillationDocument, RegimeName, RunEnd,
-    RunParameters, SampleLine, Software, SteadyState, TransientDocument, Unusable,
-    VerificationDocument, WorkDocument,
+    CreepDocument, DriftDocument, FORMAT_VERSION, History, InUnits, OscillationDocument,
+    RegimeName, RunEnd, RunParameters, SampleLine, Software, SteadyState, TransientDocument,
+    Unusable, VerificationDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,6 +39,9 @@ pub struct RunDocument {
     /// The rate of creep, where the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
+    /// The velocity, where the regime is drifting.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drifting: Option<DriftDocument>,
     /// What it seems to go to, where the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
@@ -82,6 +85,7 @@ impl RunDocument {
             oscillation: end.oscillation,
             loops: None,
             creep: end.creep,
+            drifting: end.drifting,
             transient: end.transient,
             remarks: end.remarks,
             interrupted: end.interrupted,

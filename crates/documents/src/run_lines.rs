@@ -1,8 +1,8 @@
 //! `stickslip/run-lines`.
 
 use crate::{
-    CreepDocument, FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters, Software,
-    SteadyState, TransientDocument, WorkDocument,
+    CreepDocument, DriftDocument, FORMAT_VERSION, OscillationDocument, RegimeName, RunParameters,
+    Software, SteadyState, TransientDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -109,6 +109,9 @@ pub struct RunEnd {
     /// The rate of creep, where the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
+    /// The velocity, where the regime is drifting.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drifting: Option<DriftDocument>,
     /// What it seems to go to, where the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
@@ -134,6 +137,7 @@ impl RunEnd {
             regime: outcome.regime.into(),
             oscillation,
             creep: outcome.creep.map(Into::into),
+            drifting: outcome.drifting.map(Into::into),
             transient: outcome.prospect.map(Into::into),
             remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
             interrupted: false,

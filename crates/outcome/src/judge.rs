@@ -68,7 +68,14 @@ struct End<'a> {
 
 impl Outcome {
     fn settled(regime: Regime) -> Self {
-        Self { regime, oscillation: None, creep: None, prospect: None, remarks: vec![] }
+        Self {
+            regime,
+            oscillation: None,
+            creep: None,
+            drifting: None,
+            prospect: None,
+            remarks: vec![],
+        }
     }
 
     fn transient(towards: Option<Regime>, time: Option<f64>) -> Self {

@@ -16,6 +16,7 @@ mod observer;
 mod oscillation;
 mod reference;
 mod remark;
+mod rest;
 mod sequence;
 mod thinned;
 mod watched;
@@ -31,7 +32,7 @@ pub use watched::{Watched, judge_trajectory, run_and_judge};
 /// The kinds of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
-    /// l stays at l0.
+    /// l stays at l0; without a spring, the tip stays at rest.
     Steady,
     /// A periodic motion that repeats itself.
     StickSlip,
@@ -52,10 +53,21 @@ pub struct Outcome {
     pub oscillation: Option<Oscillation>,
     /// Present where the regime is [`Regime::Trapped`].
     pub creep: Option<Creeping>,
+    /// Present where the regime is [`Regime::Drifting`].
+    pub drifting: Option<Drift>,
     /// Present where the regime is [`Regime::Transient`].
     pub prospect: Option<Prospect>,
     /// Where round-off, the start or the tolerance decides.
     pub remarks: Vec<Remark>,
+}
+
+/// The velocity of a tip without a spring that moves on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift {
+    /// x0' at the end, in kσ/Γ.
+    pub velocity: f64,
+    /// Its distance from that of the steady walk that the run goes to, with the errors of both.
+    pub velocity_error: f64,
 }
 
 /// What a transient seems to go to.

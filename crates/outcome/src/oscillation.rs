@@ -36,11 +36,9 @@ impl Oscillation {
     pub fn amplitude_u_error(&self, amplitude_u: f64) -> f64 {
         let relative =
             self.amplitude_x0_error / self.amplitude_x0 + self.period_error / self.period;
-        // Where the surface heals nothing is left far behind, and what is seen of it nearer by is no error.
-        let lasting =
-            self.cycle.as_ref().filter(|cycle| cycle.model().wider().healing_time.is_none());
-        let off = lasting.map_or(0.0, |cycle| (cycle.amplitude_u() - amplitude_u).abs());
-        off + 3.0 * relative * amplitude_u.abs()
+        let cycle = self.cycle.as_ref();
+        let off = cycle.map_or(0.0, |cycle| (cycle.amplitude_u() - amplitude_u).abs());
+        (off + 3.0 * relative * amplitude_u.abs()).min(f64::MAX)
     }
 }
 

@@ -10,6 +10,16 @@ pub enum Remark {
         /// Rate of growth, in k/Γ.
         rate: f64,
     },
+    /// A tip without a spring is at rest by symmetry, and rest is unstable.
+    RestsBySymmetry {
+        /// Rate of growth at the end, in k/Γ.
+        rate: f64,
+    },
+    /// A tip without a spring was at rest so long before a force was felt that errors have grown beyond the tolerance.
+    ErrorsGrowAtRest {
+        /// By this factor.
+        growth: f64,
+    },
     /// Steady motion is stable beside the motion that was found.
     SteadyToo,
     /// Oscillations are born below αc: beside stable steady motion there may be one.
@@ -53,6 +63,17 @@ impl fmt::Display for Remark {
                 out,
                 "the start is steady motion, which is unstable, and nothing disturbs it: what grows, at the rate \
                  {rate:.3}, is round-off, and it decides when and how the tip leaves; --kick D decides instead"
+            ),
+            Self::RestsBySymmetry { rate } => write!(
+                out,
+                "the tip is at rest, which is unstable (deviations grow at the rate {rate:.3}), and nothing disturbs it: \
+                 --pulse A,T,W sets it going, or with inertia --start-velocity"
+            ),
+            Self::ErrorsGrowAtRest { growth } => write!(
+                out,
+                "rest is unstable, and errors have grown by a factor of {growth:.1e} before the force was felt: they, not \
+                 the force, may decide when and where the tip goes; let the force act earlier, or ask for a smaller \
+                 tolerance"
             ),
             Self::SteadyToo => {
                 write!(out, "steady motion is stable here too: the start decides which is reached")

@@ -1,15 +1,18 @@
 //! The ripple that a periodic motion leaves far behind the tip.
 
-use crate::Surface;
+use crate::{Method, Surface, carved};
 use ndarray::Array1;
+use stickslip_convolution::{Kernel, direct_sum, sum};
 use stickslip_tip::Trajectory;
+use stickslip_tip::elementary::exp;
 
-/// One wavelength of the surface left behind.
+/// One wavelength of the surface left behind. Where the surface heals, u at the distance D behind the support is
+/// U(x) e^{-D/(rT)} with U a periodic function, out of the reach of the tip: then the heights are those of U.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ripple {
-    /// Half peak-to-peak of u∞(x), (35).
+    /// Half peak-to-peak of u∞(x), (35), or of U(x).
     pub amplitude: f64,
-    /// Its highest and lowest height.
+    /// Its highest height.
     pub crest: f64,
     /// Its lowest height.
     pub trough: f64,
@@ -37,19 +40,56 @@ pub fn ripple_behind(
     if low < trajectory.x0(trajectory.start()) + reach {
         return None;
     }
-    let residence = trajectory.residence(end);
-    let carved = |x: &[f64]| surface.carved_along(&residence, x);
+    let carved = Lasting::of(surface, trajectory);
+    let carved = |x: &[f64]| carved.heights(x);
     // Several points per width of the footprint, so that no pit falls between them.
     let per_width = wavelength * surface.model.tip().band();
     let points = POINTS.max(per_width.min(1e6) as usize);
-    let crest = extremum(carved, (low, high), points, 1.0)?;
-    let trough = -extremum(carved, (low, high), points, -1.0)?;
-    Some(Ripple { amplitude: 0.5 * (crest - trough), crest, trough })
+    let crest = extremum(&carved, (low, high), points, 1.0)?;
+    let trough = -extremum(&carved, (low, high), points, -1.0)?;
+    let ripple = Ripple { amplitude: 0.5 * (crest - trough), crest, trough };
+    ripple.amplitude.is_finite().then_some(ripple)
+}
+
+/// What of the surface lasts: u∞, or U where it heals.
+struct Lasting<'a> {
+    surface: &'a Surface<'a>,
+    /// Positions, weights, and the exponent of what the weights are multiplied by.
+    visits: (Vec<f64>, Vec<f64>, f64),
+    /// 1/(rT)
+    fading: f64,
+}
+
+impl<'a> Lasting<'a> {
+    fn of(surface: &'a Surface, trajectory: &Trajectory) -> Self {
+        let Some(time) = trajectory.wider().healing_time else {
+            let (positions, weights) = trajectory.residence(trajectory.end());
+            return Self { surface, visits: (positions, weights, 0.0), fading: 0.0 };
+        };
+        let fading = 1.0 / (trajectory.r() * time);
+        Self { surface, visits: trajectory.residence_unfaded(), fading }
+    }
+
+    fn heights(&self, x: &[f64]) -> Array1<f64> {
+        let (model, (positions, weights, exponent)) = (self.surface.model, &self.visits);
+        if self.fading <= 0.0 {
+            let sums = carved(model.tip(), positions, weights, x);
+            return sums.mapv_into(|sum| -model.alpha() * sum);
+        }
+        let value = |y: f64| model.tip().value(y) * exp(-self.fading * y);
+        let kernel = Kernel { value: &value, band: model.tip().band(), reach: model.tip().reach() };
+        let sums = match Method::cheaper(model.tip(), positions, x) {
+            Method::Direct => direct_sum(&kernel, positions, weights, x),
+            Method::Fft => sum(&kernel, positions, weights, x),
+        };
+        let factor = -model.alpha() * exp(*exponent);
+        sums.into_iter().map(|sum| factor * sum).collect()
+    }
 }
 
 /// Largest value of `sign` · u∞ in the range, looked for on so many points and then closer by.
 fn extremum(
-    carved: impl Fn(&[f64]) -> Array1<f64>,
+    carved: &impl Fn(&[f64]) -> Array1<f64>,
     (mut low, mut high): (f64, f64),
     mut points: usize,
     sign: f64,

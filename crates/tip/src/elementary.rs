@@ -31,7 +31,7 @@ const INVERSE_FACTORIALS: [f64; 14] = {
 
 /// e^x to one unit of its last place.
 #[inline]
-pub(crate) fn exp(x: f64) -> f64 {
+pub fn exp(x: f64) -> f64 {
     if x.abs() <= LARGEST { exp_within(x) } else { libm::exp(x) }
 }
 

@@ -111,6 +111,13 @@ impl Force {
         Self { function: Some(Arc::new(function)), ..Self::default() }
     }
 
+    /// With one more pulse.
+    #[must_use]
+    pub fn with_pulse(mut self, pulse: Pulse) -> Self {
+        self.pulses.push(pulse);
+        self
+    }
+
     /// Its pulses.
     #[must_use]
     pub fn pulses(&self) -> &[Pulse] {
@@ -155,6 +162,16 @@ impl Force {
         pulses.chain(table).chain(function).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The time up to which it is nothing: infinite where there is none at all, -∞ for a function of time.
+    #[must_use]
+    pub fn begins(&self) -> f64 {
+        let acting = self.pulses.iter().filter(|pulse| pulse.amplitude.abs() > 0.0);
+        let pulses = acting.map(Pulse::begins);
+        let table = self.table.iter().map(CubicSpline::first);
+        let function = self.function.iter().map(|_| f64::NEG_INFINITY);
+        pulses.chain(table).chain(function).fold(f64::INFINITY, f64::min)
+    }
+
     /// The next time after t at which a step must end: where a pulse begins or ends, and the knots of
     /// the table, so that the force is smooth within every step.
     pub(crate) fn next_break(&self, t: f64) -> f64 {
@@ -186,6 +203,9 @@ mod tests {
         assert!((force.longest_step(30.2) - 0.15).abs() < 1e-12);
         assert!(force.next_break(31.5).is_infinite());
         assert!((force.value(30.0) - 2.0).abs() < 1e-15);
+        assert!((force.begins() - 29.0).abs() < 1e-12);
+        assert!(Force::default().begins() == f64::INFINITY);
+        assert!(Force::from_fn(|_| 0.0).begins() == f64::NEG_INFINITY);
     }
 
     /// A step ends where a pulse begins, and the next one must not lead over it, however that time is rounded.

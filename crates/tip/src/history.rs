@@ -1,6 +1,7 @@
 //! The history of the tip: its accepted steps, each a polynomial.
 
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::elementary::exp;
 use crate::step::healing;
 use crate::{Support, Wider};
 use gauss_quad::legendre::GaussLegendre;
@@ -290,6 +291,31 @@ impl Trajectory {
             }
         }
         (positions, weights)
+    }
+
+    /// The whole motion as visits that do not fade but where they lie: positions and weights such that
+    /// ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor. Behind a
+    /// support of velocity r the surface is then -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt',
+    /// with R at the time of the surface in the first factor. Where nothing heals, all factors are 1.
+    #[must_use]
+    pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
+        let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
+        let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);
+        for step in &self.steps {
+            let (start, spent) = (self.support.position(step.t), step.weights(&self.wider));
+            let ahead = RADAU.c.map(|c| self.r() * c * step.h);
+            let nodes =
+                step.displacement.into_iter().zip(ahead).zip(RADAU.b().into_iter().zip(spent));
+            for ((d, ahead), (b, spent)) in nodes {
+                positions.push(start - step.extension + d);
+                weights.push(b * step.h * spent);
+                exponents.push(rate * (step.extension + ahead - d));
+            }
+        }
+        let largest = exponents.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let factors = exponents.iter().map(|exponent| exp(exponent - largest));
+        weights.iter_mut().zip(factors).for_each(|(weight, factor)| *weight *= factor);
+        (positions, weights, largest)
     }
 
     /// What is left, at the end of a step, of what its nodes stand for.

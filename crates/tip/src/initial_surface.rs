@@ -41,6 +41,12 @@ impl InitialSurface {
         Self::flat().with(Relief::steady(model, position))
     }
 
+    /// Whether u0 = 0 everywhere.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.reliefs.is_empty()
+    }
+
     /// Adds one more.
     #[must_use]
     pub fn with(mut self, relief: Relief) -> Self {

@@ -83,7 +83,7 @@ impl Witness for Probes {
     }
 }
 
-/// From two runs to the same tolerance, whose starts differ by `shift` in l.
+/// From two runs to the same tolerance, one of which is shifted by `shift` in l at the start or some time after it.
 pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
     let (low, high) = one
         .l
@@ -97,6 +97,8 @@ pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) ->
     let points: Vec<(f64, f64)> = envelope
         .iter()
         .enumerate()
+        // A push comes some time after the start.
+        .skip_while(|(_, difference)| **difference < meaningful.start)
         .take_while(|(_, difference)| meaningful.contains(difference))
         .map(|(window, difference)| (one.middle(window), difference.ln()))
         .collect();

@@ -12,9 +12,12 @@ pub use growth::Growth;
 use compare::{AgainstSamples, Judgement, compare_l, compare_u};
 use growth::{Probes, growth};
 use repeat::{Kept, Repetition, Witness, another};
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use stickslip_surface::SurfaceError;
-use stickslip_tip::{InitialSurface, MemoryChoice, RunError, Scenario, TOLERANCES, Trajectory};
+use stickslip_tip::{
+    InitialSurface, MemoryChoice, Pulse, RunError, Scenario, TOLERANCES, Trajectory,
+};
 use thiserror::Error;
 
 /// What is promised of l is so many tolerances: the errors of steps add up, and slips amplify them. It is
@@ -23,7 +26,7 @@ pub const TOLERANCES_ALLOWED: f64 = 10.0;
 
 /// The second run's tolerance is so many times smaller, where f64 allows that.
 const TIGHTER: f64 = 100.0;
-/// The twin's start is off by so many of its tolerances, far above its errors,
+/// The twin is shifted by so many of its tolerances, far above its errors,
 const SHIFT: f64 = 1e4;
 /// but by no more than this, far below the motion.
 const LARGEST_SHIFT: f64 = 1e-4;
@@ -151,7 +154,7 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
         let repetition = Repetition { scenario, surface, from: 0.0, to: 0.5 };
         let by = repetition.run(memories, &mut (witness, &mut here), observe)?;
         let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance);
-        let twin = Scenario { kick: scenario.kick + shift, ..scenario.clone() };
+        let twin = twin(scenario, shift);
         let mut there = Probes::of(&twin);
         let repetition = Repetition { scenario: &twin, surface, from: 0.5, to: 1.0 };
         repetition.run(vec![MemoryChoice::Fft, MemoryChoice::Direct], &mut there, observe)?;
@@ -170,6 +173,29 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
         let tolerance = self.scenario.tolerance;
         Verification { memory, tolerance, l, u, trusted_until, samples, growth }
     }
+}
+
+/// A tip without a spring is pushed after this part of the run,
+const PUSHED_AFTER: f64 = 0.1;
+/// but by this time, in Γ/k;
+const PUSHED_BY: f64 = 1.0;
+/// the push lasts this part of the time before it.
+const PUSH_WIDTH: f64 = 0.1;
+
+/// The run with a small disturbance, which shifts the tip by so much.
+///
+/// Behind a support the tip starts off its place. Without one that would shift all of the run: there a short force pushes
+/// the tip off what it has left so far.
+fn twin(scenario: &Scenario, shift: f64) -> Scenario {
+    if scenario.model.wider().spring {
+        return Scenario { kick: scenario.kick + shift, ..scenario.clone() };
+    }
+    let start = scenario.start_time();
+    let after = (PUSHED_AFTER * (scenario.until - start)).min(PUSHED_BY);
+    let width = PUSH_WIDTH * after;
+    let amplitude = shift / (width * TAU.sqrt());
+    let push = Pulse { amplitude, time: start + after, width };
+    Scenario { force: scenario.force.clone().with_pulse(push), ..scenario.clone() }
 }
 
 /// The tightest tolerance, down to a hundredth, that can be asked for.

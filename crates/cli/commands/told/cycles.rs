@@ -3,8 +3,8 @@
 use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip_documents::{
-    ContinueDocument, CycleBranch, CycleDocument, EndName, OverName, RegimeName, SpecialName,
-    SweepDocument, to_its_digits,
+    ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
+    SpecialName, StatisticsDocument, SweepDocument, to_its_digits,
 };
 
 impl Product for CycleDocument {
@@ -101,6 +101,7 @@ impl Product for SweepDocument {
         let failed = self.points.iter().filter(|point| point.error.is_some());
         let regimes =
             [RegimeName::Steady, RegimeName::StickSlip, RegimeName::Trapped, RegimeName::Transient];
+        let ensembles = self.ensembles.iter().flatten().collect::<Vec<_>>();
         let counts = regimes.map(|regime| (regime.to_string(), count(regime)));
         let found: Vec<String> = counts
             .iter()
@@ -117,6 +118,43 @@ impl Product for SweepDocument {
             let error = point.error.as_ref()?;
             Some(format!("{}, the first at r = {}: {error}", failed.count(), digits(point.r, 7)))
         });
-        told.maybe("failed", why).next(again("-o map.json --plot map.svg"))
+        statistics(told, &ensembles).maybe("failed", why).next(again("-o map.json --plot map.svg"))
     }
+}
+
+/// Ensembles of which every number is listed; of more of them l alone.
+const IN_FULL: usize = 1;
+/// Ensembles that have a row.
+const LISTED: usize = 20;
+
+/// Means of ensembles with their standard errors, and how far members are apart.
+fn statistics(told: Told, ensembles: &[&EnsembleDocument]) -> Told {
+    if ensembles.len() <= IN_FULL {
+        return ensembles.iter().fold(told, |told, ensemble| {
+            told.maybe("period", ensemble.period.as_ref().map(|s| spread(s, "Γ/k")))
+                .maybe("wavelength", ensemble.wavelength.as_ref().map(|s| spread(s, "σ")))
+                .maybe("amplitude of x0", ensemble.amplitude_x0.as_ref().map(|s| spread(s, "σ")))
+                .maybe("amplitude of u", ensemble.amplitude_u.as_ref().map(|s| spread(s, "kσ²/a")))
+                .maybe("mean of l", ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+                .maybe("deviation of l", ensemble.deviation_l.as_ref().map(|s| spread(s, "σ")))
+        });
+    }
+    let row = |told: Told, ensemble: &&EnsembleDocument| {
+        let points =
+            format!("l, points {} to {}", ensemble.first, ensemble.first + ensemble.count - 1);
+        told.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+    };
+    let told = ensembles.iter().take(LISTED).fold(told, row);
+    let more = ensembles.len().saturating_sub(LISTED);
+    told.maybe("more ensembles", (more > 0).then(|| more.to_string()))
+}
+
+fn spread(of: &StatisticsDocument, unit: &str) -> String {
+    let mean = match of.error {
+        Some(error) => to_its_digits(of.mean, error),
+        None => digits(of.mean, 7),
+    };
+    let deviation = of.deviation.map_or(String::new(), |d| format!("spread {}, ", digits(d, 3)));
+    let [least, largest] = [of.least, of.largest].map(|value| digits(value, 5));
+    format!("mean of {}: {mean}, {deviation}{least} to {largest} {unit}", of.count)
 }

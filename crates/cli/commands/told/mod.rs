@@ -135,9 +135,11 @@ fn quoted(word: String) -> String {
 fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
     let (number, unit) = value.rsplit_once(' ')?;
     let dimension = Dimension::of_unit(unit)?;
-    let number = number.split('(').next()?;
-    let count = number.chars().filter(char::is_ascii_digit).count();
-    let converted = number.parse::<f64>().ok()? * dimension.factor(scales)?;
+    let (digits_of, rest) = number.split_once('(').unwrap_or((number, ")"));
+    let exponent = rest.split_once(')')?.1;
+    let count = digits_of.chars().filter(char::is_ascii_digit).count();
+    let converted =
+        format!("{digits_of}{exponent}").parse::<f64>().ok()? * dimension.factor(scales)?;
     Some(format!(" = {} {}", digits(converted, count.max(3)), dimension.unit()))
 }
 
@@ -151,6 +153,12 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
     }
     let decimals = usize::try_from(count as i32 - 1 - exponent).unwrap_or(0);
     without_zeros(&format!("{value:.decimals$}")).into()
+}
+
+/// How many times one thing is another: two digits, of a quantity that no repetition gives more of.
+pub(crate) fn times(ratio: f64) -> String {
+    let rounded = format!("{ratio:.1e}").parse().unwrap_or(ratio);
+    digits(rounded, 2)
 }
 
 fn without_zeros(number: &str) -> &str {
@@ -176,6 +184,19 @@ mod tests {
         let cases = [(1.0690361749, 7), (0.0, 7), (2e-9, 3), (1234567.0, 7), (-0.5, 3), (1e300, 4)];
         let shown = cases.map(|(value, count)| digits(value, count));
         assert_eq!(shown, ["1.069036", "0", "2e-9", "1234567", "-0.5", "1e300"]);
+    }
+
+    #[test]
+    fn ratios_have_two_digits() {
+        let shown = [152_924.338, 3.14159, 0.0123, 99.6, 1e9, 0.0].map(times);
+        assert_eq!(shown, ["150000", "3.1", "0.012", "100", "1000000000", "0"]);
+    }
+
+    #[test]
+    fn a_value_with_an_exponent_is_converted_whole() {
+        let scales = KnownScales { length: Some(30e-9), ..KnownScales::default() };
+        assert_eq!(in_units("2.5(3)e-12 σ", &scales).unwrap(), " = 7.5e-11 nm");
+        assert_eq!(in_units("2.50(3) σ", &scales).unwrap(), " = 75 nm");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What is told of surfaces, comparisons and units.
 
-use super::{Told, again, digits};
+use super::{Told, again, digits, times};
 use crate::commands::job::Product;
 use stickslip_documents::{CompareDocument, SurfaceDocument, UnitsDocument};
 
@@ -36,11 +36,12 @@ impl Product for CompareDocument {
         let Self { closed, grid, max_difference, speedup, .. } = self;
         let told = Told::new(format!(
             "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
-             {speedup:.3} times as fast",
+             {} times as fast per unit of time",
             max_difference.x0,
             max_difference.u,
             1e3 * closed.work.seconds,
             1e3 * grid.work.seconds,
+            times(*speedup),
         ));
         told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
@@ -49,7 +50,7 @@ impl Product for CompareDocument {
                 format!("{} steps, {:.2} ms", closed.work.steps, 1e3 * closed.work.seconds),
             )
             .row("grid", format!("{} steps, {:.2} ms", grid.work.steps, 1e3 * grid.work.seconds))
-            .row("speedup", format!("{speedup:.3}"))
+            .row("speedup", format!("{} per unit of time simulated", times(*speedup)))
             .next(again("-o compare.json --plot compare.svg"))
     }
 }

@@ -1,6 +1,6 @@
 //! What is told of rasters.
 
-use super::{Told, again, digits};
+use super::{Told, again, digits, times};
 use crate::commands::job::Product;
 use stickslip_documents::{
     HeightMap, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
@@ -90,16 +90,17 @@ impl Product for RasterCompareDocument {
         let [closed, grid] = [closed_work.seconds, grid_work.seconds].map(|s| 1e3 * s);
         let told = Told::new(format!(
             "{} lines: largest difference {:.1e} in x0, {:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \
-             {speedup:.4} times as fast",
+             {} times as fast",
             lines.len(),
             max_difference.x0,
             max_difference.u,
+            times(*speedup),
         ));
         told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
             .row("closed equation", format!("{} steps, {closed:.2} ms", closed_work.steps))
             .row("grid", format!("{} steps, {grid:.0} ms", grid_work.steps))
-            .row("speedup", format!("{speedup:.4}"))
+            .row("speedup", times(*speedup))
             .next(again("-o compare.json --plot compare.png"))
     }
 }

@@ -20,8 +20,10 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told 
         loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
     };
     let told = told.maybe("work of a loop", document.loops.as_ref().and_then(worked));
+    let velocity = end.drifting.as_ref().map(|d| to_its_digits(d.velocity, d.velocity_error));
     let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
     let told = told
+        .maybe("velocity", velocity.map(|v| format!("{v} kσ/Γ")))
         .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
         .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
         .remarks(&end.remarks);
@@ -65,6 +67,8 @@ fn summary(end: &RunEnd) -> String {
         let amplitude = digits(o.amplitude_x0, o.amplitude_x0_error);
         format!(", period {period}, amplitude of x0 {amplitude}")
     });
+    let drift = end.drifting.as_ref();
+    let drift = drift.map(|d| format!(", velocity {}", digits(d.velocity, Some(d.velocity_error))));
     let prospect = end.transient.as_ref().and_then(|transient| {
         let time = transient.time.map_or(String::new(), |time| format!(" in about {time:.1e}"));
         transient.towards.map(|towards| format!(", towards {towards}{time}"))
@@ -72,7 +76,7 @@ fn summary(end: &RunEnd) -> String {
     format!(
         "{}{}: t = {} reached in {} steps with {}, {:.1} ms",
         end.regime,
-        motion.or(prospect).unwrap_or_default(),
+        motion.or(drift).or(prospect).unwrap_or_default(),
         end.end,
         work.steps,
         work.memory,

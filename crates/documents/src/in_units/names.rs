@@ -41,7 +41,9 @@ fn of_name(name: &str) -> Option<Dimension> {
         }
         "t" | "period" | "period_error" | "period_slope" | "origin" | "valid_from"
         | "healing_time" => Dimension::TIME,
-        "velocity" | "speed" | "residual" | "start_velocity" => Dimension::VELOCITY,
+        "velocity" | "velocity_error" | "speed" | "residual" | "start_velocity" => {
+            Dimension::VELOCITY
+        }
         "omega" | "omega_slope" | "growth_slope" | "re" | "im" | "re_min" | "re_max" | "im_max"
         | "largest_error" | "lambda_re" | "lambda_im" => Dimension::RATE,
         "Omega" | "q" | "kappa" | "rate" | "attracting" | "creep_rates" => Dimension::WAVE_NUMBER,

@@ -68,7 +68,9 @@ pub struct SweepPoint {
     /// Error of `amplitude_x0`, σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles, and of runs that were asked for.
+    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles, and of runs that were asked for. Where the surface
+    /// heals, u at the distance D behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak
+    /// of U.
     pub amplitude_u: Option<f64>,
     /// Error of `amplitude_u`, kσ²/a.
     #[serde(default)]

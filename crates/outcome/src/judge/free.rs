@@ -1,21 +1,132 @@
-//! Tips without a spring.
+//! Tips without a spring: at rest, on a steady walk, or neither.
 
 use super::*;
+use crate::Drift;
+use crate::rest::Rest;
+use stickslip_stability::{Spectrum, walk, walking_speeds};
+use stickslip_tip::TipFunction;
 
-/// A tip without a spring drifts where its velocity has changed by less than this part in the last of its run.
-const DRIFTS: f64 = 1e-4;
+/// A tip drifts where its velocity is as near to that of a steady walk as this part of it.
+const DRIFTS: f64 = 1e-3;
+/// Without theory it drifts where its velocity has changed by less than this part in the last of its run.
+const UNCHANGED: f64 = 1e-4;
+/// Velocities are one order less accurate than positions: an error of the tolerance is this many times as much.
+const VELOCITY_ERROR: f64 = 10.0;
+/// Times at which the velocity is evaluated.
+const LOOKS: u32 = 1000;
+/// Relative error of the speed of a steady walk.
+const SPEED_ERROR: f64 = 1e-12;
+/// Of the leading growth exponents one is that of a shift, two may be a pair.
+const ROOTS: usize = 3;
+
+/// What theory says of a tip without a spring.
+enum Theory {
+    /// The stable steady motion whose velocity is nearest.
+    Nearest(Attractor),
+    /// No steady motion is stable.
+    None,
+    /// That is not known.
+    Unknown,
+}
+
+/// A steady motion without a spring that deviations decay to, and how fast.
+struct Attractor {
+    velocity: f64,
+    rate: f64,
+    error: f64,
+}
 
 impl End<'_> {
-    /// A tip that nothing drags: it drifts at one velocity, or not.
+    /// A tip that nothing drags: at rest, on a walk with one velocity, or neither.
     pub(super) fn without_spring(&self) -> Outcome {
-        let (from, to) = (self.tail.start(), self.last.end());
-        let enough = to - from >= STEADY_SHARE * (to - self.start());
-        let at = |i: u32| self.tail.velocity(from + (to - from) * f64::from(i) / 1000.0);
-        let now = self.last.velocity(to);
-        let change = (0..1000).map(at).map(|v| (v - now).abs()).fold(0.0, f64::max);
-        if !enough || change > DRIFTS * now.abs().max(self.scenario.tolerance) {
+        if self.force_acts() {
+            return Outcome::transient(None, None).remarked(Remark::ForceActs);
+        }
+        match self.attractor() {
+            Theory::Nearest(attractor) => self.beside(&attractor),
+            Theory::None => Outcome::transient(None, None),
+            Theory::Unknown => self.unchanged(),
+        }
+    }
+
+    fn beside(&self, &Attractor { velocity, rate, error }: &Attractor) -> Outcome {
+        let walks = velocity.abs() > 0.0;
+        let near = if walks { DRIFTS * velocity.abs() } else { self.observer.near_steady() };
+        let (farthest, now) = self.off(velocity);
+        if farthest <= near {
+            return if walks { self.drifts(now + error) } else { Outcome::settled(Regime::Steady) };
+        }
+        if walks && now > BESIDE * velocity.abs() {
             return Outcome::transient(None, None);
         }
-        Outcome::settled(Regime::Drifting)
+        let towards = if walks { Regime::Drifting } else { Regime::Steady };
+        let share = STEADY_SHARE / (1.0 - STEADY_SHARE) * (self.last.end() - self.start());
+        let time = (now / near).ln().max(0.0) / rate + share;
+        Outcome::transient(Some(towards), Some(time))
     }
+
+    /// The largest distance of the velocity from `from` in the last fifth of the run, as far as it is kept, and the last.
+    fn off(&self, from: f64) -> (f64, f64) {
+        let end = self.last.end();
+        let begin = (end - STEADY_SHARE * (end - self.start())).max(self.tail.start());
+        let at =
+            |i: u32| self.tail.velocity(begin + (end - begin) * f64::from(i) / f64::from(LOOKS));
+        let off = (0..LOOKS).map(at).map(|v| (v - from).abs()).fold(0.0, f64::max);
+        let now = (self.last.velocity(end) - from).abs();
+        (off.max(now), now)
+    }
+
+    /// On a walk whose velocity is that at the end but for an error.
+    fn drifts(&self, error: f64) -> Outcome {
+        let velocity = self.last.velocity(self.last.end());
+        let velocity_error = error + VELOCITY_ERROR * self.scenario.tolerance;
+        let drifting = Some(Drift { velocity, velocity_error });
+        Outcome { drifting, ..Outcome::settled(Regime::Drifting) }
+    }
+
+    /// Where there is no theory: a velocity that no longer changes.
+    fn unchanged(&self) -> Outcome {
+        let now = self.last.velocity(self.last.end());
+        let (change, _) = self.off(now);
+        if change > UNCHANGED * now.abs() || now.abs() <= self.observer.near_steady() {
+            return Outcome::transient(None, None);
+        }
+        self.drifts(2.0 * change)
+    }
+
+    /// The stable steady motion, rest or walk, whose velocity is nearest.
+    fn attractor(&self) -> Theory {
+        let Scenario { model, .. } = self.scenario;
+        // A past that never ends has no steady motion.
+        let endless = *model.tip() == TipFunction::Cosine && model.wider().healing_time.is_none();
+        if endless || stop::is_asked() {
+            return Theory::Unknown;
+        }
+        let now = self.last.velocity(self.last.end());
+        let rest = Rest::of(model).rate(self.last.end() - self.start());
+        let rest = (rest < 0.0).then_some(Attractor { velocity: 0.0, rate: -rest, error: 0.0 });
+        let Ok(speeds) = walking_speeds(model) else { return Theory::Unknown };
+        let off = |speed: &f64| (speed - now.abs()).abs();
+        let nearest = speeds.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let walking = match nearest.map(|speed| walk(model, speed, ROOTS)) {
+            Some(Err(_)) => return Theory::Unknown,
+            Some(Ok(walk)) => decay(&walk.spectrum).map(|rate| {
+                let velocity = walk.speed.copysign(now);
+                Attractor { velocity, rate, error: SPEED_ERROR * walk.speed }
+            }),
+            None => None,
+        };
+        let off = |a: &Attractor| (a.velocity - now).abs();
+        let nearest = rest.into_iter().chain(walking).min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.map_or(Theory::None, Theory::Nearest)
+    }
+}
+
+/// The rate at which deviations from a walk decay, but for a shift along the way; `None` where one grows.
+fn decay(spectrum: &Spectrum) -> Option<f64> {
+    let error = spectrum.certificate.largest_error;
+    let shift = spectrum.roots.iter().map(|z| z.norm()).fold(f64::INFINITY, f64::min);
+    let others = spectrum.roots.iter().filter(|z| z.norm() > shift);
+    let slowest = others.map(|z| z.re).fold(f64::NEG_INFINITY, f64::max);
+    (slowest < -error).then_some(-slowest)
 }

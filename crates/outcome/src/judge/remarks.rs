@@ -1,11 +1,18 @@
 //! Where round-off, the start or the tolerance decides.
 
 use super::*;
+use crate::rest::Rest;
+
+/// Times at which a force is looked for.
+const LOOKS: u32 = 20_000;
+/// ln of the growth that takes the errors of the sum over the past, a fortieth of the tolerance, to the tolerance.
+const MOST_GROWTH: f64 = 3.7;
 
 impl End<'_> {
     pub(super) fn remarks(&self, regime: Regime) -> Vec<Remark> {
         let Scenario { model, force, .. } = self.scenario;
         let mut remarks = vec![];
+        remarks.extend(self.rest_remark());
         let is_papers = model.wider().is_papers();
         if self.is_undisturbed()
             && let Linear::Unstable(Slowest { rate, .. }) = self.linear()
@@ -37,6 +44,28 @@ impl End<'_> {
         let until = self.surface.texture_ends().filter(|until| *until > at);
         remarks.extend(until.map(|until| Remark::UnevenAhead { until }));
         remarks
+    }
+
+    /// Of a tip without a spring that was at rest longer than its errors allow: rest is unstable.
+    fn rest_remark(&self) -> Option<Remark> {
+        let Scenario { model, force, tolerance, .. } = self.scenario;
+        let coasts =
+            model.wider().inertia.is_some() && self.scenario.velocity_at_start().abs() > 0.0;
+        if model.wider().spring || coasts || !self.surface.is_flat() {
+            return None;
+        }
+        let (start, end) = (self.start(), self.last.end());
+        let (rest, begins) = (Rest::of(model), force.begins().max(start));
+        if begins >= end {
+            let rate = rest.rate(end - start);
+            return (rate > 0.0).then_some(Remark::RestsBySymmetry { rate });
+        }
+        // From then on errors of the sum over the past grow, until the force is more than they are.
+        let step = (end - begins) / f64::from(LOOKS);
+        let felt = |t: &f64| force.value(*t).abs() > *tolerance;
+        let felt = (0..=LOOKS).map(|i| begins + step * f64::from(i)).find(felt).unwrap_or(end);
+        let growth = rest.growth(begins - start, felt - start);
+        (growth > MOST_GROWTH).then_some(Remark::ErrorsGrowAtRest { growth: growth.exp() })
     }
 
     /// Whether the run began in steady motion, and nothing was to disturb it.

@@ -56,6 +56,8 @@ pub struct Integrator<'a, M> {
     t: f64,
     /// When it started.
     start: f64,
+    /// Until then the tip is at rest by symmetry: nothing drags or pushes it, and what it leaves is even about it.
+    rest_until: f64,
     /// R - x0
     extension: f64,
     velocity: f64,
@@ -104,6 +106,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             control,
             t,
             start: t,
+            rest_until: f64::NEG_INFINITY,
             extension,
             velocity: 0.0,
             curvature: 0.0,
@@ -123,6 +126,13 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let force = self.force.value(self.t);
         let drift = -slope + pull + force;
         self.velocity = if wider.inertia.is_some() { velocity } else { drift };
+        let coasts = wider.inertia.is_some() && velocity.abs() > 0.0;
+        if self.support == Support::None && !wider.spring && self.surface.is_flat() && !coasts {
+            self.rest_until = self.force.begins();
+        }
+        if self.rests() {
+            self.velocity = 0.0;
+        }
         self.curvature = curvature;
         self.limits_from_before = (slope, force);
         if wider.depth_limit.is_some() {
@@ -130,6 +140,12 @@ impl<'a, M: Memory> Integrator<'a, M> {
             self.corner = Corner::of(self.model, height, self.control.target());
         }
         self
+    }
+
+    /// Whether the tip is at rest by symmetry. No sum over the past is exactly even, and where rest is unstable what it
+    /// leaves of the slope would grow.
+    fn rests(&self) -> bool {
+        self.t < self.rest_until
     }
 
     /// Steps of this length only, without error control: for observing the order of convergence.
@@ -215,7 +231,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
     fn enter_stretch(&mut self) {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
-        if self.model.wider().inertia.is_some() {
+        if self.model.wider().inertia.is_some() || self.rests() {
             return;
         }
         let slope = self.relief_slope();
@@ -271,6 +287,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
             velocity: self.support.velocity(self.t),
             side: self.corner.map_or(0.0, |corner| corner.side),
             age: self.t - self.start,
+            rests: self.rests(),
         }
     }
 
@@ -284,7 +301,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
     }
 
     fn accept(&mut self, h: f64, solution: &Solution, height: Option<Heights>) -> Step {
-        let displacement = solution.displacement;
+        let (displacement, rested) = (solution.displacement, self.rests());
         let step = Step { t: self.t, h, extension: self.extension, displacement, height };
         if let Some(time) = self.model.wider().healing_time {
             self.memory.fade(exp(-h / time));
@@ -297,7 +314,11 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self.t = step.end();
         self.velocity = step::velocity_at_end(&displacement, h);
         self.curvature = solution.curvature_at_end;
-        self.limits_from_before = (self.relief_slope(), self.force.value(self.t.next_down()));
+        self.limits_from_before = if rested {
+            (0.0, 0.0)
+        } else {
+            (self.relief_slope(), self.force.value(self.t.next_down()))
+        };
         self.last = Some(step);
         self.work.steps += 1;
         self.taylor.made(h * self.fastest(self.curvature));

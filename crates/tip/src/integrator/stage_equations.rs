@@ -22,6 +22,7 @@ pub(super) struct StageEquations<'a> {
     equations: Equations<'a>,
     depth: Option<Depth>,
     left: Option<Left>,
+    rests: bool,
 }
 
 /// What a step begins with.
@@ -39,6 +40,8 @@ pub(super) struct Begin {
     pub(super) side: f64,
     /// Time since the start of the run.
     pub(super) age: f64,
+    /// Whether the tip stays at rest by symmetry: all forces on it are 0.
+    pub(super) rests: bool,
 }
 
 /// What is left at the stages of what there was when the step, and when the run, began.
@@ -113,13 +116,13 @@ impl<'a> StageEquations<'a> {
         begin: Begin,
         inertia: Option<&'a Inertia>,
     ) -> Self {
-        let Begin { t, h, x, extension, velocity, side, age } = begin;
+        let Begin { t, h, x, extension, velocity, side, age, rests } = begin;
         let (law, wider) = (Law { r: velocity, ..Law::of(model) }, model.wider());
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
         let mut pull = law.pull(extension, h);
         for (pull, c) in pull.iter_mut().zip(RADAU.c) {
-            *pull += force.value((t + h * c).min(last));
+            *pull += if rests { 0.0 } else { force.value((t + h * c).min(last)) };
         }
         let mut equations = Equations::new(law, h, pull);
         if let Some(time) = wider.healing_time {
@@ -133,7 +136,7 @@ impl<'a> StageEquations<'a> {
             Left { past, relief: past.map(|left| left * wider.left_after(age)) }
         });
         let depth = wider.depth_limit.map(|limit| Depth { limit, side });
-        Self { model, apex, surface, stretch, x, equations, depth, left }
+        Self { model, apex, surface, stretch, x, equations, depth, left, rests }
     }
 
     /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
@@ -232,6 +235,9 @@ impl<'a> StageEquations<'a> {
             groove = groove.with_height(&mut known.past_height);
         }
         memory.groove(d, &mut groove);
+        if self.rests {
+            known.past_slope.fill(0.0);
+        }
         if !self.stretch.flat {
             let relief = known.relief_slope.iter_mut().zip(&mut known.relief_curvature);
             for ((slope, curvature), d) in relief.zip(d) {

@@ -4,7 +4,8 @@ use super::lattice::Lattice;
 use super::term::{Gaussian, WIDTHS_OF_REACH};
 use super::{BAND_OF_A_GAUSSIAN, LARGEST, TipFunctionError};
 use crate::Footprint;
-use crate::elementary::{cos, exp, exp_within};
+use crate::elementary::{complex_exp, cos, exp, exp_within};
+use num_complex::Complex;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
 
@@ -153,6 +154,19 @@ impl GaussianSum {
         let term = |g: &Gaussian| {
             let qw = q * g.width;
             g.amplitude * g.width * (2.0 * PI).sqrt() * exp(-0.5 * qw * qw) * cos(q * g.center)
+        };
+        self.terms.iter().map(term).sum()
+    }
+
+    /// f̂(q - iκ), of each Gaussian `a w √(2π) e^{-z²w²/2} cos(zc)` at z = q - iκ.
+    pub(super) fn fourier_fading(&self, q: f64, fading: f64) -> Complex<f64> {
+        let z = Complex::new(q, -fading);
+        let term = |g: &Gaussian| {
+            let turned = Complex::new(0.0, g.center) * z;
+            let cos = 0.5 * (complex_exp(turned) + complex_exp(-turned));
+            complex_exp(-0.5 * g.width * g.width * z * z)
+                * cos
+                * (g.amplitude * g.width * (2.0 * PI).sqrt())
         };
         self.terms.iter().map(term).sum()
     }

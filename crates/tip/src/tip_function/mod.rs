@@ -18,6 +18,8 @@ pub use gaussian::GaussianSum;
 pub use scale::{BAND_OF_A_GAUSSIAN, widths};
 pub use term::Gaussian;
 
+use num_complex::Complex;
+
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TipFunction {
@@ -205,6 +207,15 @@ impl TipFunction {
             Self::Bessel => bessel::fourier(q),
             // Two lines, at ±1.
             Self::Cosine => 0.0,
+        }
+    }
+
+    /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and fading κ; `None` for a footprint that never fades.
+    #[must_use]
+    pub fn fourier_fading(&self, q: f64, fading: f64) -> Option<Complex<f64>> {
+        match self {
+            Self::Gaussians(sum) => Some(sum.fourier_fading(q, fading)),
+            Self::Bessel | Self::Cosine => None,
         }
     }
 

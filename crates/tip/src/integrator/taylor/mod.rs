@@ -112,7 +112,7 @@ impl<M: Memory> Integrator<'_, M> {
     /// Whether a new step by series could be made.
     #[inline(never)]
     fn is_expanded(&mut self, until: f64) -> bool {
-        if self.control.is_fixed() || !self.taylor.switch.is_to_series() {
+        if self.control.is_fixed() || self.rests() || !self.taylor.switch.is_to_series() {
             return false;
         }
         let made = self.expand(until);

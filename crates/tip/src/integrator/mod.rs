@@ -127,9 +127,8 @@ impl<'a, M: Memory> Integrator<'a, M> {
         let drift = -slope + pull + force;
         self.velocity = if wider.inertia.is_some() { velocity } else { drift };
         let coasts = wider.inertia.is_some() && velocity.abs() > 0.0;
-        if self.support == Support::None && !wider.spring && self.surface.is_flat() && !coasts {
-            self.rest_until = self.force.begins();
-        }
+        let rests = self.support == Support::None && self.surface.is_flat() && !coasts;
+        self.rest_until = if rests { self.force.begins() } else { f64::NEG_INFINITY };
         if self.rests() {
             self.velocity = 0.0;
         }

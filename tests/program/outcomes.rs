@@ -54,3 +54,49 @@ fn what_round_off_decides_is_remarked() {
             .is_empty()
     );
 }
+
+/// A walk is drifting, with its velocity: v² = (2B - 1 - √(1 + 4B))/2 on J0.
+#[test]
+fn a_walk_is_drifting_and_printed_with_its_velocity() {
+    let folder = Folder::new("walk");
+    let line = "run --tip bessel --no-spring --alpha -3 --healing-time 1 --pulse 1,2,0.5 --until 60 -o walk.json";
+    let message = said(&folder.stickslip(line));
+    assert!(message.contains("drifting, velocity 0.834999"), "{message}");
+    let walk = folder.json("walk.json");
+    let exact = ((5.0 - 13.0_f64.sqrt()) / 2.0).sqrt();
+    let found = walk["drifting"]["velocity"].as_f64().unwrap();
+    assert!((found - exact).abs() <= walk["drifting"]["velocity_error"].as_f64().unwrap());
+}
+
+/// Whatever heals, swings or is compared: no line of what a person reads is filled with digits.
+#[test]
+fn no_number_in_words_has_hundreds_of_digits() {
+    let folder = Folder::new("digits");
+    for line in [
+        "cycle --tip gaussian --r 0.428268 --alpha 0.803822 --healing-time 26.8123 --format text",
+        "run --tip gaussian --r 0.428268 --alpha 0.803822 --kick 0.1 --healing-time 26.8123 --until 300 --format text",
+        "compare --alpha 1.2 --r 1 --kick 0.05 --until 20 --format text",
+    ] {
+        let output = folder.stickslip(line);
+        let text = String::from_utf8(output.stdout.clone()).unwrap() + &said(&output);
+        let longest = text.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(str::len).max();
+        assert!(longest.unwrap() <= 18, "{line}: {text}");
+        assert!(!line.starts_with("compare") || text.contains("per unit of time"), "{text}");
+    }
+}
+
+#[test]
+fn a_field_is_printed_by_the_end_of_its_path() {
+    let folder = Folder::new("fields");
+    let run = "run --alpha 1.2 --r 1 --kick 0.1 --until 200 --print";
+    let print = |field: &str| folder.stickslip(&format!("{run} {field}"));
+    assert_eq!(print("period").stdout, print("oscillation.period").stdout);
+    assert!(!print("period").stdout.is_empty());
+    assert!(said(&print("perod")).contains("did you mean oscillation.period"));
+    let ensemble = "sweep --alpha 1 --r 1 --noise 1e-3 --seed 1:4:4 --until 60 --format text";
+    let text = String::from_utf8(folder.stickslip(ensemble).stdout).unwrap();
+    assert!(
+        text.contains("mean of l") && text.contains("mean of 4: ") && text.contains("spread"),
+        "{text}"
+    );
+}

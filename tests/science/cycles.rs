@@ -13,7 +13,7 @@ use stickslip_cycles::{Cycle, CycleError, DEFAULT_TOLERANCE, cycle, cycle_near};
 use stickslip_outcome::run_and_judge;
 use stickslip_stability::{critical, onset};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::{Gaussian, Model, Run, Scenario, TipFunction, Trajectory, run};
+use stickslip_tip::{Gaussian, Model, Run, Scenario, TipFunction, Trajectory, Wider, run};
 
 fn tip(beta: f64) -> TipFunction {
     TipFunction::triple_gaussian(beta, 1.0).unwrap()
@@ -284,6 +284,46 @@ fn the_ripple_is_that_of_a_run() {
                 .unwrap();
         let difference = (ripple.amplitude - cycle.amplitude_u()).abs();
         Acceptance { floor: 1e-8, slack: 0.0 }.judge(&format!("{case:?}"), difference, 0.0);
+    }
+}
+
+/// Where the surface heals, u(x, t) e^{(rt - x)/(rT)} behind the tip depends on x alone: judged by u itself at two times, on
+/// runs that end anywhere within a period.
+#[test]
+fn the_ripple_of_a_surface_that_heals_is_that_of_a_run() {
+    let cases = [
+        (TipFunction::gaussian(1.0), 0.803_822, 0.428_268, 26.8123),
+        (TipFunction::triple_gaussian(1.0, 1.0), 1.6, 1.0, 10.0),
+    ];
+    for (tip, alpha, r, time) in cases {
+        let wider = Wider { healing_time: Some(time), ..Wider::default() };
+        let model = Model::under(wider, tip.unwrap(), alpha, r).unwrap();
+        let cycle = cycle(&model, DEFAULT_TOLERANCE).unwrap();
+        for until in [448.0, 450.0, 455.0] {
+            let scenario = Scenario { kick: 0.1, ..Scenario::new(model.clone(), until) };
+            let (run, outcome) = run_and_judge(&scenario).unwrap();
+            let found = outcome.oscillation.unwrap();
+            let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
+            let ripple = ripple_behind(&surface, &run.trajectory, found.wavelength).unwrap();
+            let error = found.amplitude_u_error(ripple.amplitude);
+            let off = (ripple.amplitude - cycle.amplitude_u()).abs();
+            assert!(
+                off <= error + cycle.amplitude_u_error(),
+                "{until}: {ripple:?} {error:e}, off {off:e}"
+            );
+            assert!(error < 1e-4 * ripple.amplitude, "{until}: {error:e}");
+            let high = run.trajectory.x0(until - 1.0) - model.tip().reach().unwrap();
+            let x: Vec<f64> =
+                (0..2000).map(|i| high - found.wavelength * f64::from(i) / 2000.0).collect();
+            for t in [until - 1.0, until] {
+                let u = surface.heights(t, &x).unwrap();
+                let unfaded = u.iter().zip(&x).map(|(u, x)| u * ((r * t - x) / (r * time)).exp());
+                let (low, top) = unfaded
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), u| (a.min(u), b.max(u)));
+                let miss = (0.5 * (top - low) / ripple.amplitude - 1.0).abs();
+                assert!(miss < 1e-4, "{until}, t = {t}: {miss:e}");
+            }
+        }
     }
 }
 

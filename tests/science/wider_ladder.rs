@@ -3,6 +3,7 @@
 
 use crate::acceptance::{Acceptance, largest_difference, observed_order};
 use std::ops::ControlFlow;
+use stickslip_outcome::{Drift, Regime, Remark, run_and_judge};
 use stickslip_tip::memory::Policy;
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Run, Scenario, Start, Step, SupportPath, TipFunction,
@@ -134,6 +135,79 @@ fn orders_of_convergence_survive_every_extension_and_the_corner() {
     }
 }
 
+/// A surface that heals within a small part of a width of the way: with steps of many healing times what is left of a
+/// step at its end is no polynomial. Judged as the other ladders are.
+#[test]
+fn short_memories_keep_the_tolerance_too() {
+    let pulse = stickslip_tip::Pulse { amplitude: 0.5, time: 4.0, width: 0.3 };
+    let r = 0.5;
+    for length in [0.01, 0.03, 0.07, 0.15, 0.3, 1.0] {
+        let law = wider(None, Some(length / r), None);
+        let model = Model::under(law, triple(0.0), 0.6, r).unwrap();
+        let with = |tolerance: f64, memory| {
+            let scenario = Scenario {
+                start: Start::Flat,
+                start_position: 0.0,
+                force: Force::new(vec![pulse], None).unwrap(),
+                tolerance,
+                memory,
+                ..Scenario::new(model.clone(), 8.0)
+            };
+            run(&scenario).unwrap()
+        };
+        let reference = with(1e-13, MemoryChoice::Direct);
+        for memory in [MemoryChoice::Direct, MemoryChoice::Fft, MemoryChoice::Modes] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let found = with(tolerance, memory);
+                let label = format!("rT = {length}, {memory:?}, {tolerance:e}");
+                LADDER.judge(&label, error(&found, &reference), tolerance);
+            }
+        }
+    }
+}
+
+/// Nothing pushes the tip, and what it leaves is even about it: x0 is its start, to the last bit, however unstable that is.
+#[test]
+fn a_tip_at_rest_by_symmetry_stays_there_in_every_memory() {
+    for law in [
+        wider(None, None, None),
+        wider(None, Some(1.0), None),
+        wider(None, Some(2.0), Some(0.5)),
+        wider(Some(2.0), None, None),
+    ] {
+        let law = Wider { spring: false, ..law };
+        for tip in [triple(0.0), triple(1.0), TipFunction::Bessel] {
+            let model = Model::under(law, tip, -3.0, 0.0).unwrap();
+            for memory in [MemoryChoice::Auto, MemoryChoice::Direct, MemoryChoice::Fft] {
+                let resting =
+                    Scenario { start: Start::Flat, memory, ..Scenario::new(model.clone(), 200.0) };
+                let (found, outcome) = run_and_judge(&resting).unwrap();
+                let moved = found.trajectory.steps().iter().flat_map(|step| step.displacement);
+                assert!(
+                    moved.fold(0.0, |most: f64, d| most.max(d.abs())) <= 0.0,
+                    "{law:?} {memory:?}"
+                );
+                let unstable = |remark: &Remark| matches!(remark, Remark::RestsBySymmetry { .. });
+                assert!(outcome.remarks.iter().any(unstable), "{law:?}: {outcome:?}");
+            }
+        }
+    }
+    // It stays until a pulse begins, and errors that grow after that are remarked where they decide.
+    let pulsed = |time: f64| {
+        let law = Wider { spring: false, ..wider(None, None, None) };
+        let pulse = stickslip_tip::Pulse { amplitude: 1.0, time, width: 0.5 };
+        let model = Model::under(law, triple(0.0), -0.5, 0.0).unwrap();
+        let force = Force::new(vec![pulse], None).unwrap();
+        let scenario = Scenario { start: Start::Flat, force, ..Scenario::new(model, time + 20.0) };
+        run_and_judge(&scenario).unwrap()
+    };
+    let grows = |remark: &Remark| matches!(remark, Remark::ErrorsGrowAtRest { .. });
+    let (late, outcome) = pulsed(40.0);
+    assert!((late.trajectory.x0(34.9) - 14.0).abs() <= 0.0);
+    assert!(outcome.remarks.iter().any(grows), "{outcome:?}");
+    assert!(!pulsed(2.0).1.remarks.iter().any(grows));
+}
+
 /// f = cos, no spring: the Lorenz system with σ = T/M, ρ = -αT², b = 1.
 #[test]
 fn a_cosine_without_a_spring_is_the_lorenz_system() {
@@ -208,6 +282,38 @@ fn a_walker_on_j0_goes_at_the_speed_of_theory() {
         println!("{memory:?} {speed:.10}");
         assert!((speed - exact).abs() < 1e-8, "{memory:?}: {speed}");
     }
+}
+
+/// Judged by the closed form of the speed; a walk that has not settled is on the way there, and Lorenz's chaos nowhere.
+#[test]
+fn a_walk_at_one_velocity_is_drifting() {
+    let outcome = |tip: TipFunction, alpha: f64, mass: Option<f64>, until: f64, amplitude: f64| {
+        let law = Wider { spring: false, ..wider(None, Some(1.0), mass) };
+        let model = Model::under(law, tip, alpha, 0.0).unwrap();
+        let pulse = stickslip_tip::Pulse { amplitude, time: 2.0, width: 0.5 };
+        let force = Force::new(vec![pulse], None).unwrap();
+        let scenario = Scenario { start: Start::Flat, force, ..Scenario::new(model, until) };
+        run_and_judge(&scenario).unwrap().1
+    };
+    for (b, sign, until) in
+        [(3.0, 1.0, 60.0), (3.0, -1.0, 300.0), (2.2, 1.0, 120.0), (10.0, 1.0, 60.0)]
+    {
+        let found = outcome(TipFunction::Bessel, -b, None, until, sign);
+        assert_eq!(found.regime, Regime::Drifting, "{b} {until}: {found:?}");
+        let exact = sign * ((2.0 * b - 1.0 - (1.0 + 4.0 * b).sqrt()) / 2.0_f64).sqrt();
+        let Drift { velocity, velocity_error } = found.drifting.unwrap();
+        assert!(
+            (velocity - exact).abs() <= velocity_error,
+            "{velocity} {exact} {velocity_error:e}"
+        );
+        assert!(velocity_error < 1e-5 * exact.abs(), "{velocity_error:e}");
+    }
+    let early = outcome(TipFunction::Bessel, -2.2, None, 12.0, 1.0);
+    assert_eq!(early.prospect.unwrap().towards, Some(Regime::Drifting), "{early:?}");
+    let chaos = outcome(TipFunction::Cosine, -28.0, Some(0.1), 40.0, 1.0);
+    assert_eq!(chaos.regime, Regime::Transient, "{chaos:?}");
+    let rests = outcome(triple(0.0), -0.5, None, 100.0, 1.0);
+    assert_eq!(rests.regime, Regime::Steady, "{rests:?}");
 }
 
 /// Without limit in the limit: x0 differs by 1/b, 1/T and M, to first order.

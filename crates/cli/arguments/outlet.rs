@@ -33,8 +33,8 @@ pub(crate) struct OutletArguments {
 
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct FieldArguments {
-    /// Print this field of the document, such as parameters.alpha, a line each, in place of the document on standard
-    /// output; repeatable.
+    /// Print this field of the document, such as parameters.alpha, or period where one field alone ends so: a line each,
+    /// in place of the document on standard output; repeatable.
     #[arg(long, value_name = "FIELD", help_heading = "Output")]
     pub(crate) print: Vec<String>,
 }

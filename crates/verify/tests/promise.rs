@@ -14,7 +14,7 @@ use stickslip_stability::{critical, leading_roots};
 use stickslip_tip::memory::{Fit, Policy, Term, accuracy_needed};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction,
-    Trajectory, run,
+    Trajectory, Wider, run,
 };
 use stickslip_verify::{TOLERANCES_ALLOWED, Verification, verify};
 
@@ -55,6 +55,55 @@ fn cases() -> Vec<(&'static str, Scenario)> {
         ("bessel", kicked(0.05, of(TipFunction::Bessel, 1.1, 1.0), 116.0)),
         ("table", kicked(0.05, of(TipFunction::table(&x_of_table, &f).unwrap(), 1.0, 0.8), 50.0)),
     ]
+}
+
+/// f = cos without a spring is the Lorenz system (docs/walking.md). A shift of its start shifts all of the run; what errors
+/// grow by is judged by its three equations, integrated here by the classical method with and without the push.
+#[test]
+fn errors_of_a_tip_without_a_spring_grow_as_those_of_its_equations() {
+    let (mass, rho, shift) = (0.1, 28.0, 1e-7);
+    let wider =
+        Wider { healing_time: Some(1.0), inertia: Some(mass), spring: false, ..Wider::default() };
+    let model = Model::under(wider, TipFunction::Cosine, -rho, 0.0).unwrap();
+    for until in [8.0, 20.0] {
+        let scenario = Scenario {
+            start: Start::Flat,
+            start_velocity: Some(1.0),
+            ..Scenario::new(model.clone(), until)
+        };
+        let done = run(&scenario).unwrap();
+        let found = verified(&scenario, "modes", &done.trajectory).growth.amplification;
+        let x0 = |push: f64| {
+            let time = (0.1 * until).min(1.0);
+            let width = 0.1 * time;
+            let force = |t: f64| {
+                let z: f64 = (t - time) / width;
+                push / (width * std::f64::consts::TAU.sqrt()) * (-0.5 * z * z).exp()
+            };
+            let rate = |t: f64, [_, v, y, z]: [f64; 4]| {
+                [v, (force(t) - v + rho * y) / mass, v * z - y, 1.0 - v * y - z]
+            };
+            let (h, mut u, mut way) = (1e-3, [0.0, 1.0, 0.0, 0.0], vec![]);
+            for i in 0..(until / h) as u32 {
+                let t = h * f64::from(i);
+                let along = |k: [f64; 4], by: f64| std::array::from_fn(|i| u[i] + by * k[i]);
+                let k1 = rate(t, u);
+                let k2 = rate(t + 0.5 * h, along(k1, 0.5 * h));
+                let k3 = rate(t + 0.5 * h, along(k2, 0.5 * h));
+                let k4 = rate(t + h, along(k3, h));
+                u = std::array::from_fn(|i| {
+                    u[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
+                });
+                way.push(u[0]);
+            }
+            way
+        };
+        let (plain, pushed) = (x0(0.0), x0(shift));
+        let apart = plain.iter().zip(&pushed).map(|(a, b)| (a - b).abs());
+        let exact = apart.fold(0.0, f64::max) / shift;
+        println!("until {until}: {found:e}, by the equations {exact:e}");
+        assert!((found / exact - 1.0).abs() < 0.1, "until {until}: {found:e}, not {exact:e}");
+    }
 }
 
 #[test]

@@ -146,3 +146,23 @@ fn a_run_comes_back_from_its_document() {
     let none = RunDocument { history: None, ..back }.trajectory().unwrap_err();
     assert!(none.to_string().contains("--history all"), "{none}");
 }
+
+/// Whatever the value and its error, a person can read it, and a reader of it comes within the error.
+#[test]
+fn no_number_is_longer_than_a_person_reads() {
+    let sizes = (-320..=308).step_by(4).map(|e| format!("3.7e{e}").parse::<f64>().unwrap());
+    let sizes: Vec<f64> = sizes.chain([0.0, f64::MIN_POSITIVE, f64::MAX, 5e-324]).collect();
+    for value in sizes.iter().flat_map(|size| [*size, -size]) {
+        for error in &sizes {
+            let shown = stickslip_documents::to_its_digits(value, *error);
+            assert!(shown.len() <= 40, "{value:e} ± {error:e}: {shown}");
+            let (before, rest) = shown.split_once('(').unwrap_or((&shown, ")"));
+            let after = rest.split_once(')').unwrap().1;
+            let read: f64 = format!("{before}{after}").parse().unwrap();
+            let off = (read - value).abs();
+            assert!(off <= *error + 1e-13 * value.abs() + 1e-320, "{value:e} ± {error:e}: {shown}");
+        }
+    }
+    assert_eq!(stickslip_documents::to_its_digits(f64::NAN, 1.0), "NaN(?)");
+    assert_eq!(stickslip_documents::to_its_digits(1.0, f64::INFINITY), "1e0(?)");
+}

@@ -87,7 +87,7 @@ fn a_script_gets_single_fields() {
     assert!((critical.trim().parse::<f64>().unwrap() - 1.069_036_174_947).abs() < 1e-11);
     // Before the work, with what there is.
     let long = "run --alpha 1.2 --r 1 --until 1e8";
-    folder.refuses(&format!("{long} --print period"), &["--print period", "oscillation"]);
+    folder.refuses(&format!("{long} --print perod"), &["--print perod", "oscillation"]);
     folder.refuses(
         &format!("{long} --print oscillation.perod"),
         &["there is no such field", "oscillation.period"],

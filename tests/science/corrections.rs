@@ -1,12 +1,15 @@
 //! Where this project departs from the paper: each test fails with what the paper prints.
 //!
 //! Judges: closed forms, quadrature, `data/reference_values.json` (30-digit arithmetic), and a small
-//! discretisation of (10) and (11) written here. Judged: the printed formula or number, and the
-//! library's. `docs/corrections.md` gives the reasons.
+//! discretisation of (10) and (11), direct sums of (54) to (56), and panels of Gauss's rule, all written here.
+//! Judged: the printed formula or number, and the library's. `docs/corrections.md` gives the reasons.
 
+use gauss_quad::legendre::GaussLegendre;
+use num_complex::Complex64;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::num::NonZeroUsize;
 use stickslip_outcome::{Regime, run_and_judge};
-use stickslip_stability::{critical, critical_r};
+use stickslip_stability::{critical, critical_r, leading_roots, roots};
 use stickslip_tip::{InitialSurface, Model, Noise, Run, Scenario, Start, TipFunction, run};
 
 /// Printed numbers are rounded to the third digit after the point.
@@ -274,4 +277,176 @@ fn the_steady_surface_of_the_triple_gaussian_is_not_flat_under_the_tip() {
     };
     assert!(swing(&flat) > 0.3, "{}", swing(&flat));
     assert!(swing(&steady) < 1e-6, "{}", swing(&steady));
+}
+
+#[test]
+fn the_transverse_spring_has_the_energy_of_half_its_constant_times_y_squared() {
+    // k, k', Γ and v0 t are numbers without meaning; the surface is flat.
+    let (k, across, damping, support) = (1.3, 0.7, 2.1, 0.4);
+    let printed = |x: f64, y: f64| 0.5 * k * (x - support).powi(2) + across * y * y;
+    let right = |x: f64, y: f64| 0.5 * k * (x - support).powi(2) + 0.5 * across * y * y;
+    let h = 1e-5;
+    let pull = |energy: &dyn Fn(f64) -> f64, at: f64| (energy(at - h) - energy(at + h)) / (2.0 * h);
+    for (x, y) in [(0.0, 0.5), (1.2, -0.3), (-0.7, 2.0)] {
+        // (54) and (55): the forces that (51) is to give.
+        let (along, aside) = (k * (support - x), -across * y);
+        assert!((pull(&|x| right(x, y), x) - along).abs() < 1e-9);
+        assert!((pull(&|y| right(x, y), y) - aside).abs() < 1e-9);
+        assert!((pull(&|y| printed(x, y), y) - 2.0 * aside).abs() < 1e-9);
+    }
+    // By (55) a tip let go at y = 1 comes back as exp(-k't/Γ); friction uses up what the spring held.
+    let (steps, dt) = (40_000, 1e-3);
+    let speed = |t: f64| -across / damping * (-across * t / damping).exp();
+    let used: f64 =
+        (0..steps).map(|i| dt * damping * speed((f64::from(i) + 0.5) * dt).powi(2)).sum();
+    assert!((used - right(support, 1.0)).abs() < 1e-6, "{used}");
+    assert!((used - printed(support, 1.0)).abs() > 0.3);
+}
+
+/// A tip on two springs that carves f = g(x) exp(-y²/2), by direct sums of (54) to (56): the largest |y0| of the
+/// first ten units of time and of the last ten before `until`, both in units of the displacement across by which steady
+/// motion is disturbed. `beside` is the force along y of what other lines left.
+fn swing_across(
+    model: &Model,
+    stiffness: f64,
+    beside: impl Fn(f64) -> f64,
+    until: f64,
+) -> (f64, f64) {
+    let (dt, aside, reach) = (0.02, 1e-4, 11.0);
+    let lag = model.r() + model.steady_l();
+    // Steady motion up to t = 0, then a start aside.
+    let mut past: Vec<(f64, f64)> =
+        (0..2000).map(|i| (model.r() * dt * (f64::from(i) - 1999.5) - lag, 0.0)).collect();
+    let velocity = |past: &[(f64, f64)], t: f64, (x, y): (f64, f64)| {
+        let near = past.iter().rev().take_while(|(then, _)| x - then < reach);
+        let (along, across) = near.fold((0.0, 0.0), |sums, (x1, y1)| {
+            let (dx, dy) = (x - x1, y - y1);
+            let across = (-0.5 * dy * dy).exp();
+            let (slope, value) = (model.tip().slope(dx), model.tip().value(dx));
+            (sums.0 + slope * across, sums.1 - dy * value * across)
+        });
+        let carved = model.alpha() * dt;
+        (carved * along + model.r() * t - x, carved * across - stiffness * y + beside(y))
+    };
+    let (mut x, mut y) = (-lag, aside);
+    let (mut first, mut last) = (0.0_f64, 0.0_f64);
+    let steps = (until / dt).round() as usize;
+    for n in 0..steps {
+        let t = dt * n as f64;
+        let (vx, vy) = velocity(&past, t, (x, y));
+        // The middle of the step is what is carved; the velocity there advances the tip.
+        let middle = (x + 0.5 * dt * vx, y + 0.5 * dt * vy);
+        let (vx, vy) = velocity(&past, t + 0.5 * dt, middle);
+        past.push(middle);
+        (x, y) = (x + dt * vx, y + dt * vy);
+        if t < 10.0 {
+            first = first.max(y.abs());
+        }
+        if n + 500 >= steps {
+            last = last.max(y.abs());
+        }
+    }
+    (first / aside, last / aside)
+}
+
+#[test]
+fn a_tip_whose_footprint_rises_beside_its_line_snakes() {
+    // f_yy(x, 0) = -g(x) for f = g(x) exp(-y²/2): above 0 under the side lobes of (7), the paper's own tip.
+    let f = |x: f64, y: f64| triple(1.0).value(x) * (-0.5 * y * y).exp();
+    let f_yy = |x: f64| (f(x, 1e-3) - 2.0 * f(x, 0.0) + f(x, -1e-3)) / 1e-6;
+    assert!(f_yy(2.0) > 0.3, "{}", f_yy(2.0));
+    assert!(f_yy(0.0) < -0.8, "{}", f_yy(0.0));
+    // And y0 = 0 is lost below the onset of stick-slip, where λ + κ = (α/r) [φ(λ/r) - φ(0)] has λ = iω.
+    let (r, stiffness) = (1.0, 0.25);
+    let phi = |q: f64| -> Complex64 {
+        let term = |y: f64| triple(1.0).value(y) * Complex64::from_polar(1.0, -q * y);
+        panels(0.0, 12.0, term)
+    };
+    // κ = rΩ Re[φ(iΩ) - φ(0)]/Im φ(iΩ), by halving.
+    let at = |q: f64| r * q * (phi(q) - phi(0.0)).re / phi(q).im;
+    let (mut low, mut high) = (0.05, 0.8);
+    assert!((at(low) - stiffness) * (at(high) - stiffness) < 0.0, "{} {}", at(low), at(high));
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let same = (at(middle) - stiffness) * (at(low) - stiffness) > 0.0;
+        *(if same { &mut low } else { &mut high }) = middle;
+    }
+    let threshold = r * r * low / phi(low).im;
+    // The same from a prototype of two coordinates that shares no code with this.
+    assert!((threshold - 0.830_541_012_7).abs() < 1e-9, "{threshold}");
+    assert!(threshold < critical(&triple(1.0), r).unwrap().alpha);
+    let swing = |part: f64| {
+        swing_across(&model(triple(1.0), part * threshold, r), stiffness, |_| 0.0, 150.0)
+    };
+    let (below, above) = (swing(0.95), swing(1.05));
+    assert!(below.1 < 0.5 * below.0, "{threshold} {below:?}");
+    assert!(above.1 > 2.0 * above.0, "{threshold} {above:?}");
+}
+
+#[test]
+fn beside_other_lines_no_shape_of_the_tip_keeps_it_on_its_own() {
+    // A Gaussian has f_yy(x, 0) < 0 everywhere.
+    let (r, stiffness, pitch) = (1.0, 0.5, 3.0_f64.sqrt());
+    let gaussian = |alpha| model(triple(0.0), alpha, r);
+    // What a steady line leaves far behind, -(α/r)∫f exp(-y²/2), of one on either side.
+    let trenches = |model: &Model, y: f64| {
+        let depth = model.alpha() / r * model.tip().integral();
+        let pull = |d: f64| -depth * (y - d) * (-0.5 * (y - d).powi(2)).exp();
+        pull(pitch) + pull(-pitch)
+    };
+    // They draw it off where κ < 2 (α/r)∫f (d² - 1) exp(-d²/2), whatever it has carved itself.
+    let threshold = stiffness
+        / (2.0 * (2.0 * PI).sqrt() / r * (pitch.powi(2) - 1.0) * (-0.5 * pitch.powi(2)).exp());
+    assert!((threshold - 0.2235).abs() < 5e-5, "{threshold}");
+    let above = gaussian(1.2 * threshold);
+    let fresh = swing_across(&above, stiffness, |_| 0.0, 150.0);
+    let between = swing_across(&above, stiffness, |y| trenches(&above, y), 150.0);
+    assert!(fresh.1 < 1e-3 * fresh.0, "{fresh:?}");
+    assert!(between.1 > 2.0 * between.0, "{between:?}");
+    let below = gaussian(0.8 * threshold);
+    let between = swing_across(&below, stiffness, |y| trenches(&below, y), 150.0);
+    assert!(between.1 < 0.5 * between.0, "{between:?}");
+}
+
+/// ∫ from `from` to `to`, by panels of Gauss's rule a quarter long.
+fn panels(from: f64, to: f64, term: impl Fn(f64) -> Complex64) -> Complex64 {
+    let rule = GaussLegendre::new(NonZeroUsize::new(16).expect("not zero"));
+    let count = (4.0 * (to - from)).ceil();
+    let half = 0.5 * (to - from) / count;
+    let panel = |i: usize| {
+        let middle = from + half * (2 * i + 1) as f64;
+        let nodes = rule.as_node_weight_pairs().iter();
+        nodes.map(|(node, weight)| half * weight * term(middle + half * node)).sum::<Complex64>()
+    };
+    (0..count as usize).map(panel).sum()
+}
+
+#[test]
+fn the_sum_over_roots_has_no_last_term() {
+    // β = 0, r = 1, at onset: K̃(s) - s - 1 of (A.6), its sign turned, with K̃ from its integral.
+    let model = model(triple(0.0), 1.879_426_702_899, 1.0);
+    let h = |z: Complex64| {
+        let transform = panels(0.0, 30.0, |y| (y * y - 1.0) * (-0.5 * y * y - z * y).exp());
+        z + 1.0 + model.alpha() * transform
+    };
+    // Turns of h along half the circle |s| = R: h is real on the real axis.
+    let within = |radius: f64| {
+        let steps = (400.0 * radius) as u32;
+        let at = |i: u32| h(Complex64::from_polar(radius, PI * f64::from(i) / f64::from(steps)));
+        let values: Vec<Complex64> = (0..=steps).map(at).collect();
+        let turns: f64 = values.windows(2).map(|pair| (pair[1] / pair[0]).arg()).sum::<f64>() / PI;
+        assert!((turns - turns.round()).abs() < 1e-3, "{radius}: {turns}");
+        turns.round() as usize
+    };
+    let library = leading_roots(&model, 60).unwrap().roots;
+    for radius in [3.0, 5.0, 7.0, 9.0] {
+        let (counted, asymptotic) = (within(radius), radius * radius / (2.0 * PI));
+        let listed = library.iter().filter(|root| root.norm() < radius).count();
+        assert_eq!(counted, listed, "{radius}");
+        // e^{s²/2} turns once more for every 4π of |s|², above and below the axis.
+        assert!((counted as f64 - asymptotic).abs() < 3.0, "{radius}: {counted} {asymptotic}");
+    }
+    // So it goes on, by the library's own count, as far as it looks.
+    let counts = [-2.0, -4.0, -8.0].map(|bound| roots(&model, bound).unwrap().certificate.counted);
+    assert!(counts[1] >= counts[0] + 3 && counts[2] >= counts[1] + 12, "{counts:?}");
 }

@@ -1,8 +1,8 @@
 """heyoka on the embedded system: Taylor series, compiled just in time, for who knows the exponentials.
 
 Reads what `race embedded` wrote from the file named on the command line, prints rows as JSON: for each motion and error
-asked the setting that took least time, of the exponentials fitted about that error, and of tolerances
-around it; compilation apart. Batches go side by side in the lanes of the machine.
+asked the setting that took least time, of two ways to write the system down, of the exponentials fitted about that error,
+and of tolerances around it; compilation apart. Batches go side by side in the lanes of the machine.
 """
 
 import json
@@ -13,6 +13,9 @@ import heyoka as hy
 import numpy as np
 
 TARGETS = (1e-6, 1e-9, 1e-11)
+# Of ensembles, whose error is taken where each motion ends.
+TARGETS_OF_ENSEMBLE = (1e-6, 1e-9)
+FORMS = ("shared", "folded")
 # Of the error asked: which exponentials, in digits more, and the tolerances tried.
 FITS = (-1, 0, 1)
 DECADES = (1, 0.5, 0, -0.5, -1, -1.5, -2, -3)
@@ -20,42 +23,45 @@ DECADES = (1, 0.5, 0, -0.5, -1, -1.5, -2, -3)
 OPTIONS = {"fast_math": True, "slp_vectorize": True}
 
 
-def system(terms, r):
-    """(l, re z, im z, ...): z' = 1 + s v z and v = alpha Re sum w z + l + r, alpha a parameter."""
+def system(terms, r, form):
+    """(l, re Z, im Z, ...) for Z' = c + s v Z and v = alpha Re sum (w/c) Z + l + r, alpha a parameter.
+
+    "shared": c = 1. The products v x and v y stand as such: heyoka expands each once for both equations that have it, which takes
+    a fifth to a quarter less time than v (re x - im y). "folded": c = w besides, so that the slope is a plain sum; a tenth less
+    again, but large weights then count in its control of errors.
+    """
     lag = hy.make_vars("l")
     states, slope = [], []
-    for i, (_, wave, _, _) in enumerate(terms):
+    for i, (_, wave, re, im) in enumerate(terms):
         names = [f"x{i}", f"y{i}"] if wave else [f"x{i}"]
         states.append([hy.make_vars(name) for name in names])
-    for (_, _, re, im), z in zip(terms, states):
-        slope.append(re * z[0])
-        if len(z) == 2:
-            slope.append(-im * z[1])
+        slope += states[-1][:1] if form == "folded" else [w * z for w, z in zip((re, -im), states[-1])]
     velocity = hy.par[0] * hy.sum(slope) + lag + r
     equations = [(lag, r - velocity)]
-    for (re, im, _, _), z in zip(terms, states):
-        if len(z) == 2:
-            equations.append((z[0], 1.0 + velocity * (re * z[0] - im * z[1])))
-            equations.append((z[1], velocity * (re * z[1] + im * z[0])))
-        else:
-            equations.append((z[0], 1.0 + velocity * (re * z[0])))
+    for (re, im, *weight), z in zip(terms, states):
+        source = weight if form == "folded" else (1.0, 0.0)
+        products = [velocity * part for part in z]
+        x, y = products if im else (products[0], 0.0)
+        rates = (source[0] + re * x - im * y, source[1] + re * y + im * x)
+        equations += zip(z, rates)
     return equations
 
 
-def start(terms, motion):
+def start(terms, motion, form):
     """Steady motion for ever, then the kick."""
     state = [motion["l0"] + motion["kick"]]
-    for re, im, _, _ in terms:
+    for re, im, *weight in terms:
         s = complex(re, im)
         z = -np.exp(-s * motion["kick"]) / (s * motion["r"])
+        z *= complex(*weight) if form == "folded" else 1.0
         state += [z.real, z.imag] if im else [z.real]
     return state
 
 
-def timed(work):
-    """The shortest of as many as a second allows, at least three, or the processor's on average if that is less."""
+def timed(work, seconds=1.0):
+    """The shortest of as many as that allows, three to 200, or the processor's on average if that is less."""
     best, begun, count, spent = np.inf, time.perf_counter(), 0, time.process_time()
-    while count < 3 or (time.perf_counter() - begun < 1.0 and count < 200):
+    while count < 3 or (time.perf_counter() - begun < seconds and count < 200):
         before = time.perf_counter()
         work()
         best = min(best, time.perf_counter() - before)
@@ -63,12 +69,12 @@ def timed(work):
     return min(best, (time.process_time() - spent) / count)
 
 
-def solver(terms, motion, tolerance):
+def solver(terms, motion, tolerance, form):
     """Compiled afresh; and how long that took."""
     hy.llvm_state.clear_memcache()
     before = time.perf_counter()
     integrator = hy.taylor_adaptive(
-        system(terms, motion["r"]), start(terms, motion), tol=tolerance, pars=[motion["alpha"]], **OPTIONS
+        system(terms, motion["r"], form), start(terms, motion, form), tol=tolerance, pars=[motion["alpha"]], **OPTIONS
     )
     return integrator, time.perf_counter() - before
 
@@ -89,86 +95,94 @@ def error(integrator, state, motion):
     return float(np.max(np.abs(found - motion["l"])))
 
 
+def settings(document, target):
+    """Exponentials fitted about the error asked, tolerances around it, both forms."""
+    finest = document["fits"][-1]["digits"]
+    for digits in sorted({min(round(-np.log10(target)) + index, finest) for index in FITS}):
+        terms = next(fit["terms"] for fit in document["fits"] if fit["digits"] == digits)
+        for decade in DECADES:
+            for form in FORMS:
+                yield terms, max(target * 10.0**decade, 1e-15), form
+
+
+def fastest(candidates, target):
+    """Of rows with their work, those that err no more than asked: the three that seemed fastest are timed at length."""
+    able = [(timed(work, 0.02), row, work) for row, work in candidates if row["error"] <= target]
+    able.sort(key=lambda one: one[0])
+    rows = [{**row, "target": target, "seconds": timed(work)} for _, row, work in able[:3]]
+    for row in rows:
+        print(row, file=sys.stderr)
+    return min(rows, key=lambda row: row["seconds"])
+
+
+def described(motion, terms, tolerance, form, what, compiling, miss):
+    return {
+        "contestant": "heyoka",
+        "motion": motion,
+        "setting": f"{len(terms)} exponentials, {form}, tolerance {tolerance:.1e}, {what}",
+        "compiling": compiling,
+        "error": miss,
+    }
+
+
 def scalar(document):
     rows, compiled = [], {}
+
+    def candidate(motion, terms, tolerance, form):
+        key = (len(terms), tolerance, form)
+        if key not in compiled:
+            compiled[key] = solver(terms, motion, tolerance, form)
+        integrator, compiling = compiled[key]
+        state = start(terms, motion, form)
+        miss = error(integrator, state, motion)
+        row = described(motion["name"], terms, tolerance, form, f"order {integrator.order}", compiling, miss)
+        return row, lambda: once(integrator, state, motion)
+
     for motion in document["motions"]:
         for target in TARGETS:
-            best = None
-            for index in FITS:
-                digits = min(round(-np.log10(target)) + index, document["fits"][-1]["digits"])
-                fit = next(fit for fit in document["fits"] if fit["digits"] == digits)
-                for decade in DECADES:
-                    tolerance = max(target * 10.0**decade, 1e-15)
-                    key = (digits, tolerance)
-                    if key not in compiled:
-                        compiled[key] = solver(fit["terms"], motion, tolerance)
-                    integrator, compiling = compiled[key]
-                    state = start(fit["terms"], motion)
-                    miss = error(integrator, state, motion)
-                    if not miss <= target:
-                        continue
-                    seconds = timed(lambda: once(integrator, state, motion))
-                    row = {
-                        "contestant": "heyoka",
-                        "motion": motion["name"],
-                        "target": target,
-                        "setting": f"{len(fit['terms'])} exponentials, tolerance {tolerance:.1e}, order {integrator.order}",
-                        "seconds": seconds,
-                        "compiling": compiling,
-                        "error": miss,
-                    }
-                    print(row, file=sys.stderr)
-                    if best is None or seconds < best["seconds"]:
-                        best = row
-            if best:
-                rows.append(best)
+            candidates = (candidate(motion, *setting) for setting in settings(document, target))
+            rows.append(fastest(candidates, target))
     return rows
 
 
-def batch(document):
+def side_by_side(document, terms, tolerance, form):
     """The ensemble: as many at a time as lanes, one batch after the other, on one core."""
-    rows, ensemble = [], document["ensemble"]
+    ensemble = document["ensemble"]
     motion = next(motion for motion in document["motions"] if motion["name"] == ensemble["motion"])
     alphas = np.linspace(ensemble["from"], ensemble["to"], ensemble["count"])
     lanes = hy.recommended_simd_size()
-    for target, decade in ((1e-6, -1), (1e-9, -1)):
-        fit = next(fit for fit in document["fits"] if fit["digits"] == round(-np.log10(target)))
-        hy.llvm_state.clear_memcache()
-        before = time.perf_counter()
-        # The steady lag is proportional to alpha.
-        states = np.array([start(fit["terms"], motion)] * lanes).T
-        integrator = hy.taylor_adaptive_batch(
-            system(fit["terms"], motion["r"]),
-            states,
-            tol=target * 10.0**decade,
-            pars=[[motion["alpha"]] * lanes],
-            **OPTIONS,
-        )
-        compiling = time.perf_counter() - before
+    hy.llvm_state.clear_memcache()
+    before = time.perf_counter()
+    states = np.array([start(terms, motion, form)] * lanes).T
+    integrator = hy.taylor_adaptive_batch(
+        system(terms, motion["r"], form), states, tol=tolerance, pars=[[motion["alpha"]] * lanes], **OPTIONS
+    )
+    compiling = time.perf_counter() - before
+    ends = np.empty_like(alphas)
 
-        def work():
-            for some in alphas.reshape(-1, lanes):
-                lags = motion["l0"] * some / motion["alpha"]
-                # X + r + l over r: each starts when its support is there.
-                integrator.set_time(motion["start"] + (lags - motion["l0"]) / motion["r"])
-                integrator.state[:] = states
-                integrator.state[0] = lags + motion["kick"]
-                integrator.pars[0] = some
-                integrator.propagate_until(np.full(lanes, motion["until"]))
+    def work():
+        for i in range(0, len(alphas), lanes):
+            some = alphas[i : i + lanes]
+            # The steady lag is proportional to alpha.
+            lags = motion["l0"] * some / motion["alpha"]
+            # X + r + l over r: each starts when its support is there.
+            integrator.set_time(motion["start"] + (lags - motion["l0"]) / motion["r"])
+            integrator.state[:] = states
+            integrator.state[0] = lags + motion["kick"]
+            integrator.pars[0] = some
+            integrator.propagate_until(np.full(lanes, motion["until"]))
+            ends[i : i + lanes] = integrator.state[0]
 
-        rows.append(
-            {
-                "contestant": "heyoka",
-                "motion": "ensemble",
-                "target": target,
-                "setting": f"{len(fit['terms'])} exponentials, tolerance {target * 10.0**decade:.0e}, {lanes} lanes",
-                "seconds": timed(work),
-                "compiling": compiling,
-                "error": target,
-            }
-        )
-        print(rows[-1], file=sys.stderr)
-    return rows
+    work()
+    miss = float(np.max(np.abs(ends - ensemble["l_at_end"])))
+    return described("ensemble", terms, tolerance, form, f"{lanes} lanes", compiling, miss), work
+
+
+def batch(document):
+    return [
+        fastest((side_by_side(document, *setting) for setting in settings(document, target)), target)
+        for target in TARGETS_OF_ENSEMBLE
+    ]
 
 
 def main():

@@ -15,7 +15,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision figures peers fuzz doc \
+.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision timings figures peers fuzz doc \
 	install site test-site dist clean
 
 help: ## list these verbs
@@ -71,6 +71,10 @@ bench: ## measure: cost per step, whole runs, surfaces
 
 work-precision: ## measure time against error, into data/work_precision.json, which `figures` draws
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json
+
+timings: ## time whole commands, processor and memory, into data/commands.json, which README.md and docs quote (two minutes)
+	$(CARGO) build --release --locked
+	benches/commands.py target/release/stickslip data/commands.json
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
 	@$(call stickslip,figures --out-dir target/figures)

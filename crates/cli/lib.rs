@@ -22,8 +22,9 @@ mod made;
 mod message;
 mod sign_of_life;
 
-use arguments::{Cli, Command};
+use arguments::{Cli, Command, FIRST_SCREEN};
 use clap::Parser;
+use clap::error::ErrorKind as Misread;
 use failure::Failure;
 use message::{say, say_lines};
 use std::io::ErrorKind;
@@ -88,6 +89,10 @@ fn done(command: &Command) -> Result<(), Failure> {
 
 /// Help and version, to standard output; or what is wrong with the command line.
 fn answered(error: &clap::Error) -> ExitCode {
+    if error.kind() == Misread::DisplayHelpOnMissingArgumentOrSubcommand {
+        say_lines(FIRST_SCREEN);
+        return ExitCode::from(2);
+    }
     if error.use_stderr() {
         say_lines(&error.render().to_string());
         return ExitCode::from(2);

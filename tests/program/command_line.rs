@@ -19,6 +19,24 @@ fn a_document_is_json_on_standard_output_unless_a_file_is_named() {
 }
 
 #[test]
+fn the_name_alone_shows_a_short_screen_whose_commands_run() {
+    let folder = Folder::new("first_screen");
+    let output = folder.stickslip("");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    let screen = said(&output);
+    assert!(screen.lines().count() <= 20, "{screen}");
+    assert!(screen.lines().all(|line| line.chars().count() <= 90), "{screen}");
+    let commands: Vec<&str> =
+        screen.lines().filter_map(|line| line.strip_prefix("  stickslip ")).collect();
+    assert_eq!(commands.len(), 5, "{screen}");
+    for command in commands {
+        let output = folder.stickslip(command);
+        assert!(output.status.success(), "{command}: {}", said(&output));
+    }
+    assert_eq!(folder.names(), ["run.json", "run.svg", "surface.csv"]);
+}
+
+#[test]
 fn a_steady_run_says_whether_it_would_stay_so() {
     let folder = Folder::new("unstable");
     for (options, hint) in [

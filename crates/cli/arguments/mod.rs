@@ -80,6 +80,25 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
+/// The answer to the name of the program alone.
+pub(crate) const FIRST_SCREEN: &str = "\
+stickslip: stick-slip of an AFM tip on a soft surface, from one closed delay equation
+
+To begin with:
+  stickslip stability --r 1
+      the critical indentation rate, where stick-slip sets in
+  stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 100 -o run.json --plot run.svg
+      the motion of the tip, its regime, and a picture
+  stickslip surface run.json --at 100 --range 0:110 --spacing 0.1 -o surface.csv
+      the surface that the tip has left
+  stickslip cycle --alpha 1.2 --r 1
+      the periodic motion: period, amplitude, stability
+  stickslip sweep --r 1 --alpha 0.5:3:11
+      the regime at each of several points
+
+stickslip --help           all commands, with examples
+stickslip COMMAND --help   the options of one";
+
 const EXAMPLES: &str = "Examples:
   stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
   stickslip verify run.json

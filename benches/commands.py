@@ -1,0 +1,85 @@
+"""Times whole commands, as a user types them: processor time and memory, into one JSON document.
+
+    benches/commands.py PROGRAM OUTPUT.json
+
+Each command runs several times; kept is the least processor time (user and system), which other work on the machine disturbs
+least, and the largest resident size. README.md and docs quote the document; tests/program/prose_numbers.rs compares them.
+"""
+
+import datetime
+import json
+import os
+import platform
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ONSET = "run --alpha-above 0.01 --r 1 --kick 0.01 --until 457"
+CYCLES = "run --alpha 1.2 --r 1 --kick 0.05 --until 1e6 --sample-every 10 -o long.jsonl"
+# name: (command, repetitions). Later commands read what earlier ones have written.
+COMMANDS = {
+    "onset": (f"{ONSET} -o run.json", 25),
+    "stick-slip": ("run --alpha 1.2 --r 1 --kick 0.05 --until 457 -o cycles.json", 25),
+    "trapped": ("run --alpha 4 --r 1 --kick 0.01 --until 1e5 -o trapped.json", 25),
+    "stability": ("stability --alpha 1.2 --r 1", 25),
+    "cycle": ("cycle --alpha 1.2 --r 1", 25),
+    "surface": ("surface run.json --at 457 --range 400:470 --spacing 0.0014 -o surface.csv", 15),
+    "image": ("surface run.json --at 457 --range 0:471 --spacing 0.2355 --y-range=-3:3 --spacing-y 0.015 -o image.npz", 15),
+    "long, default tolerance": (CYCLES, 3),
+    "long, fft": (f"{CYCLES} --tolerance 1e-6 --memory fft", 3),
+    "long": (f"{CYCLES} --tolerance 1e-6", 3),
+    "long, verified": ("verify long.jsonl", 1),
+    "map": ("sweep --r 0.3:2:100 --alpha 0.05:4:100 --threads 1 -o map.json", 1),
+}
+
+
+def once(program, command, folder):
+    """Processor seconds and MB of one run; exit status 1 is a verification that found differences."""
+    child = subprocess.Popen(
+        [program, "--quiet", *shlex.split(command)], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    )
+    said = child.stderr.read().decode()
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode not in (0, 1) or (child.returncode == 1 and not command.startswith("verify")):
+        sys.exit(f"stickslip {command}: {said}")
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def printed(*command):
+    folder = Path(__file__).resolve().parent
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=folder).stdout.strip()
+
+
+def main():
+    program, output = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
+    data = Path(__file__).resolve().parents[1] / "data"
+    if output.resolve().parent == data and printed("git", "status", "--porcelain", "--untracked-files=no"):
+        sys.exit("the tree has changes that no commit names: commit them, or write to another folder than data")
+    with open("/proc/cpuinfo") as file:
+        models = {line.split(":", 1)[1].strip() for line in file if line.startswith("model name")}
+    document = {
+        "date": datetime.date.today().isoformat(),
+        "machine": {
+            "cpu": ", ".join(sorted(models)),
+            "cores": os.cpu_count(),
+            "os": platform.freedesktop_os_release()["PRETTY_NAME"],
+            "load": round(os.getloadavg()[0], 2),
+        },
+        "stickslip": printed("git", "describe", "--always", "--dirty"),
+        "rustc": printed("rustc", "--version").split()[1],
+        "commands": {},
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (command, count) in COMMANDS.items():
+            seconds, megabytes = zip(*(once(program, command, folder) for _ in range(count)))
+            found = {"command": f"stickslip {command}", "runs": count, "seconds": min(seconds), "megabytes": max(megabytes)}
+            document["commands"][name] = found
+            print(f"{name}: {min(seconds):.4f} s, {max(megabytes):.1f} MB", file=sys.stderr)
+    output.write_text(json.dumps(document, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -21,9 +21,9 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
-run: ## the paper's Fig. 1 case: a tip just above onset, its surface, and a picture
-	@$(call stickslip,run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot $(PLOT))
-	@$(call stickslip,surface run.json --at 457 --range 400:470 --spacing 0.02 -o surface.csv)
+run: ## a first run: a tip that comes to stick and slip, its surface, and a picture
+	@$(call stickslip,run --alpha 1.2 --r 1 --kick 0.05 --until 200 -o run.json --plot $(PLOT))
+	@$(call stickslip,surface run.json --at 200 --range 130:200 --spacing 0.02 -o surface.csv)
 
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked

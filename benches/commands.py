@@ -20,18 +20,21 @@ ONSET = "run --alpha-above 0.01 --r 1 --kick 0.01 --until 457"
 CYCLES = "run --alpha 1.2 --r 1 --kick 0.05 --until 1e6 --sample-every 10 -o long.jsonl"
 # name: (command, repetitions). Later commands read what earlier ones have written.
 COMMANDS = {
-    "onset": (f"{ONSET} -o run.json", 25),
+    "just above onset": (f"{ONSET} -o run.json", 25),
     "stick-slip": ("run --alpha 1.2 --r 1 --kick 0.05 --until 457 -o cycles.json", 25),
     "trapped": ("run --alpha 4 --r 1 --kick 0.01 --until 1e5 -o trapped.json", 25),
-    "stability": ("stability --alpha 1.2 --r 1", 25),
-    "cycle": ("cycle --alpha 1.2 --r 1", 25),
-    "surface": ("surface run.json --at 457 --range 400:470 --spacing 0.0014 -o surface.csv", 15),
-    "image": ("surface run.json --at 457 --range 0:471 --spacing 0.2355 --y-range=-3:3 --spacing-y 0.015 -o image.npz", 15),
-    "long, default tolerance": (CYCLES, 3),
-    "long, fft": (f"{CYCLES} --tolerance 1e-6 --memory fft", 3),
-    "long": (f"{CYCLES} --tolerance 1e-6", 3),
-    "long, verified": ("verify long.jsonl", 1),
-    "map": ("sweep --r 0.3:2:100 --alpha 0.05:4:100 --threads 1 -o map.json", 1),
+    "critical point and growth exponents": ("stability --alpha 1.2 --r 1", 25),
+    "limit cycle": ("cycle --alpha 1.2 --r 1", 25),
+    "surface, 50,001 points": ("surface run.json --at 457 --range 400:470 --spacing 0.0014 -o surface.csv", 15),
+    "image, 2,001 × 401": (
+        "surface run.json --at 457 --range 0:471 --spacing 0.2355 --y-range=-3:3 --spacing-y 0.015 -o image.npz",
+        15,
+    ),
+    "long run, default tolerance": (CYCLES, 3),
+    "long run, fft": (f"{CYCLES} --tolerance 1e-6 --memory fft", 3),
+    "long run": (f"{CYCLES} --tolerance 1e-6", 3),
+    "long run verified": ("verify long.jsonl", 1),
+    "phase diagram, one thread": ("sweep --r 0.3:2:100 --alpha 0.05:4:100 --threads 1 -o map.json", 1),
 }
 
 

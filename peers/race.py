@@ -201,7 +201,7 @@ def main():
     if folder.resolve() == ROOT / "data" and printed("git", "status", "--porcelain", "--untracked-files=no"):
         sys.exit("the tree has changes that no commit names: commit them, or write to another folder than data")
     interpreter, race = python(), rust()
-    before = machine()
+    before, raced = machine(), versions(interpreter)
     with tempfile.TemporaryDirectory() as scratch:
         case = Path(scratch) / "case.json"
         case.write_text(printed(race, "reference"))
@@ -218,7 +218,7 @@ def main():
     document = {
         "date": datetime.date.today().isoformat(),
         "machine": before,
-        "versions": versions(interpreter),
+        "versions": raced,
         "case": given["case"],
         "checked_to": given["reference"]["checked_to"],
         "at_matched_error": at_matched_error(rows),

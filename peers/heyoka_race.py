@@ -99,10 +99,10 @@ def settings(document, target):
     """Exponentials fitted about the error asked, tolerances around it, both forms."""
     finest = document["fits"][-1]["digits"]
     for digits in sorted({min(round(-np.log10(target)) + index, finest) for index in FITS}):
-        terms = next(fit["terms"] for fit in document["fits"] if fit["digits"] == digits)
+        fit = next(fit for fit in document["fits"] if fit["digits"] == digits)
         for decade in DECADES:
             for form in FORMS:
-                yield terms, max(target * 10.0**decade, 1e-15), form
+                yield fit, max(target * 10.0**decade, 1e-15), form
 
 
 def fastest(candidates, target):
@@ -128,8 +128,8 @@ def described(motion, terms, tolerance, form, what, compiling, miss):
 def scalar(document):
     rows, compiled = [], {}
 
-    def candidate(motion, terms, tolerance, form):
-        key = (len(terms), tolerance, form)
+    def candidate(motion, fit, tolerance, form):
+        key, terms = (fit["digits"], tolerance, form), fit["terms"]
         if key not in compiled:
             compiled[key] = solver(terms, motion, tolerance, form)
         integrator, compiling = compiled[key]
@@ -145,8 +145,9 @@ def scalar(document):
     return rows
 
 
-def side_by_side(document, terms, tolerance, form):
+def side_by_side(document, fit, tolerance, form):
     """The ensemble: as many at a time as lanes, one batch after the other, on one core."""
+    terms = fit["terms"]
     ensemble = document["ensemble"]
     motion = next(motion for motion in document["motions"] if motion["name"] == ensemble["motion"])
     alphas = np.linspace(ensemble["from"], ensemble["to"], ensemble["count"])

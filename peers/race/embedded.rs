@@ -70,7 +70,9 @@ pub(crate) fn document() -> Value {
 fn ensemble(memory: MemoryChoice, tolerance: f64) -> Vec<Scenario> {
     let (count, from, to) = ENSEMBLE;
     let alpha = |i: usize| from + (to - from) * i as f64 / (count - 1) as f64;
-    (0..count).map(|i| scenario((MOTIONS[1].0, alpha(i), MOTIONS[1].2), memory, tolerance)).collect()
+    (0..count)
+        .map(|i| scenario((MOTIONS[1].0, alpha(i), MOTIONS[1].2), memory, tolerance))
+        .collect()
 }
 
 /// l where each ends.

@@ -1,5 +1,5 @@
-//! Bad input is refused as section 9 of the design demands: at once, with status 2, nothing on standard
-//! output, and a message that names the option and the value and says what would do.
+//! Bad input is refused at once: with status 2, nothing on standard output, and a message that names the option and the value
+//! and says what would be accepted.
 
 use crate::folder::{Folder, said};
 use serde_json::json;

@@ -30,9 +30,8 @@ const UNSAFE: [&str; 0] = [];
 /// Features that cost next to nothing, or without which a crate does nothing for us.
 const PLAIN_FEATURES: [&str; 4] = ["std", "libm", "derive", "arch"];
 /// Crates whose other default features are wanted.
-const DEFAULTS_WANTED: [(&str, &str); 3] = [
+const DEFAULTS_WANTED: [(&str, &str); 2] = [
     ("clap", "help, usage and suggestions are what a user sees"),
-    ("realfft", "the vector instructions of the machine, found as it runs"),
     ("tempfile", "names that nobody else has"),
 ];
 

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
 
 use crate::lattice::dyadic_at_most;
 use crate::plan::{UPSAMPLING, fast_length};

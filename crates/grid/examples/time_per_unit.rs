@@ -1,4 +1,4 @@
-//! Time and error per time unit of the three opponents, on the main case: triple Gaussian β = 1,
+//! Time and error per time unit of the four discretisations, on the main case: triple Gaussian β = 1,
 //! r = 1, α = 1.2, kick 0.05, at the paper's Δx = 0.001 and Δt ≈ 0.04, and at matched error.
 //!
 //! The paper's own grid is timed over a short span and quoted per time unit; say so wherever its figure

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The tip function f enters as a function only ([`Footprint`]); nothing here knows of the closed
-//! equation. Three opponents stand behind [`solve`], told apart by [`Method`]:
+//! equation. Four discretisations stand behind [`solve`], chosen by [`Method`]:
 //!
 //! | method | unknowns advanced at a stage | slope at the tip | in time |
 //! |---|---|---|---|

@@ -1,4 +1,4 @@
-//! The three opponents, and one function to run any of them.
+//! The four discretisations, and one function to run any of them.
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;

@@ -4,7 +4,7 @@ use crate::failed::unusable;
 use crate::fields;
 use crate::motion;
 use crate::samples::{self, Taken};
-use crate::value::{matrix, python};
+use crate::value::{array, matrix, python};
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -108,10 +108,9 @@ impl Document {
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use stickslip_documents::Column;
         let own = |column: Column<'_>| match column {
-            Column::Words(words, _) => serde_json::to_value(words).unwrap_or_default(),
-            Column::Numbers(values) => serde_json::to_value(values).unwrap_or_default(),
-            Column::Optional(values) => serde_json::to_value(values).unwrap_or_default(),
-            Column::Repeated { values, .. } => serde_json::to_value(values).unwrap_or_default(),
+            Column::Words(words, _) => Err(words),
+            // A column of numbers stays one where none of them is there: NaN.
+            numbers => Ok(numbers.array().map_or_else(Vec::new, |array| array.values.into_owned())),
         };
         let columns = self.whole(py, |document| {
             let columns = document.table().columns().into_iter();
@@ -119,7 +118,10 @@ impl Document {
         })?;
         let dict = PyDict::new(py);
         for (name, values) in columns {
-            dict.set_item(name, python(py, values)?)?;
+            match values {
+                Ok(numbers) => dict.set_item(name, array(py, numbers))?,
+                Err(words) => dict.set_item(name, words)?,
+            }
         }
         Ok(dict)
     }

@@ -1,9 +1,10 @@
 """A command of the program, carried out here."""
 
+import re
 import warnings
 
 from . import _native
-from ._options import Asked
+from ._options import Asked, in_python, options
 from ._progress import told
 from ._results import result_of
 from ._warning import StickslipWarning
@@ -16,10 +17,39 @@ def call(path, given, progress):
         with told(progress) as tell:
             document, said = _native.call(asked.words, asked.supplies, tell)
     except (ValueError, RuntimeError, KeyboardInterrupt) as error:
+        error.args = tuple(in_words_of_python(path, str(said)) for said in error.args)
         if hasattr(error, "document"):
             # What was computed until then.
             error.result = result_of(error.document)
         raise
     for line in said:
-        warnings.warn(line.removeprefix("stickslip: "), StickslipWarning, stacklevel=3)
+        warnings.warn(in_words_of_python(path, line.removeprefix("stickslip: ")), StickslipWarning, stacklevel=3)
     return None if document is None else result_of(document)
+
+
+MISSING = "the following required arguments were not provided:"
+
+
+def in_words_of_python(path, said):
+    """What the program says of its options, by their names here: ``--depth-limit -1: …`` is ``depth_limit=-1: …``."""
+    if said.startswith(MISSING):
+        names = [named(path, line.strip()) for line in said.removeprefix(MISSING).splitlines() if line.strip()]
+        return f"missing: {', '.join(names)}"
+    known = {option.name for option in options(path).values()}
+
+    def one(found):
+        if found["name"] not in known:
+            return found[0]
+        return in_python(found["name"]) + ("=" if found["between"] else "")
+
+    option = re.compile(r"--(?P<name>[a-z]+(?:-[a-z]+)*)(?: <[^>]*>(?!:))?(?P<between>[ =](?=[^\s:,]+: |[A-Z]\b|\d))?")
+    # What is to be typed in a shell stays as it is.
+    return "\n".join(line if "stickslip " in line else option.sub(one, line) for line in said.split("\n"))
+
+
+def named(path, usage):
+    """The names of ``--until <T>``, ``<--alpha <A>|--alpha-above <D>>`` or ``<RUN.json>``."""
+    found = re.findall(r"--([a-z]+(?:-[a-z]+)*)", usage)
+    if found:
+        return " or ".join(map(in_python, found))
+    return next(name for name, option in options(path).items() if option.is_positional)

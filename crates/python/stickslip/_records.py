@@ -11,7 +11,7 @@ class Record(dict):
             raise AttributeError(f"there is no {name}: there are {', '.join(self)}") from None
 
     def __dir__(self):
-        return [*super().__dir__(), *self]
+        return sorted({*super().__dir__(), *self})
 
 
 def recorded(value):

@@ -32,7 +32,7 @@ class Result:
         return self._fields[name]
 
     def __dir__(self):
-        return [*super().__dir__(), *self._document.names()]
+        return sorted({*super().__dir__(), *self._document.names()})
 
     @property
     def success(self):

@@ -56,21 +56,29 @@ def test_ranges_and_lists_of_values_are_told_apart():
     assert even.tolist() == [1.0, 1.5, 2.0]
 
 
-def test_what_is_unusable_is_refused_in_the_programs_words():
+def test_what_is_unusable_is_refused_by_the_names_that_python_has():
     cases = [
-        (dict(r=-1, alpha=1, until=20), "--r -1: "),
-        (dict(r=1, alpha=1, until=3), "--until 3: "),
-        (dict(r=1, alpha="much", until=20), "invalid value 'much' for '--alpha <A>'"),
-        (dict(r=1, until=20), "--alpha"),
-        (dict(r=1, alpha=1, until=20, tip_file="nowhere.csv"), "--tip-file nowhere.csv: cannot be read"),
-        (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "--tip-file <tip>: "),
-        (dict(r=1, alpha=1, until=20, memory="none"), "invalid value 'none' for '--memory <MEMORY>'"),
-        (dict(r=float("nan"), alpha=1, until=20), "--r NaN: "),
+        (dict(r=-1, alpha=1, until=20), "r=-1: "),
+        (dict(r=1, alpha=1, until=3), "until=3: "),
+        (dict(r=1, alpha="much", until=20), "invalid value 'much' for 'alpha'"),
+        (dict(r=1, until=20), "alpha"),
+        (dict(r=1, alpha=1), "missing: until"),
+        (dict(alpha=1), "missing: until, r"),
+        (dict(r=1, alpha=1, until=20, tip_file="nowhere.csv"), "tip_file=nowhere.csv: cannot be read"),
+        (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "tip_file=<tip>: "),
+        (dict(r=1, alpha=1, until=20, memory="none"), "invalid value 'none' for 'memory'"),
+        (dict(r=float("nan"), alpha=1, until=20), "r=NaN: "),
+        (dict(r=1, alpha=1, until=20, depth_limit=-1), "depth_limit=-1: "),
     ]
     for given, said in cases:
         with pytest.raises(ValueError) as refused:
             stickslip.run(**given)
         assert said in str(refused.value), given
+        assert "--" not in str(refused.value), given
+    with pytest.raises(ValueError, match="missing: run"):
+        stickslip.surface()
+    with pytest.raises(ValueError, match="missing: pitch, lines, length"):
+        stickslip.raster(alpha=1, r=1)
 
 
 def test_what_is_no_option_or_no_value_is_a_type_error():
@@ -92,7 +100,7 @@ def test_what_fails_at_run_time_is_a_runtime_error():
 
 
 def test_what_may_have_been_overlooked_is_a_warning():
-    with pytest.warns(stickslip.StickslipWarning, match="--pulse 1,500,1") as caught:
+    with pytest.warns(stickslip.StickslipWarning, match="pulse=1,500,1") as caught:
         stickslip.run(alpha=1, r=1, until=20, pulse=(1, 500, 1))
     assert caught[0].filename == __file__
     with warnings.catch_warnings():

@@ -82,6 +82,19 @@ def test_datasets_hold_axes_and_parameters(run):
     assert (part["regime"].values != "").sum() == 5
 
 
+def test_a_column_without_numbers_is_one_of_numbers():
+    pytest.importorskip("xarray")
+    steady = stickslip.sweep(r=1, alpha=(0.5, 0.6, 2))
+    assert steady.columns()["period"].dtype == float
+    assert steady.to_xarray()["period"].dtype == float and np.isnan(steady.to_xarray()["period"].values).all()
+
+
+def test_each_name_is_listed_once(run):
+    for found in (run, run.parameters):
+        assert len(dir(found)) == len(set(dir(found)))
+    assert "regime" in dir(run) and "alpha" in dir(run.parameters)
+
+
 def test_an_ensemble_is_a_dataset_over_its_seeds():
     pytest.importorskip("xarray")
     runs = stickslip.sweep(r=1, alpha=[1.0, 1.2], width=[0.8, 1.0], kick=0.1, until=40, noise=1e-2, seed=(1, 4, 4))

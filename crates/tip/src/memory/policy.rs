@@ -21,7 +21,7 @@ use std::sync::Arc;
 ///
 /// `direct` sums over the record itself. `modes` needs it when the tip retreats: then [`Fft`](Sum::Fft) takes
 /// over from the record, and when the tip has regained its farthest point the modes are summed afresh from
-/// it. That record spans 4096 bins, 2000 to 4000 widths. `fft` for a footprint without reach plans its
+/// it. That record spans 2048 bins, 1,024 widths of a Gaussian. `fft` for a footprint without reach plans its
 /// lattice anew from the record; for one with reach the lattice is all that is needed, and there is no
 /// record.
 pub struct Policy {

@@ -90,4 +90,4 @@ const css = readFileSync(join(style, 'katex.min.css'), 'utf8').replaceAll(/,url\
 writeFileSync(join(src, 'katex/katex.min.css'), css);
 mkdirSync(join(book, 'theme'), { recursive: true });
 writeFileSync(join(book, 'theme/head.hbs'), '<link rel="stylesheet" href="{{ path_to_root }}katex/katex.min.css">\n');
-cpSync(join(here, 'book.toml'), join(book, 'book.toml'));
+for (const name of ['book.toml', 'stickslip.css']) cpSync(join(here, name), join(book, name));

@@ -58,3 +58,27 @@ test('a browser asks nothing of others for any page, and complains of none', { s
   await browser.close();
   assert.deepEqual(noted, []);
 });
+
+test('no code is cut off on the right', { skip: skip || missing }, async () => {
+  const browser = await launch();
+  const page = await browser.newPage();
+  const cut = [];
+  for (const width of [1400, 500]) {
+    await page.setViewportSize({ width, height: 900 });
+    for (const name of ['commands', 'start', 'raster', 'mathematics']) {
+      await page.goto(`file://${join(site, `${name}.html`)}`);
+      const found = await page.evaluate(() => {
+        const scrolls = (element) => /auto|scroll/.test(getComputedStyle(element).overflowX);
+        const right = document.querySelector('main').getBoundingClientRect().right + 1;
+        const blocks = [...document.querySelectorAll('main pre')];
+        const isCut = (block) => block.getBoundingClientRect().right > right || ![block, ...block.querySelectorAll('code')].some((part) => scrolls(part) || part.scrollWidth <= part.clientWidth);
+        const wide = blocks.filter((block) => block.scrollWidth > block.clientWidth || [...block.children].some((part) => part.scrollWidth > part.clientWidth));
+        return { cut: blocks.filter(isCut).length, wide: wide.length };
+      });
+      // On a desk all of the help is seen at once.
+      if (found.cut || (width === 1400 && name === 'commands' && found.wide)) cut.push({ width, name, ...found });
+    }
+  }
+  await browser.close();
+  assert.deepEqual(cut, []);
+});

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Times whole commands, as a user types them: processor time and memory, into one JSON document.
 
     benches/commands.py PROGRAM OUTPUT.json

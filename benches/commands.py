@@ -4,7 +4,7 @@
     benches/commands.py PROGRAM OUTPUT.json
 
 Each command runs several times; kept is the least processor time (user and system), which other work on the machine disturbs
-least, and the largest resident size. README.md and docs quote the document; tests/program/prose_numbers.rs compares them.
+least, and of those that last for seconds the largest resident size. README.md and docs quote the document; tests/program/prose_numbers.rs compares them.
 """
 
 import datetime
@@ -15,10 +15,13 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ONSET = "run --alpha-above 0.01 --r 1 --kick 0.01 --until 457"
 CYCLES = "run --alpha 1.2 --r 1 --kick 0.05 --until 1e6 --sample-every 10 -o long.jsonl"
+# Shorter ones tell no size, in seconds.
+LASTING = 0.3
 # name: (command, repetitions). Later commands read what earlier ones have written.
 COMMANDS = {
     "just above onset": (f"{ONSET} -o run.json", 25),
@@ -41,15 +44,24 @@ COMMANDS = {
 
 def once(program, command, folder):
     """Processor seconds and MB of one run; exit status 1 is a verification that found differences."""
-    child = subprocess.Popen(
-        [program, "--quiet", *shlex.split(command)], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-    )
-    said = child.stderr.read().decode()
-    _, status, usage = os.wait4(child.pid, 0)
+    child = subprocess.Popen([program, "--quiet", *shlex.split(command)], cwd=folder, stdout=subprocess.DEVNULL)
+    begun, largest, ended = time.monotonic(), 0, 0
+    while not ended:
+        # What the system reports in the end holds the size of this process too, from before the command took its place.
+        largest = resident(child.pid) or largest
+        time.sleep(0.01)
+        ended, status, usage = os.wait4(child.pid, os.WNOHANG)
     child.returncode = os.waitstatus_to_exitcode(status)
     if child.returncode not in (0, 1) or (child.returncode == 1 and not command.startswith("verify")):
-        sys.exit(f"stickslip {command}: {said}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+        sys.exit(f"stickslip {command}: exit status {child.returncode}")
+    return usage.ru_utime + usage.ru_stime, largest if time.monotonic() - begun > LASTING else None
+
+
+def resident(pid):
+    """The largest resident size of a process so far, in MB."""
+    with open(f"/proc/{pid}/status") as file:
+        found = [line.split()[1] for line in file if line.startswith("VmHWM")]
+    return int(found[0]) / 1024 if found else None
 
 
 def printed(*command):
@@ -79,9 +91,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name, (command, count) in COMMANDS.items():
             seconds, megabytes = zip(*(once(program, command, folder) for _ in range(count)))
-            found = {"command": f"stickslip {command}", "runs": count, "seconds": min(seconds), "megabytes": max(megabytes)}
+            largest = None if None in megabytes else max(megabytes)
+            found = {"command": f"stickslip {command}", "runs": count, "seconds": min(seconds), "megabytes": largest}
             document["commands"][name] = found
-            print(f"{name}: {min(seconds):.4f} s, {max(megabytes):.1f} MB", file=sys.stderr)
+            print(f"{name}: {min(seconds):.4f} s, {largest} MB", file=sys.stderr)
     output.write_text(json.dumps(document, indent=1) + "\n")
 
 

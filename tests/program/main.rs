@@ -27,6 +27,7 @@ mod outcomes;
 mod people;
 mod physical_units;
 mod pictures;
+mod prose_numbers;
 mod raster_commands;
 mod raster_sweeps;
 mod refusals;

@@ -1,0 +1,571 @@
+//! Numbers in prose are those of the data, the constant or the computation that they come from.
+//!
+//! Each sentence or row of a table is written here once more, with its numbers rounded from their source: measurements in
+//! `data`, constants as they stand in the source code, and reference values computed by the libraries. The document must say the
+//! same; where it does not, the test prints the lines to put in. So after `make peers` or `make timings` the tests name what
+//! has become stale.
+
+use crate::folder::{Folder, said};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
+use stickslip_stability::{Raster, RasterPath, creep, critical, critical_r, onset, trapping_alpha};
+use stickslip_tip::memory::Fit;
+use stickslip_tip::{Footprint, Model, TipFunction};
+
+/// Text of a file of the project.
+fn text(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Wherever lines break.
+fn flowing(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Those of the passages that the text does not hold.
+fn missing<'a>(text: &str, passages: &'a [String]) -> Vec<&'a str> {
+    let text = flowing(text);
+    passages.iter().map(String::as_str).filter(|one| !text.contains(&flowing(one))).collect()
+}
+
+#[track_caller]
+fn says(file: &str, passages: &[String]) {
+    let stale = missing(&text(file), passages);
+    assert!(stale.is_empty(), "{file} should say:\n\n{}\n", stale.join("\n"));
+}
+
+fn data(name: &str) -> Value {
+    serde_json::from_str(&text(&format!("data/{name}.json"))).expect("JSON")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// So many digits that count, in plain decimals.
+fn digits(x: f64, count: i32) -> String {
+    let rounded: f64 = format!("{x:.*e}", count as usize - 1).parse().unwrap();
+    let after = count - 1 - rounded.abs().log10().floor() as i32;
+    format!("{rounded:.*}", after.max(0) as usize)
+}
+
+/// Thousands apart: 1,100.
+fn grouped(x: f64) -> String {
+    let plain = format!("{x:.0}");
+    let from_end = |i: usize| plain.len() - i;
+    let parts = plain.char_indices().map(|(i, digit)| {
+        let comma = if i > 0 && from_end(i) % 3 == 0 { "," } else { "" };
+        format!("{comma}{digit}")
+    });
+    parts.collect()
+}
+
+/// A ratio as people read it: 1.4, 26, 1,100, 7e4.
+fn ratio(x: f64) -> String {
+    match x {
+        x if (x - 1.0).abs() < 1e-9 => "1".into(),
+        x if x < 100.0 => digits(x, 2),
+        x if x < 1e4 => grouped(digits(x, 2).parse().unwrap()),
+        x => format!("{x:.0e}"),
+    }
+}
+
+/// 0.11 ms, 2.6 s, 5.3 min.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.9995 => format!("{} ms", digits(1e3 * s, 2)),
+        s if s < 99.5 => format!("{} s", digits(s, 2)),
+        s => format!("{} min", digits(s / 60.0, 2)),
+    }
+}
+
+/// The value of `const NAME: TYPE = …;` in a source file: a number, or a shift of one.
+fn constant(path: &str, name: &str) -> f64 {
+    let source = text(path);
+    let declared = format!("const {name}: ");
+    let (_, rest) = source.split_once(&declared).unwrap_or_else(|| panic!("{path}: no {name}"));
+    let (_, value) = rest.split_once('=').unwrap();
+    let value = value.split_once(';').unwrap().0.trim().replace('_', "");
+    let number = |text: &str| -> f64 {
+        text.trim().parse().unwrap_or_else(|_| panic!("{path}: {name} = {value}"))
+    };
+    match value.split_once("<<") {
+        Some((one, shift)) => number(one) * number(shift).exp2(),
+        None => number(&value),
+    }
+}
+
+fn triple(beta: f64) -> TipFunction {
+    TipFunction::triple_gaussian(beta, 1.0).unwrap()
+}
+
+/// Of all pairs of motion and error, with heyoka one motion after the other.
+fn one_by_one(peers: &Value) -> Vec<&Value> {
+    let rows = peers["embedded"].as_array().unwrap().iter();
+    rows.filter(|row| row["motion"] != "ensemble").collect()
+}
+
+/// The least and the largest.
+fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    numbers.fold((f64::INFINITY, 0.0), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+#[test]
+fn the_race_is_told_as_it_was_run() {
+    let peers = data("peers");
+    let row = |name: &str| {
+        let rows = peers["at_matched_error"].as_array().unwrap();
+        let found = rows.iter().find(|row| row["contestant"] == name);
+        found.unwrap_or_else(|| panic!("{name} is not in the table"))
+    };
+    // The part of a setting that matters here.
+    let part = |name: &str, i: usize| {
+        row(name)["setting"].as_str().unwrap().split(", ").nth(i).unwrap().to_owned()
+    };
+    let times = |name: &str| ratio(number(&row(name)["ratio"]));
+    let entry = |label: String, name: &str| {
+        format!("| {label} | {} | {} |", duration(number(&row(name)["seconds"])), times(name))
+    };
+    let (delays, jit, spectral) = ("differential-equations", "JiTCDDE", "grid (c), spectral");
+    let (windowed, uniform, scipy) =
+        ("grid (b), windowed", "grid (a), uniform", "SciPy solve_ivp RK45");
+    let lags = |name: &str| part(name, 2).replace(" to 11", "");
+    let rows = one_by_one(&peers);
+    let (least, most) = range(rows.iter().map(|row| number(&row["ratio"])));
+    let (quick, slow) = range(rows.iter().map(|row| number(&row["compiling"])));
+    let all = peers["embedded"].as_array().unwrap();
+    let lanes = all.iter().filter(|row| row["motion"] == "ensemble");
+    let (few, many) = range(lanes.map(|row| 1.0 / number(&row["ratio"])));
+    let ours = |motion: &str, target: f64| {
+        let row = rows
+            .iter()
+            .find(|row| row["motion"] == motion && number(&row["target"]) <= 1.01 * target);
+        duration(number(&row.unwrap()["ours"]["seconds"]))
+    };
+    let machine = format!(
+        "{}, {}",
+        peers["machine"]["cpu"].as_str().unwrap(),
+        peers["date"].as_str().unwrap()
+    );
+    says(
+        "README.md",
+        &[
+            format!("({machine}; [data/peers.md](data/peers.md)"),
+            entry("stickslip, `modes`".into(), "closed, modes"),
+            entry(format!("our own strongest grid, spectral, {}", part(spectral, 0)), spectral),
+            entry(
+                format!("delay solver of the crate `differential-equations`, {}", lags(delays)),
+                delays,
+            ),
+            entry(format!("JiTCDDE, {}, compiled", lags(jit)), jit),
+            entry(
+                format!("the paper's scheme within a window of the tip, {}", part(windowed, 0)),
+                windowed,
+            ),
+            entry(
+                format!(
+                    "the paper's grid in SciPy, {}, extrapolated from 10 steps",
+                    part(scipy, 0)
+                ),
+                scipy,
+            ),
+            entry(
+                format!(
+                    "the paper's grid in Rust, {}, extrapolated from 20 steps",
+                    part(uniform, 0)
+                ),
+                uniform,
+            ),
+            format!(
+                "takes {} at an error below 1e-6 and {} below 1e-9; stick-slip at α = 1.2 to t = 457 takes {} and {}",
+                ours("onset", 1e-6),
+                ours("onset", 1e-9),
+                ours("stick-slip", 1e-6),
+                ours("stick-slip", 1e-9)
+            ),
+            format!(
+                "takes {} to {} times as long as stickslip at equal error, after {} to {} s of compiling",
+                digits(least, 2),
+                digits(most, 2),
+                digits(quick, 1),
+                digits(slow, 1)
+            ),
+            format!(
+                "it is {} to {} times as fast as ours one after the other",
+                digits(few, 2),
+                digits(many, 2)
+            ),
+        ],
+    );
+    let table = all.iter().map(|row| {
+        let ours = &row["ours"];
+        format!(
+            "| {} | {:.0e} | {} | {} | {} | {} |",
+            row["motion"].as_str().unwrap(),
+            number(&row["target"]),
+            duration(number(&row["seconds"])),
+            duration(number(&ours["seconds"])),
+            ours["setting"].as_str().unwrap().replace("tolerance ", ""),
+            digits(number(&row["ratio"]), 2)
+        )
+    });
+    says("docs/speed.md", &table.collect::<Vec<_>>());
+    says(
+        "docs/speed.md",
+        &[
+            format!("on one core of {machine}"),
+            format!(
+                "{} and {} is what is measured at an error of $10^{{-5}}$",
+                times(delays),
+                times(jit)
+            ),
+            format!("{} times the time near onset", times(spectral)),
+        ],
+    );
+}
+
+#[test]
+fn commands_take_what_was_measured() {
+    let timed = data("commands");
+    let of = |name: &str| {
+        let command = &timed["commands"][name];
+        let size = command["megabytes"].as_f64().map(|size| format!("{} MB", grouped(size)));
+        (duration(number(&command["seconds"])), size.unwrap_or_default())
+    };
+    let rows = timed["commands"].as_object().unwrap().iter().map(|(name, command)| {
+        let (time, size) = of(name);
+        let line = command["command"].as_str().unwrap().trim_start_matches("stickslip ");
+        format!("| {name} | `{line}` | {time} | {size} |")
+    });
+    says("README.md", &rows.collect::<Vec<_>>());
+    let date = timed["date"].as_str().unwrap();
+    let machine = format!("{}, {date}", timed["machine"]["cpu"].as_str().unwrap());
+    says("README.md", &[format!("({machine}; `make timings`)")]);
+    let (modes, fft, checked) = (of("long run"), of("long run, fft"), of("long run verified"));
+    says(
+        "docs/long_runs.md",
+        &[
+            format!(
+                "take {} of processor time and {} with `modes`, {} and {} with `fft`",
+                modes.0, modes.1, fft.0, fft.1
+            ),
+            format!(
+                "are verified in {} of processor time and {}, the run itself taking {}",
+                checked.0, checked.1, modes.0
+            ),
+        ],
+    );
+}
+
+#[test]
+fn what_a_digit_costs_is_what_was_measured() {
+    let measured = data("work_precision");
+    let curves = measured["curves"].as_array().unwrap().iter();
+    let costs = curves.filter(|curve| curve["method"] == "modes").map(|curve| {
+        let points = curve["points"].as_array().unwrap();
+        let at = |tolerance: f64| {
+            let close =
+                |point: &&Value| (number(&point["tolerance"]) / tolerance).ln().abs() < 0.01;
+            number(&points.iter().find(close).expect("that tolerance")["seconds"])
+        };
+        at(1e-11) / at(1e-4)
+    });
+    let (least, most) = range(costs);
+    says(
+        "docs/reproduction.md",
+        &[format!(
+            "seven digits more take {} to {} times the time with `modes`",
+            digits(least, 2),
+            digits(most, 2)
+        )],
+    );
+}
+
+#[test]
+fn constants_of_the_integrator() {
+    let control = |name| constant("crates/tip/src/integrator/control.rs", name);
+    let plan = |name| constant("crates/tip/src/integrator/taylor/plan.rs", name);
+    let switch = |name| constant("crates/tip/src/integrator/taylor/switch.rs", name);
+    let estimate = |name| constant("crates/tip/src/step/estimate.rs", name);
+    let share = control("SHARE_OF_A_STEP");
+    let series = share * constant("crates/tip/src/integrator/taylor/mod.rs", "SHARE_OF_SERIES");
+    let band = constant("crates/tip/src/tip_function/scale.rs", "BAND_OF_A_GAUSSIAN");
+    let whole = |x: f64| format!("{x:.0}");
+    let name = |x: f64| ["four", "five", "six", "seven", "eight"][x as usize - 4];
+    says(
+        "docs/mathematics.md",
+        &[
+            format!("$E\\le\\varepsilon/{}$", whole(1.0 / share)),
+            format!(
+                "$h\\cdot{}\\,(\\varepsilon/{}E)^{{1/7}}$",
+                control("SAFETY"),
+                whole(1.0 / share)
+            ),
+            format!(
+                "within factors {} and {}.",
+                control("LARGEST_SHRINKAGE"),
+                control("LARGEST_GROWTH")
+            ),
+            format!(
+                "after {} iterations",
+                constant("crates/tip/src/integrator/stage_equations.rs", "MOST_ITERATIONS")
+            ),
+            format!(
+                "at most ${}/\\text{{band}}$ ({} widths of a Gaussian), never by more than {}, and accepted up to {} times",
+                estimate("BANDS_PER_STEP"),
+                digits(estimate("BANDS_PER_STEP") / band, 2),
+                estimate("LONGEST_DISPLACEMENT"),
+                control("OVERSHOOT")
+            ),
+            format!("is $-\\ln e$, $e = \\varepsilon/{}$", whole(1.0 / series)),
+            format!(
+                "err by less than $\\varepsilon/{}$",
+                whole(1.0 / plan("SHARE_OF_INTERPOLATION"))
+            ),
+            format!("none longer than {} of the limit above", plan("REACH_OF_PIECE")),
+            format!("about $p/{}$ times $1/S$", whole(1.0 / switch("REACH"))),
+            format!("collocation is tried for {} steps", name(switch("TRIAL"))),
+            format!("longer than {} times that", name(switch("COST"))),
+            format!("its steps are to be {} times as long", name(switch("COST_WITH_INERTIA"))),
+        ],
+    );
+}
+
+#[test]
+fn constants_of_the_memories() {
+    let bins = |name| constant("crates/tip/src/memory/record/bins.rs", name);
+    let nodes = constant("crates/tip/src/memory/record.rs", "MOST_NODES");
+    let band = constant("crates/tip/src/tip_function/scale.rs", "BAND_OF_A_GAUSSIAN");
+    // Bins are a power of two long, at most 8/band; a node takes two numbers, a bin its moments.
+    let length = (8.0 / band).log2().floor().exp2();
+    let room = 8.0 * (2.0 * nodes + bins("MOMENTS") * bins("MOST_BINS"));
+    let cells = constant("crates/tip/src/memory/fft.rs", "CELLS_KEPT");
+    // Pairs, and the largest weight, of a fit to this accuracy.
+    let fit = |wanted: f64| {
+        let fit = Fit::new(&triple(1.0), wanted).unwrap();
+        assert!(fit.certificate().slope <= wanted, "{wanted}");
+        let weights = fit.terms().iter().map(|term| term.weight.re.hypot(term.weight.im));
+        (fit.terms().len(), weights.fold(0.0, f64::max))
+    };
+    let (pencil, lattice) = ([1e-7, 1e-10, 9e-12].map(fit), [5e-13, 1e-13, 2e-14].map(fit));
+    let weights = lattice.iter().map(|(_, weight)| *weight).fold(0.0, f64::max);
+    says(
+        "docs/mathematics.md",
+        &[
+            format!("up to $2^{{{}}}$ nodes as they are", nodes.log2()),
+            format!("moments of degree below {}", bins("MOMENTS")),
+            format!(
+                "There are $2^{{{}}}$ bins, {} widths of a Gaussian",
+                bins("MOST_BINS").log2(),
+                grouped(length * bins("MOST_BINS"))
+            ),
+            format!("in at most {:.1} MB", 1e-6 * room),
+            format!(
+                "more than {} nodes lie within reach",
+                constant("crates/tip/src/memory/choice.rs", "CROSSOVER_NODES")
+            ),
+            format!(
+                "{}, {} and {} pairs are fitted for accuracies of $10^{{-7}}$, $10^{{-10}}$ and $9\\cdot10^{{-12}}$",
+                pencil[0].0, pencil[1].0, pencil[2].0
+            ),
+            format!("(up to {} there)", digits(pencil[2].1, 3)),
+            format!(
+                "{}, {} and {} pairs with weights up to {} are fitted for $5\\cdot10^{{-13}}$, $10^{{-13}}$ and \
+                 $2\\cdot10^{{-14}}$",
+                lattice[0].0,
+                lattice[1].0,
+                lattice[2].0,
+                digits(weights, 3)
+            ),
+        ],
+    );
+    says(
+        "docs/long_runs.md",
+        &[
+            format!(
+                "within {} cells ({},000 widths of a Gaussian)",
+                grouped(cells),
+                digits(1e-3 * cells * spacing(band), 2)
+            ),
+            format!(
+                "at most {} steps",
+                grouped(constant("crates/outcome/src/observer.rs", "LONGEST_TAIL"))
+            ),
+            format!("the last {} extrema", constant("crates/tip/src/motion/extrema.rs", "MOST")),
+            format!(
+                "more than {} steps (230 MB)",
+                grouped(constant("crates/tip/src/run/scenario.rs", "MOST_STEPS"))
+            ),
+        ],
+    );
+    says("docs/speed.md", &[format!("Visits are kept as they are, {} of them", grouped(nodes))]);
+}
+
+/// Of the lattice of `fft`: half of what the band asks for.
+fn spacing(band: f64) -> f64 {
+    0.5 * std::f64::consts::PI / band
+}
+
+#[test]
+fn critical_points_and_thresholds() {
+    let narrow = TipFunction::gaussian(std::f64::consts::FRAC_1_SQRT_2).unwrap();
+    let at = |label: &str, tip: &TipFunction| {
+        let at = critical(tip, 1.0).unwrap();
+        format!("| {label} | 1 | {:.12} | {:.12} |", at.alpha, at.omega)
+    };
+    let slowest = critical_r(&triple(1.0), 1.0).unwrap();
+    let trapping = |label: &str, beta: f64| {
+        let threshold = trapping_alpha(&triple(beta), 1.0).unwrap();
+        // At the threshold both rates are one: from just above it.
+        let rates =
+            |ratio: f64| creep(&Model::new(triple(beta), ratio, 1.0).unwrap()).unwrap().rates();
+        let [close, at_3] = [rates(threshold * (1.0 + 1e-12)), rates(3.0)];
+        let middle = 0.5 * (close[0] + close[1]);
+        format!(
+            "| {label} | {threshold:.12} | {middle:.6} | {:.6}, {:.6} |",
+            at_3[0].min(at_3[1]),
+            at_3[0].max(at_3[1])
+        )
+    };
+    says(
+        "docs/mathematics.md",
+        &[
+            at("(48), $\\beta = 1$", &triple(1.0)),
+            at("$e^{-x^2/2}$", &triple(0.0)),
+            at("$e^{-x^2}$, the paper's numbers for $\\beta = 0$", &narrow),
+            format!("| (48), $\\beta = 1$ | {:.12} | 1 | {:.12} |", slowest.r, slowest.omega),
+            trapping("(48), $\\beta = 1$", 1.0),
+            trapping("$e^{-x^2/2}$", 0.0),
+        ],
+    );
+    let single = critical(&triple(0.0), 1.0).unwrap().alpha;
+    let rows = [0.5, 1.0, 2.0].map(|pitch| {
+        let footprint = Footprint::separable(triple(0.0), 1.0).unwrap();
+        let raster = Raster::new(&footprint, 1.0, pitch).unwrap();
+        let one_way = raster.critical(RasterPath::OneWay).unwrap();
+        let zigzag = raster.critical(RasterPath::Zigzag).unwrap();
+        let angle = one_way.crest_angle.unwrap();
+        format!("| {pitch} | {:.6} | {angle:.1}° | {:.6} |", one_way.alpha, zigzag.alpha)
+    });
+    says(
+        "docs/stability.md",
+        &[&rows[..], &[format!("| one line | {single:.6} | 90° | |")]].concat(),
+    );
+    let small = [(1.0, 1.0), (0.0, 1.0), (1.0, 0.3), (0.0, 0.3)].map(|(beta, r)| {
+        let reference = data("onset_reference");
+        let is_it = |case: &&Value| (number(&case["beta"]), number(&case["r"])) == (beta, r);
+        let case = reference["cases"].as_array().unwrap().iter().find(is_it).unwrap().clone();
+        let ours = onset(&triple(beta), r).unwrap();
+        let [square, period] =
+            ["amplitude_squared_slope", "period_slope"].map(|name| number(&case[name]));
+        // The tenth digit is round-off.
+        let shown = |x: f64| digits(x, 9);
+        format!(
+            "| {beta} | {r} | {} | {} | {} | {} |",
+            shown(square),
+            shown(ours.amplitude_squared_slope),
+            shown(period),
+            shown(ours.period_slope)
+        )
+    });
+    says("docs/stability.md", &small);
+}
+
+#[test]
+fn the_limit_cycle_of_the_readme() {
+    let alpha = critical(&triple(1.0), 1.0).unwrap().alpha + 0.01;
+    let found = cycle(&Model::new(triple(1.0), alpha, 1.0).unwrap(), DEFAULT_TOLERANCE).unwrap();
+    says(
+        "README.md",
+        &[format!(
+            "with period {:.10} and amplitude {:.10};",
+            found.period(),
+            found.amplitude_x0()
+        )],
+    );
+}
+
+/// Motions have the same bits on every machine, and so has the time until which they keep their tolerance.
+#[test]
+fn tolerances_last_as_long_as_told() {
+    let folder = Folder::new("lasting");
+    let row = |digits: i32| {
+        folder.prints(&format!(
+            "run --alpha 1.2 --r 1 --kick 0.05 --until 1e4 --sample-every 10 --tolerance 1e-{digits} -o run.jsonl"
+        ));
+        let verified = folder.stickslip("verify run.jsonl");
+        assert_eq!(verified.status.code(), Some(1), "{}", said(&verified));
+        let verified: Value = serde_json::from_slice(&verified.stdout).unwrap();
+        let until = number(&verified["verification"]["trusted_until"]);
+        format!("| 1e-{digits} | {} |", grouped(until))
+    };
+    says("docs/long_runs.md", &[6, 8].map(row));
+}
+
+/// What the README shows is what the program prints, but for the time that it took.
+#[test]
+fn commands_of_the_readme_print_what_it_shows() {
+    let readme = text("README.md");
+    let folder = Folder::new("readme");
+    let blocks = readme.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let mut shown = 0;
+    for block in blocks {
+        let is_command = |line: &str| line.trim_start_matches("$ ").starts_with("stickslip ");
+        let mut lines = block.lines().peekable();
+        while let Some(line) = lines.next() {
+            if !is_command(line) {
+                continue;
+            }
+            let command = line.trim_start_matches("$ ").trim_start_matches("stickslip ");
+            // A terminal gets text where no file is named.
+            let asks = ["-o ", "--print "].iter().any(|option| command.contains(option));
+            let format = if asks { "" } else { " --format text" };
+            let output = folder.stickslip(&format!("{command}{format}"));
+            assert!(output.status.success(), "{command}\n{}", said(&output));
+            let printed = said(&output) + std::str::from_utf8(&output.stdout).unwrap();
+            let printed: Vec<&str> = printed.lines().map(without_time).collect();
+            while let Some(line) =
+                lines.next_if(|line| !line.starts_with("$ ") && !is_command(line))
+            {
+                let line = without_time(line);
+                assert!(
+                    line.trim() == "…" || printed.contains(&line),
+                    "{command}\nprints no {line:?}, but\n{printed:#?}"
+                );
+                shown += 1;
+            }
+        }
+    }
+    assert!(shown >= 7, "{shown} lines");
+    assert!(readme.contains(&first_rows(&folder)), "{}", first_rows(&folder));
+}
+
+/// The first two rows of the surface of the first run.
+fn first_rows(folder: &Folder) -> String {
+    let table = String::from_utf8(folder.read("surface.csv")).unwrap();
+    table.lines().take(2).map(|line| format!("{line}\n")).collect()
+}
+
+/// A line without ", 2.1 ms" at its end.
+fn without_time(line: &str) -> &str {
+    match line.rsplit_once(", ") {
+        Some((before, time)) if time.ends_with(" ms") || time.ends_with(" s") => before,
+        _ => line,
+    }
+}
+
+/// The judge itself: a number changed in a document, a constant, or a file of data is found.
+#[test]
+fn a_stale_number_is_found() {
+    let passages = [format!("up to $2^{{{}}}$ nodes", 15)];
+    assert!(missing("keeps up to $2^{15}$\n  nodes", &passages).is_empty());
+    assert_eq!(missing("keeps up to $2^{14}$ nodes", &passages), passages.each_ref());
+    let shown = [1.35, 26.4, 1098.0, 73_600.0].map(ratio);
+    assert_eq!(shown, ["1.4", "26", "1,100", "7e4"]);
+    let times = [0.000_101_2, 0.0996, 7.44, 317.0].map(duration);
+    assert_eq!(times, ["0.10 ms", "100 ms", "7.4 s", "5.3 min"]);
+    assert!((constant("crates/tip/src/integrator/control.rs", "SAFETY") - 0.9).abs() < 1e-15);
+}

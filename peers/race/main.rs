@@ -43,7 +43,7 @@ fn row(contestant: &str, setting: String, seconds: f64, error: Option<f64>, rema
 }
 
 /// What `work` returns, and the time of one of as many runs as half a second of the processor allows, at
-/// least one, at most a hundred: the shortest, or the processor's time on average if that is less, as it
+/// least one, at most a thousand: the shortest, or the processor's time on average if that is less, as it
 /// is where other work interrupts.
 fn timed<T>(mut work: impl FnMut() -> T) -> (T, f64) {
     let (begun, before) = (Instant::now(), processor_seconds());
@@ -56,10 +56,10 @@ fn timed<T>(mut work: impl FnMut() -> T) -> (T, f64) {
         let spent = processor_seconds().zip(before).map(|(after, before)| after - before);
         let spent = spent.unwrap_or(begun.elapsed().as_secs_f64());
         // The processor's clock may lag by some milliseconds.
-        if count == 100 && spent < 0.1 {
+        if count == 1000 && spent < 0.1 {
             return (result, best);
         }
-        if count == 100 || spent > 0.5 {
+        if count == 1000 || spent > 0.5 {
             return (result, best.min(spent / f64::from(count)));
         }
     }

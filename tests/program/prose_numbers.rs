@@ -154,6 +154,11 @@ fn the_race_is_told_as_it_was_run() {
         "README.md",
         &[
             format!("({machine}; [data/peers.md](data/peers.md)"),
+            format!(
+                "a run takes {} times as long with `fft` as with `modes`, and {} times with `direct`",
+                times("closed, fft"),
+                times("closed, direct")
+            ),
             entry("stickslip, `modes`".into(), "closed, modes"),
             entry(format!("our own strongest grid, spectral, {}", part(spectral, 0)), spectral),
             entry(

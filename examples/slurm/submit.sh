@@ -11,5 +11,5 @@ mkdir -p "$folder"
 array=$(sbatch --parsable --array="${ARRAY:-1-$parts}" --output="$folder/task-%a.log" \
   "$here/sweep.sbatch" "$folder" "$parts" "$@")
 merge=$(sbatch --parsable --dependency=afterok:"$array" --kill-on-invalid-dep=yes \
-  --output="$folder/merge.log" "$here/merge.sbatch" "$folder" "$file")
+  --output="$folder/merge.log" "$here/merge.sbatch" "$folder" "$parts" "$file")
 echo "$array $merge"

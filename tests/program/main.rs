@@ -32,6 +32,8 @@ mod raster_commands;
 mod raster_sweeps;
 mod refusals;
 mod resume;
+#[cfg(unix)]
+mod slurm_scripts;
 mod stability_commands;
 mod supply_chain;
 mod sweep;

@@ -76,6 +76,10 @@ pub(crate) struct RasterSweepArguments {
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
+    /// Do nothing where the --output is this sweep already, whole and of this version; compute it anew where it is another.
+    #[arg(long, conflicts_with = "plot", help_heading = "Work")]
+    pub(crate) if_needed: bool,
+
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
 

@@ -42,12 +42,16 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         judge_sweep(&grid.parameters).map_err(|error| Failure::input("--plot", error))?;
     }
     let job = Job::open::<SweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let indices: Vec<usize> = grid.indices().collect();
+    let is_done = |file| merge::is_done::<SweepDocument>(file, &grid.parameters, &indices);
+    if arguments.if_needed && job.file().is_some_and(is_done) {
+        return Ok(());
+    }
     let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let indices: Vec<usize> = grid.indices().collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
     let points = finished.in_order();
     let document = SweepDocument::new(grid.parameters, points, Some(arithmetic()));

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use stickslip_documents::{
-    EnsembleDocument, Physical, RasterSweepDocument, RasterSweepPoint, ShardDocument,
-    SweepDocument, SweepPoint,
+    EnsembleDocument, Physical, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
+    ShardDocument, Software, SweepDocument, SweepParameters, SweepPoint,
 };
 use stickslip_figures::{Drawn, FigureError, judge_sweep};
 
@@ -17,8 +17,16 @@ pub(crate) trait Divided:
 {
     /// One of them.
     type Point: Part;
+    /// What is asked of all points.
+    type Parameters: PartialEq;
     /// Its `format`.
     const FORMAT: &'static str;
+
+    /// What it was asked for.
+    fn parameters(&self) -> &Self::Parameters;
+
+    /// The version that wrote it.
+    fn software(&self) -> &Software;
 
     /// What merging changes.
     fn held(&mut self) -> Held<'_, Self::Point>;
@@ -30,7 +38,9 @@ pub(crate) trait Divided:
     fn count(&self) -> usize;
 
     /// Whether both are of the same grid, and written by the same version.
-    fn is_of(&self, other: &Self) -> bool;
+    fn is_of(&self, other: &Self) -> bool {
+        self.parameters() == other.parameters() && self.software() == other.software()
+    }
 
     /// CRC-32 of parameters, points and how the machine rounds, as this program writes them, however the document is
     /// laid out.
@@ -68,8 +78,9 @@ pub(crate) struct Held<'a, P> {
 
 /// What is read off fields of the same names.
 macro_rules! by_fields {
-    ($point:ty) => {
+    ($point:ty, $parameters:ty) => {
         type Point = $point;
+        type Parameters = $parameters;
         const FORMAT: &'static str = Self::FORMAT;
 
         fn held(&mut self) -> Held<'_, $point> {
@@ -85,8 +96,12 @@ macro_rules! by_fields {
             self.parameters.points()
         }
 
-        fn is_of(&self, other: &Self) -> bool {
-            self.parameters == other.parameters && self.software == other.software
+        fn parameters(&self) -> &$parameters {
+            &self.parameters
+        }
+
+        fn software(&self) -> &Software {
+            &self.software
         }
 
         fn checksum(&self) -> Result<u32, Failure> {
@@ -96,7 +111,7 @@ macro_rules! by_fields {
 }
 
 impl Divided for SweepDocument {
-    by_fields!(SweepPoint);
+    by_fields!(SweepPoint, SweepParameters);
 
     fn velocity(&self) -> Option<f64> {
         self.parameters.velocity()
@@ -113,7 +128,7 @@ impl Divided for SweepDocument {
 }
 
 impl Divided for RasterSweepDocument {
-    by_fields!(RasterSweepPoint);
+    by_fields!(RasterSweepPoint, RasterSweepParameters);
 
     fn velocity(&self) -> Option<f64> {
         Some(self.parameters.r)

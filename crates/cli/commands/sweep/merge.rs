@@ -8,10 +8,10 @@ use crate::commands::job::{Job, judge_places};
 use crate::failure::Failure;
 use crate::files::distinct::Named;
 use crate::files::input::{format_of, read_document};
-use crate::message::say;
+use crate::message::{remark, say};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use stickslip_documents::{RasterSweepDocument, ShardDocument, SweepDocument};
+use stickslip_documents::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
 
 const PART: &str = "PART.json";
 
@@ -92,6 +92,26 @@ fn runs(numbers: &[usize]) -> String {
         run => run.iter().map(usize::to_string).collect(),
     });
     runs.collect::<Vec<_>>().join(",")
+}
+
+/// Whether a file is what was asked for, and all of it: `indices` are those of its points. What else it is, is said.
+pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &[usize]) -> bool {
+    if !path.exists() {
+        return false;
+    }
+    let is_asked = |found: &D| {
+        let points = found.points().iter().map(Part::index);
+        found.parameters() == asked
+            && *found.software() == Software::this()
+            && points.eq(indices.iter().copied())
+    };
+    let name = path.display();
+    match read::<D>(path) {
+        Ok(found) if is_asked(&found) => return true,
+        Ok(_) => remark(format_args!("stickslip: {name} is of another sweep: computed anew")),
+        Err(error) => remark(format_args!("stickslip: {error}: computed anew")),
+    }
+    false
 }
 
 fn read<D: Divided>(path: &Path) -> Result<D, Failure> {

@@ -1,6 +1,7 @@
 //! `stickslip sweep raster`: the pattern of a raster over pitch and α.
 
 use super::divided::Divided;
+use super::merge::is_done;
 use super::threads;
 use super::work::compute;
 use crate::arguments::RasterSweepArguments;
@@ -48,12 +49,16 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let job = Job::open::<RasterSweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let (count, part) = (grid.parameters.points(), grid.parameters.part());
     let has = |index| index < count && part.has(index);
+    let indices: Vec<usize> = part.indices(count).collect();
+    let is_done = |file| is_done::<RasterSweepDocument>(file, &grid.parameters, &indices);
+    if arguments.if_needed && job.file().is_some_and(is_done) {
+        return Ok(());
+    }
     let finished = match job.file() {
         Some(file) => Finished::beside(file, &grid.parameters, has)?,
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let indices: Vec<usize> = part.indices(count).collect();
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
     let points = finished.in_order();
     let document = RasterSweepDocument::new(grid.parameters, points, Some(arithmetic()));

@@ -11,6 +11,7 @@ pub use crate::made::{Document, Made};
 use crate::arguments::Cli;
 use crate::failure::Failure;
 use crate::files::input::open;
+use crate::message::harmless;
 use crate::{done, host, made};
 use clap::{ArgAction, CommandFactory, FromArgMatches};
 use serde::Serialize;
@@ -72,7 +73,8 @@ impl Drop for Lent {
 
 impl From<Failure> for Refusal {
     fn from(failure: Failure) -> Self {
-        let said = failure.to_string();
+        // A host prints it, as it does the name of a file in it.
+        let said = harmless(&failure.to_string()).into_owned();
         match failure.status() {
             2 => Self::Input(said),
             1 | 3 => Self::Run(said),

@@ -1,6 +1,7 @@
 //! `--print FIELD`: single fields of a document, by their path.
 
 use crate::failure::Failure;
+use crate::message::harmless;
 use schemars::{JsonSchema, schema_for};
 use serde::Serialize;
 use serde_json::Value;
@@ -52,8 +53,9 @@ fn shown(document: &Value, path: &str) -> String {
         _ => Value::Null,
     };
     match path.split('.').fold(document.clone(), step) {
-        Value::String(text) => text,
-        value => value.to_string(),
+        Value::String(text) => harmless(&text).into(),
+        // JSON leaves DEL, C1 and marks of direction as they are.
+        value => harmless(&value.to_string()).into(),
     }
 }
 
@@ -251,6 +253,13 @@ mod tests {
         for bad in ["physical.perod_s", "physical.samples.x1_nm", "physical.scales.x"] {
             assert!(Fields::asked::<RunDocument>(&[bad.into()]).is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn a_value_is_one_harmless_line() {
+        let document = serde_json::json!({"name": "a\u{1b}[2J\nb", "all": ["\u{9b}2J\u{202e}"]});
+        let shown = Fields(["name", "all"].map(String::from).into()).of(&document).unwrap();
+        assert_eq!(shown, "a\\u{1b}[2J\\u{a}b\n[\"\\u{9b}2J\\u{202e}\"]\n");
     }
 
     #[test]

@@ -5,7 +5,10 @@ use super::special::is_special;
 use super::temporary::kept_elsewhere;
 use super::temporary::through;
 use crate::failure::Failure;
+use crate::message::is_harmful;
 use serde::Serialize;
+use serde_json::Serializer;
+use serde_json::ser::Formatter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -42,6 +45,30 @@ impl OutputFormat {
     }
 }
 
+/// JSON in which what would move a cursor is written as an escape, also where JSON itself asks for none.
+struct Harmless;
+
+impl Formatter for Harmless {
+    fn write_string_fragment<W: Write + ?Sized>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        if fragment.is_ascii() && !fragment.contains('\u{7f}') {
+            return writer.write_all(fragment.as_bytes());
+        }
+        for c in fragment.chars() {
+            if is_harmful(c) {
+                // None of them is beyond the first plane.
+                write!(writer, "\\u{:04x}", u32::from(c))?;
+            } else {
+                write!(writer, "{c}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A place to write to, known to be writable, and nobody else's as long as this lives.
 #[derive(Debug)]
 pub(crate) struct Output {
@@ -69,7 +96,7 @@ impl Output {
     /// Writes the document as JSON, with a line break at its end.
     pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
         self.write_with(|out| {
-            serde_json::to_writer(&mut *out, document)?;
+            document.serialize(&mut Serializer::with_formatter(&mut *out, Harmless))?;
             out.write_all(b"\n")
         })
     }

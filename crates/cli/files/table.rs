@@ -2,6 +2,7 @@
 
 use super::output::Output;
 use crate::failure::Failure;
+use crate::message::harmless;
 use ndarray::ArrayViewD;
 use ndarray_npy::NpzWriter;
 use std::io::{self, Cursor, Write};
@@ -17,7 +18,7 @@ pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Fail
         writeln!(out, "{}", names.join(","))?;
         let mut line = String::new();
         (0..rows).try_for_each(|row| write_row(out, &mut line, &columns, row))?;
-        table.note().iter().try_for_each(|note| writeln!(out, "# {note}"))
+        table.note().iter().try_for_each(|note| writeln!(out, "# {}", harmless(note)))
     })
 }
 
@@ -75,7 +76,7 @@ impl<'a> Cells<'a> {
             Self::Optional(values) => {
                 line.push_str(&values[row].map(|value| value.to_string()).unwrap_or_default());
             }
-            Self::Words(words) => line.push_str(&words[row]),
+            Self::Words(words) => line.push_str(&harmless(&words[row])),
             Self::Repeated(texts, each) => line.push_str(&texts[row / each % texts.len()]),
         }
     }

@@ -12,6 +12,7 @@ mod walking;
 pub(in crate::commands) use run::{of_lines, of_run};
 
 use crate::made::{Document, Made};
+use crate::message::harmless;
 use std::fmt::Write;
 use stickslip_documents::{Dimension, InUnits, KnownScales};
 
@@ -27,13 +28,15 @@ pub(crate) struct Told {
 impl Told {
     /// What was found, and whether what was promised is kept, in a line or two: all that is said beside a file.
     pub(crate) fn new(headline: impl Into<String>) -> Self {
-        Self { headline: headline.into(), ..Self::default() }
+        let headline = headline.into();
+        let lines = headline.split('\n').map(harmless);
+        Self { headline: lines.collect::<Vec<_>>().join("\n"), ..Self::default() }
     }
 
-    /// A value under its name.
+    /// A value under its name. Names of files come back here, as they do in remarks and commands.
     #[must_use]
     pub(crate) fn row(mut self, name: &str, value: impl Into<String>) -> Self {
-        self.rows.push((name.into(), value.into()));
+        self.rows.push((harmless(name).into(), harmless(&value.into()).into()));
         self
     }
 
@@ -61,14 +64,14 @@ impl Told {
     /// What a reader should know.
     #[must_use]
     pub(crate) fn remarks(mut self, remarks: &[String]) -> Self {
-        self.remarks.extend_from_slice(remarks);
+        self.remarks.extend(remarks.iter().map(|remark| harmless(remark).into_owned()));
         self
     }
 
     /// A command to try.
     #[must_use]
     pub(crate) fn next(mut self, command: impl Into<String>) -> Self {
-        self.next.push(command.into());
+        self.next.push(harmless(&command.into()).into());
         self
     }
 
@@ -177,6 +180,21 @@ mod tests {
         let text =
             "steady: t = 5\n  α       1.2\n  period  6\n  remark: few\nnext: stickslip units\n";
         assert_eq!(told.text(), text);
+    }
+
+    /// Whatever a file is called, or a document holds: ESC, C1, the right-to-left override, and lines of their own.
+    #[test]
+    fn nothing_that_moves_a_cursor_is_printed() {
+        let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\u{202e}b\rc\u{7f}\td";
+        let told =
+            Told::new(hostile).row(hostile, hostile).remarks(&[format!("{hostile}\n{hostile}")]);
+        let told = told.next(hostile);
+        for text in [told.text(), told.in_short()] {
+            assert!(
+                text.chars().all(|c| c == '\n' || harmless(&c.to_string()).len() == c.len_utf8())
+            );
+        }
+        assert_eq!(told.text().lines().count(), 4, "{}", told.text());
     }
 
     #[test]

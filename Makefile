@@ -3,7 +3,7 @@
 CARGO ?= cargo
 PLOT ?= run.svg
 PYTHONS ?= python3
-# Cases of each of six parsers, and of each of four laws.
+# Cases of each of seven parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
 # Runs of `make judge`.

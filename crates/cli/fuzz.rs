@@ -11,8 +11,11 @@ use crate::arguments::{Cli, Command, ModelArguments};
 use crate::commands::sweep::merge;
 use crate::commands::{model, run};
 use crate::files::columns::parse_profile;
+use crate::files::decode::decoded;
 use crate::files::input::parse_tip;
 use crate::files::lines::Lines;
+use crate::files::measured::parse_measured;
+use crate::files::sheet::Sheet;
 use clap::Parser;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
@@ -171,6 +174,46 @@ fn any_columns_are_taken_or_refused() {
         let _ = surface.slope_and_curvature(16.2);
         // A spline through values near the largest number overflows between them, and a run says so.
         let _ = force.value(16.2);
+        true
+    });
+}
+
+/// The table in bytes, as a command reads it.
+fn table(bytes: Vec<u8>) -> Option<Sheet> {
+    let sheet = decoded(bytes).and_then(|text| parse_measured(&text, &[2, 3])).ok()?;
+    assert!(sheet.columns.iter().flatten().all(|value| value.is_finite()), "{sheet:?}");
+    Some(sheet)
+}
+
+/// One table, damaged, in several forms: where two are taken they hold the same numbers, and lack the same rows.
+#[test]
+fn any_table_is_the_same_in_every_form_or_refused() {
+    fuzz("tables", |text| {
+        let bits = |sheet: &Sheet| -> Vec<u64> {
+            sheet.columns.iter().flatten().map(|value| value.to_bits()).collect()
+        };
+        let Some(plain) = table(text.into()) else { return false };
+        let mut forms = vec![
+            text.replace('\n', "\r\n").into_bytes(),
+            text.replace('\n', "\r").into_bytes(),
+            format!("\u{feff}{text}").into_bytes(),
+            text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+            text.encode_utf16().flat_map(u16::to_be_bytes).collect(),
+        ];
+        // Where nothing but commas and points changes its meaning.
+        if !text.contains([';', '"', '\r']) {
+            let swap = |c: char| match c {
+                ',' => ';',
+                '.' => ',',
+                c => c,
+            };
+            forms.push(text.replace(',', ";").into_bytes());
+            forms.push(text.chars().map(swap).collect::<String>().into_bytes());
+        }
+        for other in forms.into_iter().filter_map(table) {
+            assert_eq!(bits(&other), bits(&plain), "{other:?} for {plain:?}");
+            assert_eq!(other.missing.len(), plain.missing.len());
+        }
         true
     });
 }

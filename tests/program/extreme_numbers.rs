@@ -30,8 +30,8 @@ const LINES: [&str; 22] = [
     "compare --alpha 1 --r 1 --until 18 --spacing _",
     "compare --alpha 1 --r 1 --until 18 --step _",
     "compare --alpha 1 --r 1 --until 18 --width _",
-    "units --damping 1 --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity _",
-    "units --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity 1 --damping _",
+    "units --damping 1kg/s --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity _m/s",
+    "units --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity 1m/s --damping _kg/s",
 ];
 
 /// Digits in a row in the message.
@@ -70,7 +70,7 @@ fn the_option_at_fault_is_named() {
         ("stability --alpha 1 --r 1e300", "--r 1e300"),
         ("stability --alpha 1e300 --r 1 --re-above -1", "--alpha 1e300"),
         (
-            "units --damping 1e300 --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity 1",
+            "units --damping 1e300kg/s --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity 1m/s",
             "the quantities",
         ),
     ] {

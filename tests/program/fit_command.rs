@@ -76,6 +76,22 @@ fn ripples_and_friction_give_back_what_they_were_made_of() {
         holds(&both, name, truth);
     }
     assert_eq!(both["data"].as_array().unwrap().len(), 2);
+    // The same trace over micrometres: files meet in the unit of the first.
+    let mut trace = "way (µm);force (nN)\n".to_owned();
+    for row in rows(&folder.read("trace.csv")) {
+        trace += &format!("{};{}\n", 1e-3 * row[0], row[1]).replace('.', ",");
+    }
+    folder.write("trace_um.csv", trace);
+    let mixed = folder.prints_json(
+        "fit --ripple ripple.csv --height-gain 0.02 --friction trace_um.csv --force-gain 0.3 --width 30",
+    );
+    for name in ["alpha", "r"] {
+        let value = |fit: &Value| number(fit, name)["value"].as_f64().unwrap();
+        assert!((value(&mixed) / value(&both) - 1.0).abs() < 1e-6, "{name}");
+    }
+    folder
+        .write("bare.csv", String::from_utf8(folder.read("trace.csv")).unwrap().replace("_nm", ""));
+    folder.refuses("fit --ripple ripple.csv --friction bare.csv", &["bare.csv", "has no unit"]);
     folder.prints("plot fit.json -o again.svg");
     assert_eq!(folder.read("fit.svg"), folder.read("again.svg"));
     let table = String::from_utf8(folder.prints("fit --ripple ripple.csv --format csv"));

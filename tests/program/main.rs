@@ -38,6 +38,7 @@ mod stability_commands;
 mod supply_chain;
 mod sweep;
 mod sweep_axes;
+mod table_forms;
 mod terminal;
 mod tip_command;
 mod units_command;

@@ -325,9 +325,13 @@ fn unusable_input_is_refused_by_name_with_advice_and_nothing_on_standard_output(
         (&format!("units {GIVEN}"), "--indentation-rate, --velocity", "--alpha or --r"),
         (&format!("units {GIVEN} --v0 1um/s --N 1um/s --r 1"), "--r", "leave out 1"),
         (&format!("units {GIVEN} --v0 1um --N 1um/s"), "--velocity 1um", "1um/s"),
-        (&format!("units {GIVEN} --v0 0 --N 1um/s"), "--velocity 0", "above 0"),
+        (&format!("units {GIVEN} --v0 0m/s --N 1um/s"), "--velocity 0m/s", "above 0"),
         (&format!("units {GIVEN} --alpha 1 --r 1 -o units.npz"), "--output units.npz", ".csv"),
-        ("units --gamma 1 --a 1 --N 1 --v0 1 --alpha 1 --r 1", "--stiffness, --tip-width", "leave"),
+        (
+            "units --gamma 1kg/s --a 1N --N 1m/s --v0 1m/s --alpha 1 --r 1",
+            "--stiffness, --tip-width",
+            "leave",
+        ),
     ];
     for (line, named, advice) in cases {
         let output = stickslip(&words(line));

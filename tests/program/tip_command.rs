@@ -71,6 +71,50 @@ fn an_image_becomes_a_tip_of_two_dimensions() {
     folder.refuses("tip pit.gsf", &["pit.gsf", "100 × 90"]);
 }
 
+/// One image in other units, of which the header may be in Latin-1.
+#[test]
+fn the_units_of_an_image_are_read_or_asked_for() {
+    let folder = Folder::new("tip_image_units");
+    let plain = image(0.02);
+    let end = plain.iter().position(|byte| *byte == 0).unwrap();
+    let data = (end / 4 + 1) * 4;
+    let with = |changes: &[(&str, &str)], latin: bool| {
+        let mut header = String::from_utf8(plain[..end].to_vec()).unwrap();
+        changes.iter().for_each(|(old, new)| header = header.replace(old, new));
+        let mut bytes: Vec<u8> = match latin {
+            true => header.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect(),
+            false => header.into_bytes(),
+        };
+        bytes.resize((bytes.len() / 4 + 1) * 4, 0);
+        bytes.extend(&plain[data..]);
+        bytes
+    };
+    let sigma = |bytes: &[u8]| {
+        folder.write("pit.gsf", bytes);
+        let printed = folder.prints("tip pit.gsf --resamples 2 --print sigma_metres");
+        String::from_utf8(printed).unwrap().trim().parse::<f64>().unwrap()
+    };
+    let metres = sigma(&plain);
+    for (real, unit, latin) in [
+        (["0.2", "0.27"], "µm", false),
+        (["0.2", "0.27"], "µm", true),
+        (["0.2", "0.27"], "um", false),
+        (["200", "270"], "nm", false),
+        (["2000", "2700"], "Å", true),
+    ] {
+        let unit = format!("XYUnits = {unit}");
+        let changes = [("2e-7", real[0]), ("2.7e-7", real[1]), ("XYUnits = m", &*unit)];
+        let found = sigma(&with(&changes, latin));
+        assert!((found / metres - 1.0).abs() < 1e-9, "{unit}: {found} for {metres}");
+    }
+    folder.write("pit.gsf", with(&[("XYUnits = m", "XYUnits = furlong")], false));
+    folder.refuses("tip pit.gsf", &["XYUnits = furlong", "no unit of length"]);
+    let mut missing = plain.clone();
+    missing[data + 4000..data + 4004].copy_from_slice(&f32::NAN.to_le_bytes());
+    folder.write("pit.gsf", missing);
+    folder.refuses("tip pit.gsf", &["row"]);
+}
+
 /// Of a table f(x,y) the noise on the path of the tip is judged, as it is of one f(x).
 #[test]
 fn a_noisy_table_of_two_dimensions_is_refused() {
@@ -150,7 +194,7 @@ fn what_is_no_profile_is_refused_with_what_would_do() {
     let noise: String = (0..60).map(|i| format!("{i},{}\n", (i * 7919) % 13)).collect();
     folder.write("noise.csv", noise);
     for (line, words) in [
-        ("tip three.csv", ["three.csv", "two columns"]),
+        ("tip three.csv", ["three.csv", "2 are needed"]),
         ("tip few.csv", ["3 rows", "12"]),
         ("tip noise.csv", ["no footprint", "noise.csv"]),
         ("tip pit.csv --sigma 30nm", ["--sigma 30nm", "--unit"]),

@@ -25,9 +25,10 @@ fn units_go_there_and_back() {
     assert!(back["parameters"]["velocity"].is_null());
     // The critical velocity, put in, is critical.
     let velocity = there["critical"]["velocity"].as_f64().unwrap();
-    let slow = document(&format!("units {GIVEN} --N 240nm/s --v0 {velocity:e}"));
+    let slow = document(&format!("units {GIVEN} --N 240nm/s --v0 {velocity:e}m/s"));
     close(&slow["alpha"], critical(&triple(), slow["r"].as_f64().unwrap()).unwrap().alpha, 1e-11);
     // Short names are the same, and one number may stand for one quantity.
-    let short = "units --gamma 1e-3 --k 0.05 --sigma 2e-8 --a 5e-9 --v0 1e-6 --alpha 1.2";
+    let short =
+        "units --gamma 1e-3kg/s --k 0.05N/m --sigma 2e-8m --a 5e-9N --v0 1e-6m/s --alpha 1.2";
     close(&document(short)["physical"]["indentation_rate"], 240e-9, 1e-13);
 }

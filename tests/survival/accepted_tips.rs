@@ -85,7 +85,7 @@ impl Count {
         let mut file = tip.name;
         if let Kind::Profile(..) = tip.kind {
             file = "tip.json";
-            let line = "tip profile.csv --both --unit nm --sigma 1 --resamples 50 -o tip.json --print terms";
+            let line = "tip profile.csv --both --unit nm --sigma 1nm --resamples 50 -o tip.json --print terms";
             if self.of(folder, &name, "tip", line).is_err() {
                 self.refused += 1;
                 return;

@@ -40,7 +40,7 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Data")]
     pub(crate) force_gain: Option<f64>,
 
-    /// Unit of lengths, in place of that of the first heading.
+    /// Unit of lengths, of files that have none and of the result [default: that of the first file].
     #[arg(long, value_name = "UNIT", help_heading = "Data")]
     pub(crate) unit: Option<String>,
 

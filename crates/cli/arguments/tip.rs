@@ -14,13 +14,13 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct MeasuredTipArguments {
-    /// Positions and heights, in two columns with any separator, by a heading such as `x_nm,z_nm`; rows in any order,
-    /// at any distance. A pit has its heights below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
+    /// Positions and heights, in two columns with any separator and decimal mark, by a heading such as `x_nm,z_nm` or a row of
+    /// units below it; rows in any order, at any distance, those without a value left out. A pit has its heights below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
     /// f(x,y): the profile along x through its middle, and how wide each Gaussian is across.
     #[arg(value_name = "MEASURED.csv")]
     pub(crate) measured: PathBuf,
 
-    /// Unit of the positions, in place of that of the heading: m, um, nm, …
+    /// Unit of the positions, where the file has none: m, um, nm, Å, …
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
 
@@ -36,7 +36,7 @@ pub(crate) struct MeasuredTipArguments {
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     pub(crate) centre: Option<f64>,
 
-    /// σ, with a unit (30nm) or in that of the positions [default: found].
+    /// σ, with a unit, such as 30nm; 1σ where the positions are in σ [default: found].
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) sigma: Option<String>,
 

@@ -8,7 +8,7 @@ use clap::Args;
 ///
 /// Give all six quantities for α and r. Or leave one out for --r or --alpha, or two for both: they are
 /// solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
-/// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a bare number is in SI units.
+/// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is refused.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct UnitsArguments {

@@ -4,7 +4,9 @@ use super::job::{Job, judge_places};
 use super::model::tip;
 use crate::arguments::{FitArguments, TipArguments};
 use crate::failure::{Failure, Typed};
-use crate::files::measured::{Measured, read_measured, unit_of};
+use crate::files::heading::Heading;
+use crate::files::measured::{Common, read_measured};
+use crate::files::sheet::Sheet;
 use std::path::Path;
 use stickslip_documents::TipName;
 use stickslip_documents::{FitDocument, FitParameters, NumberHeld};
@@ -117,7 +119,7 @@ type Given = Vec<(String, Data)>;
 
 /// What was measured, and the unit of lengths.
 fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
-    let mut files = Files { unit: arguments.unit.clone() };
+    let mut files = Files::of(arguments)?;
     let mut found = vec![];
     let mut give = |option: &str, path: &Path, data: Data| {
         found.push((format!("{option} {}", path.display()), data));
@@ -129,57 +131,79 @@ fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
         give("--friction", path, files.friction(path, arguments.force_gain)?);
     }
     if let Some(path) = &arguments.onsets {
-        let [velocity, load] = taken("--onsets", path, read_measured("--onsets", path)?.columns)?;
+        let [velocity, load] = files.series("--onsets", path)?;
         give("--onsets", path, Data::Onsets { velocity, load });
     }
     if let Some(path) = &arguments.wavelengths {
-        let Measured { headings, columns } = read_measured("--wavelengths", path)?;
-        files.unit_is_that_of(headings.get(2));
-        let [velocity, load, wavelength] = taken("--wavelengths", path, columns)?;
+        let [velocity, load, wavelength] = files.series("--wavelengths", path)?;
         give("--wavelengths", path, Data::Wavelengths { velocity, load, wavelength });
     }
-    Ok((found, files.unit))
+    Ok((found, files.lengths.unit().map(str::to_owned)))
 }
 
-/// Files of data, all in one unit of lengths.
+/// Files of data, each quantity in one unit: that of the first file.
 struct Files {
-    /// That asked for, or that of the first heading which has one.
-    unit: Option<String>,
+    lengths: Common,
+    forces: Common,
+    velocities: Common,
+    loads: Common,
 }
 
 impl Files {
-    fn unit_is_that_of(&mut self, heading: Option<&String>) {
-        if self.unit.is_none() {
-            self.unit = heading.and_then(|heading| unit_of(heading)).map(str::to_owned);
-        }
+    fn of(arguments: &FitArguments) -> Result<Self, Failure> {
+        let given = |unit: &String| Common::given(Unit::Length, "--unit", unit);
+        let lengths = arguments.unit.as_ref().map(given).transpose()?;
+        Ok(Self {
+            lengths: lengths.unwrap_or(Common::of(Unit::Length)),
+            forces: Common::of(Unit::Force),
+            velocities: Common::of(Unit::Velocity),
+            loads: Common::of(Unit::Force),
+        })
     }
 
     fn ripple(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
-        let Measured { mut headings, mut columns } = read_measured("--ripple", path)?;
-        // As `stickslip surface` writes it.
-        let is_surface = |names: &[&str]| headings.iter().zip(names).all(|(a, b)| a == b);
-        if columns.len() == 3
-            && (is_surface(&["t", "x", "u"]) || is_surface(&["t_s", "x_nm", "u_nm"]))
-        {
-            headings.remove(0);
-            columns.remove(0);
+        let named = format!("--ripple {}", path.display());
+        let mut sheet = read_measured("--ripple", path, &[2, 3])?;
+        if sheet.columns.len() == 3 {
+            // As `stickslip surface` writes it.
+            if sheet.headings.iter().map(Heading::name).ne(["t", "x", "u"]) {
+                let message = "3 columns; 2 are needed, or a surface t,x,u";
+                return Err(Failure::input(named, message));
+            }
+            sheet.headings.remove(0);
+            sheet.columns.remove(0);
         }
-        self.unit_is_that_of(headings.first());
-        let [x, mut y] = taken("--ripple", path, columns)?;
-        // Heights in the unit of the positions, of which a gain k/a is, where both are known.
-        let metres = |heading: Option<&String>| {
-            let unit = heading.and_then(|heading| unit_of(heading))?;
-            Unit::Length.parse(&format!("1 {unit}")).ok()
-        };
-        if let Some((along, height)) = metres(headings.first()).zip(metres(headings.get(1))) {
-            y.iter_mut().for_each(|y| *y *= height / along);
+        let Sheet { headings, columns, .. } = sheet;
+        let [mut x, mut y] = taken("--ripple", path, columns)?;
+        scale(&mut x, self.lengths.factor(&named, &headings[0])?);
+        // Heights in the unit of the positions, of which a gain k/a is, where both are known. Volts are scaled by the gain.
+        let is_known = matches!(headings[1].unit(Unit::Length), Ok(Some(_)));
+        if is_known && self.lengths.unit().is_some() {
+            scale(&mut y, self.lengths.factor(&named, &headings[1])?);
+        } else if gain.is_some() {
+            headings[1].unit(Unit::Length).map_err(|error| Failure::input(&named, error))?;
         }
         Ok(Data::Ripple(Track { x, y, gain }))
     }
 
     fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
-        let Measured { headings, columns } = read_measured("--friction", path)?;
-        self.unit_is_that_of(headings.first());
+        let named = format!("--friction {}", path.display());
+        let Sheet { headings, mut columns, .. } = read_measured("--friction", path, &[2, 3])?;
+        scale(&mut columns[0], self.lengths.factor(&named, &headings[0])?);
+        for (column, heading) in columns.iter_mut().zip(&headings).skip(1) {
+            // A gain is fitted to forces of any unit; the two ways of a loop have the same.
+            let is_known = matches!(heading.unit(Unit::Force), Ok(Some(_)));
+            if gain.is_some() || is_known {
+                scale(column, self.forces.factor(&named, heading)?);
+            } else if heading.written_unit() != headings[1].written_unit() {
+                let message = format!(
+                    "`{}` and `{}` have different units",
+                    headings[1].text(),
+                    heading.text()
+                );
+                return Err(Failure::input(named, message));
+            }
+        }
         if columns.len() == 3 {
             let [x, y, back] = taken("--friction", path, columns)?;
             return Ok(Data::Loop(Track { x, y, gain }, back));
@@ -187,6 +211,25 @@ impl Files {
         let [x, y] = taken("--friction", path, columns)?;
         Ok(Data::Friction(Track { x, y, gain }))
     }
+
+    /// Velocities, loads, and with three columns wavelengths.
+    fn series<const N: usize>(
+        &mut self,
+        option: &str,
+        path: &Path,
+    ) -> Result<[Vec<f64>; N], Failure> {
+        let named = format!("{option} {}", path.display());
+        let Sheet { headings, mut columns, .. } = read_measured(option, path, &[N])?;
+        let quantities = [&mut self.velocities, &mut self.loads, &mut self.lengths];
+        for ((column, heading), quantity) in columns.iter_mut().zip(&headings).zip(quantities) {
+            scale(column, quantity.factor(&named, heading)?);
+        }
+        taken(option, path, columns)
+    }
+}
+
+fn scale(column: &mut [f64], factor: f64) {
+    column.iter_mut().for_each(|value| *value *= factor);
 }
 
 /// Just so many columns.

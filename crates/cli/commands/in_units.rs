@@ -186,7 +186,7 @@ impl Telling {
     /// σ is the width fitted, or held; kσ²/a follows from the heights of ripples.
     fn fitted(self) -> Option<KnownScales> {
         let Fitted { unit, known } = self.parameters?;
-        let metres = Unit::Length.parse(&format!("1 {}", unit?)).ok()?;
+        let metres = Unit::Length.one(&unit?)?;
         let fitted = self.numbers?.into_iter().find(|number| number.name == "width");
         let fitted =
             fitted.map(|NumberFitted { estimate: EstimateDocument { value, .. }, .. }| value);

@@ -16,7 +16,7 @@ pub(super) fn judge_table(
     let advice = match tip.footprint() {
         Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` of the image that it is from, then --tip-file tip.json".into(),
         None => format!(
-            "fit it: `stickslip tip {} --half --sigma 1 -o tip.json`, then --tip-file tip.json",
+            "fit it: `stickslip tip {} --half --sigma 1σ -o tip.json`, then --tip-file tip.json",
             path.display()
         ),
     };

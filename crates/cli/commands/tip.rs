@@ -4,7 +4,8 @@ use super::job::{Job, judge_places};
 use crate::arguments::MeasuredTipArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::gsf::read_gsf;
-use crate::files::measured::{Measured, read_measured, unit_of};
+use crate::files::heading::Heading;
+use crate::files::measured::{one_of, read_measured};
 use stickslip_documents::{MeasuredTipDocument, MeasuredTipParameters};
 use stickslip_measurement::{Image, Profile, Request, TipError, tip};
 use stickslip_units::Unit;
@@ -72,36 +73,41 @@ fn given(arguments: &MeasuredTipArguments) -> Result<Given, Failure> {
         let image = Image::new(read.x, read.y, read.rows);
         let image = image.map_err(|error| Failure::input(named(), error))?;
         let profile = image.profile().map_err(|error| Failure::input(named(), error))?;
-        let unit = unit(arguments, read.in_nanometres.then_some("x_nm"))?;
+        let unit = unit(arguments, &Heading::of(if read.in_nanometres { "x_nm" } else { "x" }))?;
         return Ok(Given { profile, image: Some(image), unit });
     }
-    let Measured { headings, columns } = read_measured(OPTION, path)?;
-    let [x, f] = <[Vec<f64>; 2]>::try_from(columns).map_err(|columns| {
-        let message = "two columns are needed, positions and heights: cut out those two";
-        Failure::input(named(), format!("{} columns; {message}", columns.len()))
-    })?;
-    let unit = unit(arguments, headings.first().map(String::as_str))?;
+    let sheet = read_measured(OPTION, path, &[2])?;
+    let unit = unit(arguments, &sheet.headings[0])?;
+    let [x, f] = [0, 1].map(|i| sheet.columns[i].clone());
     let profile = Profile::new(x, f).map_err(|error| Failure::input(named(), error))?;
     Ok(Given { profile, image: None, unit })
 }
 
 /// Unit of the positions.
-fn unit(
-    arguments: &MeasuredTipArguments,
-    heading: Option<&str>,
-) -> Result<Option<String>, Failure> {
-    if let Some(unit) = &arguments.unit {
-        metres(unit)?;
-        return Ok(Some(unit.clone()));
+fn unit(arguments: &MeasuredTipArguments, heading: &Heading) -> Result<Option<String>, Failure> {
+    let written = heading.unit(Unit::Length);
+    let Some(unit) = &arguments.unit else {
+        let named = format!("{OPTION} {}", arguments.measured.display());
+        let advice = "give the unit of the positions by --unit";
+        let written =
+            written.map_err(|error| Failure::input(named, format!("{error}: {advice}")))?;
+        return Ok(written.map(|(unit, _)| unit.to_owned()));
+    };
+    let one = metres(unit)?;
+    match written {
+        Ok(Some((_, other))) if other.to_bits() != one.to_bits() => {
+            let message = format!(
+                "the heading `{}` has another unit: leave --unit out, or correct the heading",
+                heading.text()
+            );
+            Err(Failure::input(format!("--unit {unit}"), message))
+        }
+        _ => Ok(Some(unit.clone())),
     }
-    // A heading may have a word in brackets that is no unit of length.
-    let found = heading.and_then(unit_of).filter(|unit| metres(unit).is_ok());
-    Ok(found.map(str::to_owned))
 }
 
 fn metres(unit: &str) -> Result<f64, Failure> {
-    let length = Unit::Length.parse(&format!("1{unit}"));
-    length.map_err(|_| Failure::input(format!("--unit {unit}"), "m, mm, um, nm or pm will do"))
+    one_of(Unit::Length, "--unit", unit)
 }
 
 fn judged(option: &str, value: Option<f64>, above: f64) -> Result<Option<f64>, Failure> {
@@ -113,19 +119,22 @@ fn judged(option: &str, value: Option<f64>, above: f64) -> Result<Option<f64>, F
     Err(Failure::input(format!("{option} {}", Typed(value)), format!("{least} will do")))
 }
 
-/// σ in the unit of the positions.
+/// σ in the unit of the positions, or in σ where these have none.
 fn sigma(arguments: &MeasuredTipArguments, metres: Option<f64>) -> Result<Option<f64>, Failure> {
     let Some(text) = &arguments.sigma else { return Ok(None) };
     let option = format!("--sigma {text}");
-    let value = match (text.trim().parse::<f64>(), metres) {
-        (Ok(bare), _) => bare,
-        (Err(_), Some(metres)) => {
-            let length = Unit::Length.parse(text);
-            length.map_err(|error| Failure::input(&option, error))? / metres
-        }
-        (Err(_), None) => {
-            let message = "the unit of the positions is not known: say it with --unit";
+    let in_sigma = text.trim().strip_suffix('σ').and_then(|number| number.trim().parse().ok());
+    let value = match (in_sigma, metres) {
+        (Some(number), None) => number,
+        (Some(_), Some(_)) => {
+            let message = "the positions have a unit: give σ in a unit of length, such as 30nm";
             return Err(Failure::input(option, message));
+        }
+        (None, metres) => {
+            let length = Unit::Length.parse(text);
+            let length = length.map_err(|error| Failure::input(&option, error))?;
+            let unknown = "the unit of the positions is not known: give it by --unit";
+            length / metres.ok_or_else(|| Failure::input(&option, unknown))?
         }
     };
     judged("--sigma", Some(value), 0.0)

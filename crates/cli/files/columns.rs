@@ -1,16 +1,18 @@
-//! Tables of two or three columns that users give: CSV, a heading allowed, `#` comments skipped.
+//! Tables of two or three columns that users give: none of their values may be missing.
 
+use super::heading::Heading;
 use super::in_model_units::in_model_units;
+use super::sheet::{Sheet, parse_sheet};
 use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
 use std::path::Path;
 use stickslip_documents::KnownScales;
 use stickslip_raster::AreaLine;
 
-/// Two columns read from a CSV file.
+/// Two columns read from a file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 
-/// Two columns of numbers from CSV, a heading allowed, `#` comments skipped.
+/// Two columns of numbers, called as `heading` has it.
 pub(crate) fn read_columns(
     option: &str,
     path: &Path,
@@ -47,20 +49,20 @@ pub(crate) fn read_profile(
 }
 
 pub(crate) fn parse_profile(text: &str, scales: Option<&KnownScales>) -> Result<Columns, String> {
-    if width_of(text) != 3 {
-        return parse_columns(text, "x,u", scales);
-    }
-    let (mut columns, headings) = numbers_of::<3>(text, "t,x,u")?;
+    let mut sheet = whole(text, &["x,u", "t,x,u"])?;
     // The time only tells surfaces apart, in whatever unit.
-    in_model_units(&mut columns[1..], "x,u", headings.get(1..).unwrap_or_default(), scales)?;
-    let [t, x, u] = columns;
-    match t.iter().position(|time| time.to_bits() != t[0].to_bits()) {
-        None => Ok((x, u)),
-        Some(row) => Err(format!(
-            "holds surfaces at several times, {} and {}: write one with `surface --at T`",
-            t[0], t[row]
-        )),
+    if sheet.columns.len() == 3 {
+        let t = sheet.columns.remove(0);
+        sheet.headings.remove(0);
+        if let Some(row) = t.iter().position(|time| time.to_bits() != t[0].to_bits()) {
+            return Err(format!(
+                "holds surfaces at several times, {} and {}: write one with `surface --at T`",
+                t[0], t[row]
+            ));
+        }
     }
+    let [x, u] = in_units(sheet, "x,u", scales)?;
+    Ok((x, u))
 }
 
 fn parse_columns(
@@ -74,60 +76,58 @@ fn parse_columns(
 /// N columns of numbers, in the model's units where their heading has others.
 fn parse_table<const N: usize>(
     text: &str,
-    heading: &str,
+    names: &str,
     scales: Option<&KnownScales>,
 ) -> Result<[Vec<f64>; N], String> {
-    let (mut columns, headings) = numbers_of(text, heading)?;
-    in_model_units(&mut columns, heading, &headings, scales)?;
-    Ok(columns)
+    in_units(whole(text, &[names])?, names, scales)
 }
 
-/// N columns of numbers, and what stands above them.
-pub(super) fn numbers_of<const N: usize>(
-    text: &str,
-    heading: &str,
-) -> Result<([Vec<f64>; N], Vec<String>), String> {
-    let mut columns = std::array::from_fn(|_| vec![]);
-    let mut headings = vec![];
-    for (index, record) in csv_reader(text).records().enumerate() {
-        let record = record.map_err(|error| format!("not CSV: {error}"))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let numbers: Result<Vec<f64>, _> = record.iter().map(str::parse).collect();
-        match numbers {
-            Ok(row) if row.len() == N => {
-                columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-            }
-            Err(_) if index == 0 && is_heading(&record) => {
-                headings = record.iter().map(str::to_owned).collect();
-            }
-            _ => {
-                let count = ["no", "one", "two", "three"].get(N).unwrap_or(&"too many");
-                return Err(format!(
-                    "line {line} is not {count} numbers `{heading}` separated by commas"
-                ));
-            }
-        }
+fn in_units<const N: usize>(
+    mut sheet: Sheet,
+    names: &str,
+    scales: Option<&KnownScales>,
+) -> Result<[Vec<f64>; N], String> {
+    in_model_units(&mut sheet.columns, names, &sheet.headings, scales)?;
+    let count = sheet.columns.len();
+    sheet
+        .columns
+        .try_into()
+        .map_err(|_| format!("{count} columns of numbers; `{names}` are needed"))
+}
+
+/// A table without missing values, whose columns are these or those, such as `x,u` or `t,x,u`.
+pub(super) fn whole(text: &str, names: &[&str]) -> Result<Sheet, String> {
+    let counts: Vec<usize> = names.iter().map(|names| names.split(',').count()).collect();
+    let of = names.join("` or `");
+    let mut sheet =
+        parse_sheet(text, &counts).map_err(|error| format!("{error} (columns `{of}`)"))?;
+    if sheet.columns.is_empty() {
+        // What has no rows is judged by what is made of it.
+        sheet.columns = vec![vec![]; counts[0]];
+        sheet.headings = vec![Heading::default(); counts[0]];
     }
-    Ok((columns, headings))
+    if let Some(line) = sheet.missing.first() {
+        return Err(format!("line {line}: a value is missing (columns `{of}`)"));
+    }
+    let count = sheet.columns.len();
+    let names = names.iter().find(|names| names.split(',').count() == count).copied();
+    judge_order(&sheet.headings, names.unwrap_or_default())?;
+    Ok(sheet)
 }
 
-fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-}
-
-/// Fields of the first line.
-pub(super) fn width_of(text: &str) -> usize {
-    csv_reader(text).records().next().and_then(Result::ok).map_or(0, |record| record.len())
-}
-
-/// A first line without any number; a mistyped row is none.
-fn is_heading(record: &csv::StringRecord) -> bool {
-    record.iter().all(|field| field.parse::<f64>().is_err())
+/// Refuses the same names in another order.
+fn judge_order(headings: &[Heading], names: &str) -> Result<(), String> {
+    let wanted: Vec<String> = names.split(',').map(str::to_lowercase).collect();
+    let found: Vec<String> = headings.iter().map(|heading| heading.name().to_lowercase()).collect();
+    let sorted = |names: &[String]| {
+        let mut names = names.to_vec();
+        names.sort();
+        names
+    };
+    if found != wanted && sorted(&found) == sorted(&wanted) {
+        return Err(format!("its columns are `{}`: `{names}` are needed", found.join(",")));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -143,11 +143,45 @@ mod tests {
 
     #[test]
     fn a_line_that_is_not_two_numbers_is_named() {
-        for (text, line) in
-            [("1,2\n3\n", 2), ("1,2\n3,4,5\n", 2), ("x,u\n1,2\nfoo,3\n", 3), ("1,2e\n3,4\n", 1)]
-        {
+        for (text, line) in [
+            ("1,2\n3\n", 2),
+            ("1,2\n3,4,5\n", 2),
+            ("x,u\n1,2\nfoo,3\n", 3),
+            ("1,2e\n3,4\n", 1),
+            ("x,u\n1.5,2\n3,\n", 3),
+            ("x,u\n1.5,2\nNaN,2\n", 3),
+            ("x,u\nO.5,2\n1.5,2\n", 2),
+            ("x;u\r1,5;2\r3,5;1.5\r", 3),
+        ] {
             let message = parse_columns(text, "x,u", None).unwrap_err();
             assert!(message.contains(&format!("line {line}")), "{message}");
         }
+    }
+
+    #[test]
+    fn columns_in_another_order_are_refused() {
+        for text in ["u,x\n0,1.5\n", "u_nm;x_nm\n0;1\n"] {
+            let message = parse_columns(text, "x,u", None).unwrap_err();
+            assert!(message.contains("`x,u` are needed"), "{message}");
+        }
+    }
+
+    /// Decimal commas between commas: never a table of their digits.
+    #[test]
+    fn commas_that_may_be_decimal_marks_are_refused() {
+        for text in
+            ["0,00\n0,25\n", "0,5\n0,7\n0,9\n1,2\n", "u\n1,5\n2,5\n", "1,05\n2,10\n", "0,-0\n1,5\n"]
+        {
+            let message = parse_columns(text, "x,u", None).unwrap_err();
+            assert!(message.contains("commas may be decimal marks"), "{text}: {message}");
+        }
+        for text in ["0,1,50\n1,1,48\n", "0,0,1,5\n0,5,1,25\n"] {
+            assert!(parse_profile(text, None).is_err(), "{text}");
+        }
+        assert!(parse_columns("0,1\n1,7\n", "x,u", None).is_ok());
+        assert!(parse_columns("x,u\n0,1\n1,7\n", "x,u", None).is_ok());
+        // Or groups of thousands.
+        assert!(parse_columns("x;u\n999;1\n1,001;2\n", "x,u", None).is_err());
+        assert!(parse_columns("x;u\n0,999;1\n1,001;2\n", "x,u", None).is_ok());
     }
 }

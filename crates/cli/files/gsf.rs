@@ -3,10 +3,13 @@
 //! row, as little-endian single-precision numbers.
 //! <http://gwyddion.net/documentation/user-guide-en/gsf.html>
 
+use super::decode::decoded;
+use super::sheet::lines;
 use super::text::read_bytes;
 use crate::failure::Failure;
 use std::fmt::Write;
 use std::path::Path;
+use stickslip_units::Unit;
 
 /// An evenly spaced image.
 pub(crate) struct Field<'a> {
@@ -53,7 +56,7 @@ pub(crate) fn gsf(field: &Field) -> Vec<u8> {
     bytes
 }
 
-/// An image that was read; in nm where it was in metres.
+/// An image that was read; in nm where it has a unit of length.
 #[derive(Debug)]
 pub(crate) struct Image {
     /// Centres of the columns.
@@ -62,7 +65,7 @@ pub(crate) struct Image {
     pub(crate) y: Vec<f64>,
     /// Heights, a row for each y.
     pub(crate) rows: Vec<Vec<f64>>,
-    /// Whether positions are.
+    /// Whether positions are in nm.
     pub(crate) in_nanometres: bool,
 }
 
@@ -81,10 +84,10 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     let end = bytes.iter().position(|byte| *byte == 0).filter(|_| bytes.starts_with(MAGIC));
     let end =
         end.ok_or("no Gwyddion Simple Field: its first line or the end of its header is missing")?;
-    let header = str::from_utf8(&bytes[..end]).map_err(|_| "its header is no text in UTF-8")?;
+    let header = decoded(bytes[..end].to_vec())?;
     let field = |name: &str| {
-        let lines = header.lines().filter_map(|line| line.split_once('='));
-        lines.filter(|(key, _)| key.trim() == name).map(|(_, value)| value.trim()).next_back()
+        let fields = lines(&header).filter_map(|line| line.split_once('='));
+        fields.filter(|(key, _)| key.trim() == name).map(|(_, value)| value.trim()).last()
     };
     let count = |name: &str| {
         let count = field(name).and_then(|text| text.parse::<usize>().ok());
@@ -99,8 +102,16 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     if data.len() != 4 * columns * rows {
         return Err(format!("{} bytes of pixels for {columns} × {rows} of four", data.len()));
     }
-    let nano = |name: &str| if field(name) == Some("m") { 1e9 } else { 1.0 };
-    let (scale, height) = (nano("XYUnits"), nano("ZUnits"));
+    let nano = |one: f64| 1e9 * one;
+    let scale = match field("XYUnits") {
+        None | Some("") => None,
+        Some(unit) => Some(Unit::Length.one(unit).map(nano).ok_or_else(|| {
+            format!("XYUnits = {unit} is no unit of length: m, um or nm will do")
+        })?),
+    };
+    let in_nanometres = scale.is_some();
+    let scale = scale.unwrap_or(1.0);
+    let height = field("ZUnits").and_then(|unit| Unit::Length.one(unit)).map_or(1.0, nano);
     let centres = |name: &str, count: usize| -> Result<Vec<f64>, String> {
         let spacing = number(&format!("{name}Real"), 1.0)? / count as f64;
         let offset = number(&format!("{name}Offset"), 0.0)?;
@@ -113,7 +124,7 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
         x: centres("X", columns)?,
         y: centres("Y", rows)?,
         rows: heights.chunks(columns).map(<[f64]>::to_vec).collect(),
-        in_nanometres: scale > 1.0,
+        in_nanometres,
     })
 }
 

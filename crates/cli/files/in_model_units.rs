@@ -1,6 +1,6 @@
 //! Columns that say in their heading that they are in nm, s or nN, as multiples of the model's units.
 
-use super::measured::unit_of;
+use super::heading::Heading;
 use stickslip_documents::{Dimension, KnownScales};
 use stickslip_units::Unit;
 
@@ -20,38 +20,28 @@ fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
 /// The columns called `names`, where their headings have units, divided by the scales.
 ///
 /// # Errors
-/// A unit without the scale that it needs.
+/// A unit of another quantity, or one that is not known, or one without the scale that it needs.
 pub(super) fn in_model_units(
     columns: &mut [Vec<f64>],
     names: &str,
-    headings: &[String],
+    headings: &[Heading],
     scales: Option<&KnownScales>,
 ) -> Result<(), String> {
     for ((column, name), heading) in columns.iter_mut().zip(names.split(',')).zip(headings) {
-        let Some(((unit, per_si, multiple), written)) = meant(name).zip(unit_of(heading)) else {
-            continue;
-        };
-        // `x_0` has no unit.
-        let Ok(one) = unit.parse(&format!("1 {written}")) else { continue };
+        let Some((unit, per_si, multiple)) = meant(name) else { continue };
+        let Some((_, one)) = heading.unit(unit)? else { continue };
         let factor = Dimension::of_unit(multiple).and_then(|of| of.factor(scales?));
         let factor = factor.ok_or_else(|| {
             format!(
-                "the heading `{heading}` has a unit, and what {multiple} is in it is not known: give --units, or --sigma \
-                 and what goes with it; or the column in {multiple}, without a unit in its heading"
+                "the heading `{}` has a unit, and what {multiple} is in it is not known: give --units, or --sigma \
+                 and what goes with it; or the column in {multiple}, without a unit in its heading",
+                heading.text()
             )
         })?;
         let factor = factor / (one * per_si);
         column.iter_mut().for_each(|value| *value /= factor);
     }
     Ok(())
-}
-
-/// A heading of positions with a unit of length, if there is one.
-pub(super) fn with_unit(headings: &[String]) -> Option<&String> {
-    let is_length = |heading: &&String| {
-        unit_of(heading).is_some_and(|unit| Unit::Length.parse(&format!("1 {unit}")).is_ok())
-    };
-    headings.first().filter(is_length)
 }
 
 #[cfg(test)]
@@ -67,7 +57,7 @@ mod tests {
 
     fn converted(names: &str, headings: [&str; 2], scales: Option<&KnownScales>) -> Vec<Vec<f64>> {
         let mut columns = vec![vec![1.0, 60.0], vec![1.0, 36.0]];
-        in_model_units(&mut columns, names, &headings.map(String::from), scales).unwrap();
+        in_model_units(&mut columns, names, &headings.map(Heading::of), scales).unwrap();
         columns
     }
 
@@ -85,11 +75,20 @@ mod tests {
     }
 
     #[test]
+    fn a_unit_of_something_else_is_refused() {
+        for headings in [["x (ms)", "u"], ["x", "u (V)"], ["x", "u (foo)"]] {
+            let mut columns = vec![vec![1.0], vec![1.0]];
+            let headings = headings.map(Heading::of);
+            assert!(in_model_units(&mut columns, "x,u", &headings, Some(&SCALES)).is_err());
+        }
+    }
+
+    #[test]
     fn a_unit_without_a_scale_is_refused() {
         let length = KnownScales { height: None, ..SCALES };
         for scales in [None, Some(&length)] {
             let mut columns = vec![vec![1.0], vec![1.0]];
-            let headings = ["x_nm", "u_nm"].map(String::from);
+            let headings = ["x_nm", "u_nm"].map(Heading::of);
             let refused = in_model_units(&mut columns, "x,u", &headings, scales).unwrap_err();
             assert!(refused.contains("--sigma"), "{refused}");
         }

@@ -1,7 +1,6 @@
 //! Files that users give, or that a host supplies: tip functions, documents. All of it may be wrong.
 
-use super::columns::{Columns, numbers_of, width_of};
-use super::in_model_units::with_unit;
+use super::columns::{Columns, whole};
 use super::text::{LARGEST_TABLE, read_text, unreadable};
 use crate::failure::Failure;
 use crate::host;
@@ -56,12 +55,7 @@ pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
 
 pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
     if !text.trim_start().starts_with('{') {
-        return if width_of(text) == 3 {
-            numbers_of(text, "x,y,f").and_then(in_sigma).map(TipFile::Table2d)
-        } else {
-            let [x, f] = numbers_of(text, "x,f").and_then(in_sigma)?;
-            Ok(TipFile::Table((x, f)))
-        };
+        return table_of(text);
     }
     let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
     if kind.is_ok_and(|kind| kind.format.is_some()) {
@@ -77,16 +71,23 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
 }
 
 /// Columns of a tip, which must be in its own σ.
-fn in_sigma<const N: usize>(
-    (columns, headings): ([Vec<f64>; N], Vec<String>),
-) -> Result<[Vec<f64>; N], String> {
-    match with_unit(&headings) {
-        None => Ok(columns),
-        Some(heading) => Err(format!(
-            "the heading `{heading}` has a unit, and a tip file is in σ: `stickslip tip` makes one of a profile in any \
-             unit and tells its σ"
-        )),
+fn table_of(text: &str) -> Result<TipFile, String> {
+    let sheet = whole(text, &["x,f", "x,y,f"])?;
+    let positions = &sheet.headings[..sheet.headings.len() - 1];
+    if let Some(heading) = positions.iter().find(|heading| heading.written_unit().is_some()) {
+        return Err(format!(
+            "the heading `{}` has a unit, and a tip file is in σ: `stickslip tip` makes one of a profile in any unit and \
+             prints its σ",
+            heading.text()
+        ));
     }
+    let [first, second, third] =
+        [0, 1, 2].map(|i| sheet.columns.get(i).cloned().unwrap_or_default());
+    Ok(if sheet.columns.len() == 3 {
+        TipFile::Table2d([first, second, third])
+    } else {
+        TipFile::Table((first, second))
+    })
 }
 
 /// What `stickslip run` or `stickslip raster` wrote.

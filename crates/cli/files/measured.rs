@@ -1,89 +1,129 @@
-//! Measured columns as instruments write them: any separator, a heading with units or none.
+//! Measured columns as instruments write them, and the units in which several files meet.
 
+use super::heading::Heading;
+use super::sheet::{Sheet, parse_sheet};
 use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
+use crate::message::remark;
 use std::path::Path;
+use stickslip_units::Unit;
 
-/// Columns of equal length, each under its heading, if it has one.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Measured {
-    pub(crate) headings: Vec<String>,
-    pub(crate) columns: Vec<Vec<f64>>,
-}
-
-/// The columns of a file.
-pub(crate) fn read_measured(option: &str, path: &Path) -> Result<Measured, Failure> {
+/// The table of a file, of so many columns as one of these. Rows with missing values are left out, with a remark.
+pub(crate) fn read_measured(
+    option: &str,
+    path: &Path,
+    columns: &[usize],
+) -> Result<Sheet, Failure> {
+    let named = || format!("{option} {}", path.display());
     let text = read_text(option, path, LARGEST_TABLE)?;
-    parse_measured(&text)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    let sheet =
+        parse_measured(&text, columns).map_err(|message| Failure::input(named(), message))?;
+    if let Some(first) = sheet.missing.first() {
+        let (count, all) = (sheet.missing.len(), sheet.missing.len() + sheet.columns[0].len());
+        remark(format_args!(
+            "stickslip: {}: {count} of {all} rows have no value and are left out, the first in line {first}",
+            named()
+        ));
+    }
+    Ok(sheet)
 }
 
-/// Numbers in columns, separated by commas, semicolons, tabs or blanks; `#` comments and lines before the first row
-/// of numbers are skipped, and the last of them is the heading where it has as many words.
-pub(crate) fn parse_measured(text: &str) -> Result<Measured, String> {
-    let mut found = Measured::default();
-    let mut before: Option<&str> = None;
-    for (number, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
-            continue;
-        }
-        match row(line) {
-            Some(row) if found.columns.is_empty() => {
-                found.headings = headings(before, row.len());
-                found.columns = row.into_iter().map(|value| vec![value]).collect();
-            }
-            Some(row) if row.len() == found.columns.len() => {
-                found.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-            }
-            Some(row) => {
-                let (numbers, wanted) = (row.len(), found.columns.len());
-                return Err(format!(
-                    "line {}: {numbers} numbers, where there are {wanted} in the lines before",
-                    number + 1
-                ));
-            }
-            None if found.columns.is_empty() => before = Some(line),
-            None => return Err(format!("line {} is not a row of numbers", number + 1)),
+/// Names of columns that come first.
+const POSITIONS: [&str; 7] = ["x", "position", "distance", "pos", "way", "displacement", "lateral"];
+
+pub(crate) fn parse_measured(text: &str, columns: &[usize]) -> Result<Sheet, String> {
+    let sheet = parse_sheet(text, columns)?;
+    if sheet.columns.is_empty() {
+        return Err("there is no row of numbers in it".into());
+    }
+    let name = |i: usize| sheet.headings.get(i).map(|heading| heading.name().to_lowercase());
+    // t,x,u is a surface.
+    if let Some((first, second)) = name(0).zip(name(1))
+        && POSITIONS.contains(&&*second)
+        && first != "t"
+    {
+        let [first, second] = [0, 1].map(|i| sheet.headings[i].text());
+        return Err(format!("the columns are `{first}` and `{second}`: positions come first"));
+    }
+    Ok(sheet)
+}
+
+/// The unit of a quantity in the first of several files, in which those of the others are converted.
+pub(crate) struct Common {
+    of: Unit,
+    first: Option<First>,
+}
+
+struct First {
+    /// Which file, or option, it is of.
+    named: String,
+    unit: Option<String>,
+    /// In SI units, of one that is known.
+    one: Option<f64>,
+}
+
+impl Common {
+    /// The unit is that of the first column.
+    pub(crate) fn of(of: Unit) -> Self {
+        Self { of, first: None }
+    }
+
+    /// The unit is the one that the option has; columns without a unit are in it.
+    ///
+    /// # Errors
+    /// It is no unit of this quantity.
+    pub(crate) fn given(of: Unit, option: &str, unit: &str) -> Result<Self, Failure> {
+        let one = one_of(of, option, unit)?;
+        let named = format!("{option} {unit}");
+        Ok(Self {
+            of,
+            first: Some(First { named, unit: Some(unit.trim().into()), one: Some(one) }),
+        })
+    }
+
+    /// The unit, where there is one.
+    pub(crate) fn unit(&self) -> Option<&str> {
+        self.first.as_ref()?.unit.as_deref()
+    }
+
+    /// By what a column of a file is multiplied, to be in the unit of the first.
+    ///
+    /// # Errors
+    /// It has a unit of another quantity, or one of the two has a unit and the other has none.
+    pub(crate) fn factor(&mut self, named: &str, heading: &Heading) -> Result<f64, Failure> {
+        let refused = |message: String| Failure::input(named, message);
+        let found = heading.unit(self.of).map_err(refused)?;
+        let (unit, one) = (found.map(|(unit, _)| unit.to_owned()), found.map(|(_, one)| one));
+        let Some(first) = &self.first else {
+            self.first = Some(First { named: named.into(), unit, one });
+            return Ok(1.0);
+        };
+        match (first.one, one) {
+            (Some(first), Some(one)) if first.to_bits() == one.to_bits() => Ok(1.0),
+            (Some(first), Some(one)) => Ok(one / first),
+            (None, None) => Ok(1.0),
+            // What an option says is said of all that does not.
+            (Some(_), None) if first.named.starts_with("--unit") => Ok(1.0),
+            (Some(_), None) => Err(refused(format!(
+                "the heading `{}` has no unit, where {} has {}: add the unit to the heading",
+                heading.text(),
+                first.named,
+                first.unit.as_deref().unwrap_or_default()
+            ))),
+            (None, Some(_)) => Err(refused(format!(
+                "the heading `{}` has a unit, where {} has none: add it to the heading there",
+                heading.text(),
+                first.named
+            ))),
         }
     }
-    if found.columns.is_empty() {
-        Err("there is no row of numbers in it".into())
-    } else {
-        Ok(found)
-    }
 }
 
-fn words(line: &str) -> Vec<&str> {
-    for separator in [';', '\t', ','] {
-        if line.contains(separator) {
-            return line.split(separator).map(str::trim).collect();
-        }
-    }
-    line.split_whitespace().collect()
-}
-
-fn row(line: &str) -> Option<Vec<f64>> {
-    let numbers: Option<Vec<f64>> = words(line).into_iter().map(|word| word.parse().ok()).collect();
-    numbers.filter(|numbers| !numbers.is_empty())
-}
-
-fn headings(line: Option<&str>, count: usize) -> Vec<String> {
-    let words = line.map(words).unwrap_or_default();
-    let words = if words.len() == count { words } else { vec![""; count] };
-    words.into_iter().map(|word| word.trim_matches('"').to_owned()).collect()
-}
-
-/// The unit in a heading: x_nm, x (nm), x [nm], x/nm.
-pub(crate) fn unit_of(heading: &str) -> Option<&str> {
-    let inside = |open: char, close: char| {
-        let (_, rest) = heading.split_once(open)?;
-        rest.split_once(close).map(|(unit, _)| unit)
-    };
-    let after = |mark: char| heading.rsplit_once(mark).map(|(_, unit)| unit);
-    let found = inside('(', ')').or_else(|| inside('[', ']')).or_else(|| after('_'));
-    let found = found.or_else(|| heading.split_once('/').map(|(_, unit)| unit));
-    found.map(str::trim).filter(|unit| !unit.is_empty())
+/// What one of a unit that an option gives is in SI units.
+pub(crate) fn one_of(of: Unit, option: &str, unit: &str) -> Result<f64, Failure> {
+    of.one(unit).ok_or_else(|| {
+        Failure::input(format!("{option} {unit}"), "m, mm, um, nm, pm or Å (angstrom) will do")
+    })
 }
 
 #[cfg(test)]
@@ -97,24 +137,43 @@ mod tests {
             "# a comment\n\u{20}\nx_nm; z_nm\r\n0; 1\r\n2;0.3\r\n",
             "Profile 1\nx_nm\tz_nm\n0\t1\n2\t0.3",
             "x_nm z_nm\n 0  1\n 2  0.3\n",
+            "x_nm;z_nm\r0;1\r2;0,3\r",
+            "x_nm,z_nm\n\"0,0\",\"1,0\"\n\"2,0\",\"0,3\"\n",
         ] {
-            let found = parse_measured(text).unwrap();
+            let found = parse_measured(text, &[2]).unwrap();
             assert_eq!(found.columns, [[0.0, 2.0], [1.0, 0.3]], "{text}");
-            assert_eq!(found.headings, ["x_nm", "z_nm"], "{text}");
+            let headings: Vec<&str> = found.headings.iter().map(Heading::text).collect();
+            assert_eq!(headings, ["x_nm", "z_nm"], "{text}");
         }
-        assert_eq!(parse_measured("1,2,3\n").unwrap().headings, ["", "", ""]);
-        for text in ["", "x,f\n", "0,1\n2\n", "0,1\nx,f\n"] {
-            assert!(parse_measured(text).is_err(), "{text}");
+        assert_eq!(
+            parse_measured("1.5,2,3\n", &[3]).unwrap().headings,
+            vec![Heading::default(); 3]
+        );
+        for text in
+            ["", "x,f\n", "0,1\n2\n", "0,1\nx,f\n", "z,x\n0,1.5\n2,3\n", "n,x\n0,1.5\n2,3\n"]
+        {
+            assert!(parse_measured(text, &[2]).is_err(), "{text}");
         }
     }
 
     #[test]
-    fn units_are_found_in_headings() {
-        for heading in ["x_nm", "x (nm)", "x [nm]", "x/nm", "scan distance (nm)"] {
-            assert_eq!(unit_of(heading), Some("nm"), "{heading}");
+    fn units_of_several_files_meet_in_that_of_the_first() {
+        let mut common = Common::of(Unit::Length);
+        let factor = |common: &mut Common, heading: &str| {
+            common.factor("--ripple a.csv", &Heading::of(heading))
+        };
+        assert_eq!(factor(&mut common, "x_nm").unwrap().to_bits(), 1_f64.to_bits());
+        assert!((factor(&mut common, "x (µm)").unwrap() / 1e3 - 1.0).abs() < 1e-15);
+        assert_eq!(common.unit(), Some("nm"));
+        for heading in ["x", "t (s)", "x (foo)"] {
+            assert!(factor(&mut common, heading).is_err(), "{heading}");
         }
-        for heading in ["x", "", "x_", "x ()"] {
-            assert_eq!(unit_of(heading), None, "{heading}");
-        }
+        let mut common = Common::of(Unit::Length);
+        assert!(factor(&mut common, "x").is_ok() && factor(&mut common, "x_nm").is_err());
+        let mut common = Common::given(Unit::Length, "--unit", "um").unwrap();
+        assert!((factor(&mut common, "x_nm").unwrap() / 1e-3 - 1.0).abs() < 1e-15);
+        assert!(
+            factor(&mut common, "x").is_ok() && Common::given(Unit::Length, "--unit", "N").is_err()
+        );
     }
 }

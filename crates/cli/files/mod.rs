@@ -2,8 +2,11 @@
 
 pub(crate) mod beside;
 pub(crate) mod columns;
+pub(crate) mod decode;
+mod dialect;
 pub(crate) mod distinct;
 pub(crate) mod gsf;
+pub(crate) mod heading;
 mod in_model_units;
 pub(crate) mod input;
 pub(crate) mod journal;
@@ -15,6 +18,7 @@ pub(crate) mod paths;
 pub(crate) mod place;
 mod replace;
 pub(crate) mod rows;
+pub(crate) mod sheet;
 mod special;
 pub(crate) mod stream;
 pub(crate) mod table;

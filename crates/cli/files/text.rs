@@ -1,5 +1,6 @@
 //! Text that users give, or that a host supplies, as long as it is not too long.
 
+use super::decode::decoded;
 use crate::failure::Failure;
 use crate::host;
 use std::fs::File;
@@ -9,12 +10,10 @@ use std::path::Path;
 /// Measured series are small; this is a million rows and more.
 pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 
-/// The text of a file (`-`: standard input), if it is not larger than `most` bytes.
+/// The text of a file (`-`: standard input) in any usual encoding, if it is not larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(option, path, most)?).map_err(|_| {
-        let message = "cannot be read: it is no text in UTF-8";
-        Failure::input(format!("{option} {}", path.display()), message)
-    })
+    decoded(read_bytes(option, path, most)?)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
 /// The bytes of a file, in the same way.

@@ -26,7 +26,8 @@ pub(crate) fn commands() -> Vec<(String, String)> {
     hosted::commands()
 }
 
-/// Columns as the text of a CSV file: shortest digits, which are read back to the last bit.
+/// Columns as the text of a table: shortest digits, which are read back to the last bit, and NaN for what is missing.
+/// Every number has a point or an exponent, so that a semicolon is all that separates two.
 #[pyfunction]
 pub(crate) fn csv(py: Python<'_>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> String {
     let columns: Vec<Vec<f64>> = columns.iter().map(|c| c.as_array().to_vec()).collect();
@@ -35,9 +36,9 @@ pub(crate) fn csv(py: Python<'_>, columns: Vec<PyReadonlyArray1<'_, f64>>) -> St
         let mut text = String::with_capacity(20 * rows * columns.len());
         for row in 0..rows {
             for (i, column) in columns.iter().enumerate() {
-                let comma = if i > 0 { "," } else { "" };
+                let separator = if i > 0 { ";" } else { "" };
                 // A String takes all that is written to it.
-                write!(text, "{comma}{}", column[row]).ok();
+                write!(text, "{separator}{:?}", column[row]).ok();
             }
             text.push('\n');
         }

@@ -4,7 +4,8 @@ import inspect
 import json
 import os
 from collections import namedtuple
-from numbers import Integral
+from decimal import Decimal
+from numbers import Integral, Real
 
 from . import _native
 from ._results import Result
@@ -147,18 +148,24 @@ def number(value):
 
 
 def supplied(name, value):
-    """What a file would hold: a document, JSON, or columns as CSV."""
+    """What a file would hold: a document, JSON, or columns."""
     if isinstance(value, Result):
         return value._document
-    if isinstance(value, dict):
+    if isinstance(value, dict) and not is_columns(value):
         return json.dumps(value, default=plain)
-    return heading(value) + _native.csv(columns(name, value))
+    headings, columns = table(name, value)
+    return heading(headings) + _native.csv(columns)
 
 
-def heading(value):
-    """The names of the columns of a DataFrame, where they are words: some commands read units off them."""
-    names = list(getattr(value, "columns", [])) if hasattr(value, "to_numpy") else []
-    return ",".join(names) + "\n" if names and all(isinstance(name, str) for name in names) else ""
+def is_columns(value):
+    """Whether a dict has a column under each name; a tip has its Gaussians, a document its format."""
+    return bool(value) and not {"gaussians", "format"} & value.keys()
+
+
+def heading(names):
+    """The names of columns, as a comment: none of them is taken for a number, and units are read off them."""
+    cleaned = ["".join(c if c.isprintable() else " " for c in name).replace('"', "'") for name in names]
+    return "# " + ";".join(f'"{name}"' for name in cleaned) + "\n" if any(cleaned) else ""
 
 
 def plain(value):
@@ -168,28 +175,89 @@ def plain(value):
     raise TypeError(f"{value!r} is no number, text, list or dict")
 
 
-def columns(name, value):
-    """Columns of float64: from arrays of any kind, lists, a table of rows, a pandas Series or DataFrame."""
-    import numpy as np
-
-    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
-        table = value.to_numpy(dtype=float)
-        found = [table[:, i] for i in range(table.shape[1])]
-    elif hasattr(value, "index") and hasattr(value, "to_numpy"):
-        found = [value.index.to_numpy(), value.to_numpy()]
-    elif isinstance(value, np.ndarray) and value.ndim == 2:
-        found = list(value.T)
-    elif isinstance(value, (tuple, list)):
-        found = list(value)
-    else:
-        raise TypeError(f"{name} is a file, columns such as (x, f), a table, a dict, or a result: {type(value).__name__} is none")
-    found = [np.ascontiguousarray(column, dtype=float) for column in found]
-    if any(column.ndim != 1 for column in found):
-        raise ValueError(f"{name}: columns are one after another, such as (x, f), each of one axis")
+def table(name, value):
+    """Headings, and columns of float64 with NaN where a value is missing: from arrays of any kind, lists, a table of rows,
+    a dict of columns, a pandas Series or DataFrame."""
+    pairs = named_columns(name, value)
+    found = [numbers(f"{name}, column {i + 1}", column) for i, (_, column) in enumerate(pairs)]
     lengths = [len(column) for column in found]
     if len(set(lengths)) > 1:
         raise ValueError(f"{name}: columns have {lengths} rows: as many in each will do")
-    return found
+    return [with_unit(heading, column) for heading, column in pairs], found
+
+
+def named_columns(name, value):
+    """Each column with its name, empty where it has none."""
+    import numpy as np
+
+    if isinstance(value, dict):
+        return [(str(label), column) for label, column in value.items()]
+    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
+        labels = list(value.columns)
+        each = (value.iloc[:, i] if hasattr(value, "iloc") else value[label] for i, label in enumerate(labels))
+        return [(label if isinstance(label, str) else "", column) for label, column in zip(labels, each)]
+    if hasattr(value, "index") and hasattr(value, "to_numpy"):
+        return [(word(value.index.name), value.index), (word(value.name), value)]
+    if isinstance(value, np.ndarray) and value.dtype.names:
+        return [(label, value[label]) for label in value.dtype.names]
+    if isinstance(value, np.ndarray) and value.ndim == 2:
+        value = np.asarray(value) if isinstance(value, np.matrix) else value
+        return [("", column) for column in value.T]
+    if isinstance(value, (tuple, list)):
+        return [("", column) for column in value]
+    raise TypeError(
+        f"{name} is a file, columns such as (x, f), a table, a dict, or a result: {type(value).__name__} is none"
+    )
+
+
+def word(label):
+    return label if isinstance(label, str) else ""
+
+
+def with_unit(heading, column):
+    """The heading with the unit of a quantity (pint, Astropy) or of an array that has one among its attributes."""
+    attributes = getattr(column, "attrs", None)
+    attributes = attributes if isinstance(attributes, dict) else {}
+    for unit in (getattr(column, "units", None), getattr(column, "unit", None), attributes.get("units")):
+        if unit is not None and not callable(unit) and str(unit) not in ("", "1", "dimensionless"):
+            return f"{heading} ({unit})"
+    return heading
+
+
+def numbers(name, column):
+    """A column as float64, NaN where it is masked, None or NA."""
+    import numpy as np
+
+    mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
+    for inner in ("magnitude", "value"):
+        # Of a quantity with a unit.
+        column = getattr(column, inner, column) if hasattr(column, "unit") or hasattr(column, "units") else column
+    try:
+        # Without a type: text and complex numbers would be made to fit.
+        values = np.asarray(column.to_numpy() if hasattr(column, "to_numpy") else column)
+    except ValueError as error:
+        raise ValueError(f"{name}: no column of numbers: {error}") from None
+    if values.ndim != 1:
+        raise ValueError(f"{name}: columns are one after another, such as (x, f), each of one axis")
+    if values.dtype.kind == "O":
+        values = np.array([number_or_nan(name, value) for value in values], dtype=float)
+    elif values.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: {values.dtype} is no type of real numbers")
+    values = values.astype(float)
+    if mask is not None:
+        values[mask] = np.nan
+    return np.ascontiguousarray(values)
+
+
+def number_or_nan(name, value):
+    """A real number among objects; NaN for None, NaN, NA and what is masked."""
+    import numpy as np
+
+    if value is None or value is np.ma.masked or type(value).__name__ in ("NAType", "NaTType"):
+        return float("nan")
+    if isinstance(value, (Real, Decimal)) and not isinstance(value, bool):
+        return float(value)
+    raise TypeError(f"{name}: {value!r} is no real number")
 
 
 def _bool():

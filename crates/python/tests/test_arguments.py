@@ -94,6 +94,87 @@ def test_what_is_no_option_or_no_value_is_a_type_error():
         stickslip.run(tip=([0, 1, 2], [1, 0]), alpha=1, r=1, until=20)
 
 
+POSITIONS = np.arange(-150.0, 151.0, 5.0)
+HEIGHTS = -12 * np.exp(-(POSITIONS**2) / 1800) + 0.01 * np.cos(7 * np.arange(len(POSITIONS)))
+
+
+def measured(columns, **more):
+    return stickslip.tip(columns, resamples=2, **more).to_dict()
+
+
+def same(found, wanted):
+    return {**found, "parameters": None} == {**wanted, "parameters": None}
+
+
+def test_what_is_masked_or_nan_or_none_is_a_missing_row():
+    pandas = pytest.importorskip("pandas")
+    usual = measured((POSITIONS, HEIGHTS))
+    # Three rows more, of values that would be another tip.
+    x, z = np.append(POSITIONS, [0.0, 2.5, 7.5]), np.append(HEIGHTS, [1e3, -1e3, 5.0])
+    gone = np.arange(len(x)) >= len(POSITIONS)
+    kinds = {
+        "masked": (x, np.ma.masked_array(z, gone)),
+        "masked positions": (np.ma.masked_array(x, gone), z),
+        "masked table": np.ma.masked_array(np.column_stack([x, z]), np.column_stack([gone, gone])),
+        "nan": (x, np.where(gone, np.nan, z)),
+        "None": (x.tolist(), [None if none else float(value) for none, value in zip(gone, z)]),
+        "dict": {"x": x, "z": np.ma.masked_array(z, gone)},
+        "DataFrame": pandas.DataFrame({"x": x, "z": np.where(gone, np.nan, z)}),
+        "nullable": pandas.DataFrame({"x": x, "z": pandas.array(np.where(gone, np.nan, z), dtype="Float64")}),
+    }
+    for kind, columns in kinds.items():
+        with pytest.warns(stickslip.StickslipWarning, match="3 of 64 rows have no value"):
+            assert same(measured(columns), usual), kind
+    # Where a table must be whole it is refused.
+    with pytest.raises(ValueError, match="a value is missing"):
+        motion((X, np.ma.masked_array(F, X == X[3])))
+
+
+def test_units_of_names_and_quantities_are_read():
+    pandas = pytest.importorskip("pandas")
+
+    class Quantity:
+        """As pint has it."""
+
+        units = "nanometer"
+        magnitude = POSITIONS
+
+    for columns in (
+        pandas.DataFrame({"x_nm": POSITIONS, "z_nm": HEIGHTS}),
+        {"x (nm)": POSITIONS, "z (nm)": HEIGHTS},
+        pandas.Series(HEIGHTS, index=pandas.Index(POSITIONS, name="x [nm]"), name="z [nm]"),
+        np.rec.fromarrays([POSITIONS, HEIGHTS], names="x_nm,z_nm"),
+        (Quantity(), HEIGHTS),
+    ):
+        found = measured(columns)
+        assert found["sigma_metres"] == pytest.approx(1e-9 * found["sigma"]["value"], rel=1e-12)
+    with pytest.raises(ValueError, match="furlong"):
+        measured({"x (furlong)": POSITIONS, "z": HEIGHTS})
+    with pytest.raises(ValueError, match="such as 30nm"):
+        measured({"x_nm": POSITIONS, "z": HEIGHTS}, sigma=30)
+    # Names of digits are names.
+    assert same(measured(pandas.DataFrame({"0": POSITIONS, "1": HEIGHTS})), measured((POSITIONS, HEIGHTS)))
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        F.astype(complex),
+        F.astype(str),
+        F.astype(str).tolist(),
+        F > 0.5,
+        np.array(["2026-11-23"] * 41, dtype="datetime64[D]"),
+        np.column_stack([F, F]),
+        [[1.0], [1.0, 2.0]] + [0.0] * 39,
+        [1j, *F[1:]],
+    ],
+    ids=["complex", "str", "list of str", "bool", "dates", "two axes", "ragged", "objects"],
+)
+def test_what_is_no_column_of_real_numbers_is_refused_by_name(bad):
+    with pytest.raises((TypeError, ValueError), match="tip, column 2"):
+        motion((X, bad))
+
+
 def test_what_fails_at_run_time_is_a_runtime_error():
     with pytest.raises(RuntimeError, match="no stick-slip|no cycle|cycle"):
         stickslip.cycle(alpha=0.5, r=1)

@@ -58,6 +58,16 @@ pub enum UnitsError {
         /// One that will do.
         example: &'static str,
     },
+    /// A number without a unit.
+    #[error("`{text}` has no unit: write a number and a unit, such as {example}")]
+    Bare {
+        /// As given.
+        text: String,
+        /// What was expected.
+        unit: Unit,
+        /// One that will do.
+        example: &'static str,
+    },
     /// A quantity that must be positive.
     #[error("{name} is {value} in SI units: it must be a finite number > 0")]
     NotPositive {

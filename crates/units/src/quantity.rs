@@ -41,7 +41,7 @@ impl Unit {
         match self {
             Self::Damping => "20ug/s or 1e-8kg/s",
             Self::Stiffness => "0.5N/m",
-            Self::Length => "50nm",
+            Self::Length => "30nm",
             Self::Velocity => "1um/s",
             Self::Force => "10nN",
             Self::Time => "5ms",
@@ -49,20 +49,54 @@ impl Unit {
     }
 
     /// The value in SI units of a number with this unit and prefixes, such as `50nm`, `0.5 N/m`,
-    /// `1um/s`, `3µm/s` or `2mN/mm`. A bare number is taken to be in SI units.
+    /// `1um/s`, `3µm/s` or `2mN/mm`.
     ///
     /// # Errors
-    /// [`UnitsError::Syntax`].
+    /// [`UnitsError::Bare`] of a number without a unit, [`UnitsError::Syntax`].
     pub fn parse(self, text: &str) -> Result<f64, UnitsError> {
         let error =
             || UnitsError::Syntax { text: text.to_owned(), unit: self, example: self.example() };
         let trimmed = text.trim();
         let (number, suffix) = number_and_suffix(trimmed).ok_or_else(error)?;
         if suffix.is_empty() {
-            return Ok(number);
+            let (text, unit) = (text.to_owned(), self);
+            return Err(UnitsError::Bare { text, unit, example: self.example() });
         }
-        let scale = self.spellings().iter().find_map(|unit| scale_of(suffix, unit));
-        scale.map(|scale| number * scale).filter(|v| v.is_finite()).ok_or_else(error)
+        self.one(suffix).map(|one| number * one).filter(|v| v.is_finite()).ok_or_else(error)
+    }
+
+    /// The value in SI units of one such unit, as people and instruments write it: `nm`, `µm`, `Å`,
+    /// `nanometers`, `nN`, `um/s`. `None` where `unit` is not a unit of this quantity.
+    #[must_use]
+    pub fn one(self, unit: &str) -> Option<f64> {
+        let unit = unit.trim();
+        let spelt = self.spellings().iter().find_map(|spelling| scale_of(unit, spelling));
+        spelt.or_else(|| self.in_words(&unit.to_lowercase()))
+    }
+
+    /// The same of units in words, in small letters, and of the ångström.
+    fn in_words(self, unit: &str) -> Option<f64> {
+        const ANGSTROM: [&str; 7] =
+            ["å", "a\u{30a}", "angstrom", "angstroms", "ångström", "ångstrom", "ångströms"];
+        let bases: &[&str] = match self {
+            Self::Length if ANGSTROM.contains(&unit) => return Some(1e-10),
+            Self::Length if ["micron", "microns"].contains(&unit) => return Some(1e-6),
+            Self::Length => &["meter", "meters", "metre", "metres"],
+            Self::Force => &["newton", "newtons"],
+            Self::Time => &["second", "seconds", "sec"],
+            Self::Damping | Self::Stiffness | Self::Velocity => &[],
+        };
+        bases.iter().find_map(|base| match unit.strip_suffix(base)? {
+            "" => Some(1.0),
+            "femto" => Some(1e-15),
+            "pico" => Some(1e-12),
+            "nano" => Some(1e-9),
+            "micro" => Some(1e-6),
+            "milli" => Some(1e-3),
+            "centi" => Some(1e-2),
+            "kilo" => Some(1e3),
+            _ => None,
+        })
     }
 }
 
@@ -123,7 +157,9 @@ mod tests {
             (Unit::Length, "50nm", 50e-9),
             (Unit::Length, " 0.05 µm ", 50e-9),
             (Unit::Length, "5e-8m", 50e-9),
-            (Unit::Length, "5e-8", 50e-9),
+            (Unit::Length, "500 Å", 50e-9),
+            (Unit::Length, "500\u{212b}", 50e-9),
+            (Unit::Length, "50 nanometers", 50e-9),
             (Unit::Stiffness, "0.5N/m", 0.5),
             (Unit::Stiffness, "0.5 nN/nm", 0.5),
             (Unit::Stiffness, "500mN/m", 0.5),
@@ -144,10 +180,14 @@ mod tests {
 
     #[test]
     fn what_is_no_quantity_is_refused() {
-        for text in ["", "nm", "50 apples", "50N", "50nm/s", "1e999m", "NaN m", "inf"] {
+        for text in ["", "nm", "50 apples", "50N", "50nm/s", "1e999m", "NaN m", "inf", "50 A"] {
             assert!(Unit::Length.parse(text).is_err(), "{text}");
         }
+        // 30 may be meant in nm: that it was taken for 30 m in silence has cost a result.
+        for text in ["30", "5e-8", " 1 ", "-2", "0"] {
+            assert!(matches!(Unit::Length.parse(text), Err(UnitsError::Bare { .. })), "{text}");
+        }
         let message = Unit::Length.parse("50 apples").unwrap_err().to_string();
-        assert!(message.contains("50 apples") && message.contains("50nm"), "{message}");
+        assert!(message.contains("50 apples") && message.contains("30nm"), "{message}");
     }
 }

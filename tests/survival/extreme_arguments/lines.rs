@@ -39,7 +39,7 @@ const LINES: [&str; 23] = [
     "cycle --alpha 1.2 --r 1",
     "continue --over alpha --r 1 --most-points 3",
     "sweep --r 1 --alpha 0.9:1.2:3 --threads 1",
-    "units --damping 1 --stiffness 1 --tip-width 1 --slope-force 1 --indentation-rate 1 --velocity 1",
+    "units --damping 1kg/s --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity 1m/s",
     "plot run.json --output p.svg",
     "plot boundary.json --output p.png",
     "figures --only fig6 --out-dir figures",

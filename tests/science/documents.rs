@@ -155,7 +155,7 @@ fn no_number_is_longer_than_a_person_reads() {
     for value in sizes.iter().flat_map(|size| [*size, -size]) {
         for error in &sizes {
             let shown = stickslip_documents::to_its_digits(value, *error);
-            assert!(shown.len() <= 40, "{value:e} ± {error:e}: {shown}");
+            assert!(shown.len() <= 42, "{value:e} ± {error:e}: {shown}");
             let (before, rest) = shown.split_once('(').unwrap_or((&shown, ")"));
             let after = rest.split_once(')').unwrap().1;
             let read: f64 = format!("{before}{after}").parse().unwrap();

@@ -108,7 +108,7 @@ mod tests {
             let (mut v, mut moved, mut depth, h) = (1.0, 0.0, 0.0, 1e-4);
             let mut at_first = 0.0_f64;
             for i in 0..80_000 {
-                let w = wider.depth_limit.map_or(1.0, |b| (-(3.0 * depth) / b as f64).exp());
+                let w = wider.depth_limit.map_or(1.0, |b| (-(3.0 * depth) / b).exp());
                 let next =
                     (v + h * (3.0 * moved - v) / mass, moved + h * (depth * v - heals * moved));
                 depth += h * (w - heals * depth);

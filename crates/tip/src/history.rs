@@ -304,8 +304,7 @@ impl Trajectory {
         for step in &self.steps {
             let (start, spent) = (self.support.position(step.t), step.weights(&self.wider));
             let ahead = RADAU.c.map(|c| self.r() * c * step.h);
-            let nodes =
-                step.displacement.into_iter().zip(ahead).zip(RADAU.b().into_iter().zip(spent));
+            let nodes = step.displacement.into_iter().zip(ahead).zip(RADAU.b().iter().zip(spent));
             for ((d, ahead), (b, spent)) in nodes {
                 positions.push(start - step.extension + d);
                 weights.push(b * step.h * spent);

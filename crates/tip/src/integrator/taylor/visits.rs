@@ -63,7 +63,8 @@ impl Visits {
 
     /// The rule for a step that leads so far and lasts so many healing times; `None` if that is too much for any.
     pub(super) fn rule(&self, moved: f64, healing: f64) -> Option<&'static Rule> {
-        let far = moved.hypot(healing / self.wave);
+        let waning = healing / self.wave;
+        let far = (moved * moved + waning * waning).sqrt();
         let index = self.farthest.iter().position(|farthest| far <= *farthest)?;
         Some(&RULES[index])
     }

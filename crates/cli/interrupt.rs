@@ -8,6 +8,7 @@
 //! signals are not ours.
 
 use crate::failure::Failure;
+use crate::files::temporary::remove_unfinished;
 use crate::host::{self, Host};
 use crate::message::say;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -57,6 +58,7 @@ pub(crate) fn end_at_once() -> io::Result<()> {
             };
             if let Some(failure) = failure {
                 say(format_args!("stickslip: {failure}"));
+                remove_unfinished();
                 std::process::exit(128 + signal);
             }
         }
@@ -64,18 +66,27 @@ pub(crate) fn end_at_once() -> io::Result<()> {
     thread::Builder::new().name("signals".into()).spawn(wait).map(drop)
 }
 
-/// What is told of a command that has not ended by itself, and need not.
+/// What is told of a command that has not ended by itself, and need not. One that finishes what it keeps says so.
 fn after_a_while(signal: u8) -> Option<Failure> {
-    let farewell = || state().farewell.lock().unwrap_or_else(PoisonError::into_inner);
-    if farewell().is_some() {
-        thread::sleep(PATIENCE);
+    thread::sleep(PATIENCE);
+    if state().keepers.load(Ordering::SeqCst) == 0 {
+        return Some(Failure::Stopped(signal));
     }
-    farewell().as_ref().map(|tell| tell(signal))
+    let farewell = state().farewell.lock().unwrap_or_else(PoisonError::into_inner);
+    let failure = farewell.as_ref().map(|tell| tell(signal));
+    if failure.is_none() {
+        say(format_args!(
+            "stickslip: interrupted: what was computed until now is being finished; a second signal ends that too"
+        ));
+    }
+    failure
 }
 
 /// The signals, for as long as there is something to keep; of a host the wish that the work stops.
 pub(crate) struct Interrupt {
     host: Option<Arc<Host>>,
+    /// Whether there is something to keep.
+    keeps: bool,
 }
 
 impl Interrupt {
@@ -85,12 +96,17 @@ impl Interrupt {
     /// The system does not let it.
     pub(crate) fn listen() -> Result<Self, Failure> {
         if let Some(host) = host::current() {
-            return Ok(Self { host: Some(host) });
+            return Ok(Self { host: Some(host), keeps: true });
         }
         state().keepers.fetch_add(1, Ordering::SeqCst);
         let listening = end_at_once();
         listening.map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-        Ok(Self { host: None })
+        Ok(Self { host: None, keeps: true })
+    }
+
+    /// For work that keeps nothing: a signal ends the program at once, and a host the work.
+    pub(crate) fn of_host() -> Self {
+        Self { host: host::current(), keeps: false }
     }
 
     /// All that is kept is in a file at any time: the program ends soon after a signal, and tells this.
@@ -119,7 +135,7 @@ impl Interrupt {
 
 impl Drop for Interrupt {
     fn drop(&mut self) {
-        if self.host.is_some() {
+        if self.host.is_some() || !self.keeps {
             return;
         }
         *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;

@@ -49,6 +49,8 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
+    // Of what is complete nothing is lost that the same command does not find again.
+    let _keeps = signal.map(|_| interrupt);
     job.finish(document.in_units(scales.as_ref()))?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
 }

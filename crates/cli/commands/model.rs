@@ -4,12 +4,9 @@ use super::judged::judge_table;
 use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip_documents::{Indentation, Law, NamedTip, Refused, TipName};
+use stickslip_documents::{Indentation, Law, NamedTip, Refused, TipName, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
-/// A Gaussian has some eighty of these, a table of 2,000 rows 15,000. A lattice of twice as many cells
-/// holds the groove.
-const MOST_DETAILS: f64 = 1e5;
 
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
@@ -132,11 +129,6 @@ fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
     rows.into_iter().unzip()
 }
 
-/// Half-waves at the band limit of f within its reach.
-fn details(tip: &TipFunction) -> f64 {
-    tip.reach().map_or(0.0, |reach| reach * tip.band())
-}
-
 /// The footprint that a file describes.
 pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
@@ -175,12 +167,8 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
         ),
     };
     let tip = tip.map_err(|error| error.to_string())?;
-    if details(&tip) <= MOST_DETAILS {
-        return Ok(tip);
-    }
-    let advice = "its widest parts reach too many times as far as its narrowest are wide: more than \
-                  fit in memory; leave one or the other out";
-    Err(advice.into())
+    judge_details(&tip).map_err(|error| error.to_string())?;
+    Ok(tip)
 }
 
 fn is_2d(entry: &GaussianEntry) -> bool {

@@ -64,7 +64,11 @@ fn range(option: &str, typed: Option<&str>) -> Result<Option<[f64; 2]>, Failure>
         Some([number(low)?, number(high)?])
     });
     match numbers {
-        Some([low, high]) if low < high => Ok(Some([low, high])),
+        Some(range) if figures::can_be_drawn(range) => Ok(Some(range)),
+        Some([low, high]) if low < high => {
+            let advice = "no axis shows so little: HI above LO by 1e-12 of the larger of them, and by 1e-100, will do";
+            Err(Failure::input(format!("{option} {typed}"), advice))
+        }
         _ => {
             let advice = "needs two finite numbers LO:HI with LO below HI, such as 400:420";
             Err(Failure::input(format!("{option} {typed}"), advice))

@@ -2,7 +2,7 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
-mod document;
+pub(crate) mod document;
 mod integration;
 pub(crate) mod limits;
 mod order;

@@ -1,5 +1,6 @@
 //! `stickslip verify`, and `stickslip run --verify`.
 
+pub(in crate::commands) mod claims;
 mod lines;
 
 use super::job::{Job, on_standard_output};
@@ -13,15 +14,12 @@ use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip_documents::{
-    LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
+    ClaimDocument, LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
 };
 use stickslip_tip::{Scenario, Trajectory};
 use stickslip_verify::{
     Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
 };
-
-/// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
-const ROUNDINGS: f64 = 16.0;
 
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
@@ -52,22 +50,48 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     let unusable = |error: Unusable| damaged(error.to_string());
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
-    let (verification, job) = if run.history.is_some() {
-        let trajectory = run.trajectory().map_err(unusable)?;
-        is_of(&scenario, &trajectory).map_err(damaged)?;
-        let samples = samples(&run, &scenario).map_err(damaged)?;
-        are_of(&samples, &trajectory, scenario.tolerance).map_err(damaged)?;
-        let job = job(&arguments.outlet)?;
-        (of_history(&scenario, memory, &trajectory)?, job)
-    } else {
-        let samples = samples_alone(&run, &scenario).map_err(damaged)?;
-        let job = job(&arguments.outlet)?;
-        (of_samples(&scenario, memory, &samples)?, job)
+    let trajectory =
+        run.history.is_some().then(|| run.trajectory().map_err(unusable)).transpose()?;
+    let samples = match &trajectory {
+        Some(trajectory) => {
+            is_of(&scenario, trajectory).map_err(damaged)?;
+            samples(&run, &scenario).map_err(damaged)?
+        }
+        None => samples_alone(&run, &scenario).map_err(damaged)?,
     };
-    let failure = broken(&verification, scenario.tolerance);
+    begins_as(&scenario, trajectory.as_ref(), &samples).map_err(damaged)?;
+    let job = job(&arguments.outlet)?;
+    let verification = match &trajectory {
+        Some(trajectory) => of_history(&scenario, memory, trajectory)?,
+        None => of_samples(&scenario, memory, &samples)?,
+    };
+    let differences = claims::of_document(&run, &scenario, trajectory.as_ref())?;
+    let failure = failure_of(broken_in(&verification, scenario.tolerance), &differences);
     let job = job.silent_if(failure.is_some());
-    job.write(VerifyDocument::new(run.parameters, verification, None))?;
+    job.write(VerifyDocument::new(run.parameters, verification, differences, None))?;
     failure.map_or(Ok(()), Err)
+}
+
+/// What is said of a run that does not keep its tolerance, or says what does not follow.
+fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<Failure> {
+    let said: Vec<String> = broken.into_iter().chain(claims::said_of(differences)).collect();
+    (!said.is_empty()).then(|| Failure::Run(said.join("\n")))
+}
+
+/// Whether the motion begins where the parameters have it: what does not is not worth a repetition.
+fn begins_as(
+    scenario: &Scenario,
+    trajectory: Option<&Trajectory>,
+    samples: &[Sample],
+) -> Result<(), String> {
+    let (start, wanted) = (scenario.start_time(), scenario.start_position - scenario.kick);
+    let first = samples.first().filter(|sample| sample.t <= start).map(|sample| sample.x0);
+    let Some(found) = trajectory.map(|t| t.x0(t.start())).or(first) else { return Ok(()) };
+    let allowed = TOLERANCES_ALLOWED * scenario.tolerance + 1e-9 * (1.0 + wanted.abs());
+    if (found - wanted).abs() <= allowed {
+        return Ok(());
+    }
+    Err(format!("the motion begins at x0 = {found}, the run at start_position - kick = {wanted}"))
 }
 
 /// Whether the history begins and ends as the scenario does.
@@ -89,8 +113,8 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     let (t, x0) = (&run.samples.t, &run.samples.x0);
     let l = run.samples.l.as_ref().or(run.samples.lag.as_ref()).unwrap_or(x0);
     let span = scenario.start_time()..=scenario.until;
-    if [l.len(), x0.len()] != [t.len(); 2] || t.iter().any(|t| !span.contains(t)) {
-        return Err("samples: t, l and x0 do not match each other, or the run".into());
+    if l.len() != t.len() || !run.samples.are_even() || t.iter().any(|t| !span.contains(t)) {
+        return Err("samples: their columns do not match each other, or the run".into());
     }
     let rows = t.iter().zip(l).zip(x0);
     let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
@@ -104,22 +128,6 @@ fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, 
     match samples.last().is_some_and(|last| last.t > scenario.start_time()) {
         true => Ok(samples),
         false => Err("samples: there are none after the start, and no history".into()),
-    }
-}
-
-/// Whether the samples are those of the history, which is what is repeated.
-fn are_of(samples: &[Sample], trajectory: &Trajectory, tolerance: f64) -> Result<(), String> {
-    let agree = |sample: &Sample| {
-        let Sample { t, l, x0 } = *sample;
-        let rounding = ROUNDINGS * f64::EPSILON * (1.0 + l.abs() + x0.abs());
-        let differences = [l - trajectory.followed(t), x0 - trajectory.x0(t)];
-        differences.iter().all(|difference| difference.abs() <= tolerance + rounding)
-    };
-    match samples.iter().find(|sample| !agree(sample)) {
-        None => Ok(()),
-        Some(sample) => {
-            Err(format!("samples: at t = {} they are not those of the history", sample.t))
-        }
     }
 }
 
@@ -150,7 +158,7 @@ fn of_samples(
 fn repeated(
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::of_host();
     let mut progress = Progress::new(0.0, 1.0);
     let found = work(&mut |part| {
         progress.reached(part);
@@ -179,7 +187,11 @@ pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
 
 /// What is said, and the exit status, where the promise is broken.
 pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Failure> {
-    said_of(found, tolerance, None).map(Failure::Run)
+    broken_in(found, tolerance).map(Failure::Run)
+}
+
+fn broken_in(found: &VerificationDocument, tolerance: f64) -> Option<String> {
+    said_of(found, tolerance, None)
 }
 
 /// What is said where the promise is broken; of lines, with their numbers.

@@ -22,6 +22,6 @@ pub(crate) mod sheet;
 mod special;
 pub(crate) mod stream;
 pub(crate) mod table;
-mod temporary;
+pub(crate) mod temporary;
 pub(crate) mod text;
 pub(crate) mod within;

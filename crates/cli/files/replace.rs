@@ -2,7 +2,7 @@
 //! the new.
 
 use super::paths::folder_of;
-use super::temporary::{beside, remove_left_behind, through};
+use super::temporary::{Unfinished, beside, remove_left_behind, through};
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::Path;
@@ -56,6 +56,7 @@ pub(super) fn replace(
     write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut file = beside(path, folder_of(path))?;
+    let _unfinished = Unfinished::at(file.path());
     looks.give_to(file.as_file())?;
     through(file.as_file_mut(), write)?;
     file.as_file().sync_all()?;

@@ -6,12 +6,44 @@ use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 /// Finds out whether a folder takes new files, and leaves none there.
 pub(super) fn may_be_made_in(folder: &Path) -> io::Result<()> {
     // Without a name from the first, where the system has such files.
     tempfile::tempfile_in(folder).map(drop)
+}
+
+/// Files that are being written: a signal that ends the program removes them.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(vec![]);
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what is being written, for a program that ends here.
+pub(crate) fn remove_unfinished() {
+    for path in unfinished().drain(..) {
+        fs::remove_file(path).ok();
+    }
+}
+
+/// A file that is being written, until this goes: it has got its name by then, or is of no use.
+pub(super) struct Unfinished(PathBuf);
+
+impl Unfinished {
+    /// Takes note of a file.
+    pub(super) fn at(path: &Path) -> Self {
+        unfinished().push(path.into());
+        Self(path.into())
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        unfinished().retain(|path| *path != self.0);
+    }
 }
 
 /// A new file in the folder of a target, locked.

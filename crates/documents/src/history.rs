@@ -4,10 +4,13 @@ use crate::Unusable;
 use crate::table::Array;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Heights, Step, Support, Trajectory, Wider, nodes_and_weights};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights};
 
 /// Positions beyond this are rounded by a thousandth of σ and more, a tenth of the largest tolerance.
 pub const FARTHEST: f64 = 1e13;
+
+/// No accepted step leaves the way between its ends by so many times that way, or so many σ.
+const LEAP: f64 = 1000.0;
 
 /// The accepted steps, each a polynomial: x0(t) at every t of the run.
 ///
@@ -72,8 +75,11 @@ impl History {
         let steps = self.steps()?;
         let far = |step: &Step| {
             let ends = [step.t, step.end()].map(|t| support.position(t));
+            let heights = step.height.iter().flat_map(|h| h.nodes.iter().chain([&h.start]));
             let sizes = [ends[0], ends[1], step.extension];
-            !sizes.iter().chain(&step.displacement).all(|size| size.abs() <= FARTHEST)
+            let mut numbers = sizes.iter().chain(&step.displacement).chain(heights);
+            // NaN is beyond too.
+            !numbers.all(|size| size.abs() <= FARTHEST)
         };
         if let Some(i) = steps.iter().position(far) {
             return Err(unusable(format!("step {i} has numbers beyond {FARTHEST:e}")));
@@ -87,6 +93,16 @@ impl History {
         if let Some(i) = steps.windows(2).position(breaks) {
             let message = format!("step {} does not begin where step {i} ends", i + 1);
             return Err(unusable(message));
+        }
+        let leaps = |step: &Step| {
+            let moved = support.advance(step.t, step.h).abs();
+            let ends = moved.max(step.displacement[STAGES - 1].abs()).max(1.0);
+            step.displacement.iter().any(|d| d.abs() > LEAP * ends)
+        };
+        if let Some(i) = steps.iter().position(leaps) {
+            return Err(unusable(format!(
+                "within step {i} the tip is {LEAP} times as far away as at its ends"
+            )));
         }
         if wider.depth_limit.is_some() != self.height.is_some() {
             return Err(unusable("heights are there with a depth limit, and only then"));

@@ -87,7 +87,7 @@ pub use measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
     MeasuredTipParameters,
 };
-pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument};
+pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument, judge_details};
 pub use outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
@@ -133,7 +133,8 @@ pub use units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 pub use verification::{
-    EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument, VerifyDocument,
+    ClaimDocument, EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
+    VerifyDocument,
 };
 pub use walking::{WalkDocument, WalkingDocument, WalkingParameters};
 pub use work::{SteadyState, WorkDocument};

@@ -96,8 +96,14 @@ impl TipDocument {
     /// The tip again.
     ///
     /// # Errors
-    /// There is no such tip, such as one without width.
-    pub fn tip(&self) -> Result<TipFunction, TipFunctionError> {
+    /// There is no such tip, such as one without width, or one that no lattice holds.
+    pub fn tip(&self) -> Result<TipFunction, Unusable> {
+        let tip = self.as_described().map_err(Unusable::new)?;
+        judge_details(&tip)?;
+        Ok(tip)
+    }
+
+    fn as_described(&self) -> Result<TipFunction, TipFunctionError> {
         match self {
             Self::Bessel {} => Ok(TipFunction::Bessel),
             Self::Cosine {} => Ok(TipFunction::Cosine),
@@ -112,6 +118,25 @@ impl TipDocument {
             }
         }
     }
+}
+
+/// A Gaussian has some eighty half-waves at the band limit of f within its reach, a table of 2,000 rows 15,000. A lattice
+/// of twice as many cells holds the groove.
+const MOST_DETAILS: f64 = 1e5;
+
+/// Refuses a tip function that reaches too far for its detail: every lattice that is made for it is as long.
+///
+/// # Errors
+/// It has more than 1e5 half-waves at its band limit within its reach.
+pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
+    let details = tip.reach().map_or(0.0, |reach| reach * tip.band());
+    if details <= MOST_DETAILS {
+        return Ok(());
+    }
+    Err(Unusable::new(
+        "its widest parts reach too many times as far as its narrowest are wide: more than fit in memory; leave one or \
+         the other out",
+    ))
 }
 
 fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionError> {
@@ -170,7 +195,7 @@ impl ModelParameters {
     /// # Errors
     /// No model has such a tip, α or r.
     pub fn model(&self) -> Result<Model, Unusable> {
-        let tip = self.tip.tip().map_err(Unusable::new)?;
+        let tip = self.tip.tip()?;
         Model::under(self.wider(), tip, self.alpha, self.r).map_err(Unusable::new)
     }
 

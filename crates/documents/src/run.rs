@@ -152,6 +152,31 @@ pub struct Samples {
     pub weight: Option<Vec<f64>>,
 }
 
+impl Samples {
+    /// Row by row, as far as all columns that are there go.
+    pub fn lines(&self) -> impl Iterator<Item = SampleLine> {
+        let at =
+            |column: &Option<Vec<f64>>, i: usize| column.as_ref().and_then(|c| c.get(i).copied());
+        let rows = self.t.len().min(self.x0.len()).min(self.velocity.len());
+        (0..rows).map(move |i| SampleLine {
+            t: self.t[i],
+            l: at(&self.l, i),
+            lag: at(&self.lag, i),
+            x0: self.x0[i],
+            velocity: self.velocity[i],
+            height: at(&self.height, i),
+            weight: at(&self.weight, i),
+        })
+    }
+
+    /// Whether all columns that are there have an entry for each time.
+    pub fn are_even(&self) -> bool {
+        let optional = [&self.l, &self.lag, &self.height, &self.weight].into_iter().flatten();
+        let mut columns = [&self.x0, &self.velocity].into_iter().chain(optional);
+        columns.all(|column| column.len() == self.t.len())
+    }
+}
+
 impl From<&[SampleLine]> for Samples {
     fn from(samples: &[SampleLine]) -> Self {
         let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();

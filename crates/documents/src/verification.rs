@@ -4,6 +4,7 @@ use crate::table::{Named, Tabular};
 use crate::{FORMAT_VERSION, RunParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use stickslip_verify::{Difference, Verification};
 
 /// The verification of a saved run.
@@ -20,8 +21,29 @@ pub struct VerifyDocument {
     pub parameters: RunParameters,
     /// What was found.
     pub verification: VerificationDocument,
+    /// What the run says of itself and a recomputation does not; empty where all of it follows.
+    #[serde(default)]
+    pub differences: Vec<ClaimDocument>,
     /// How much of a run written as lines there was; null for a document.
     pub lines: Option<LinesDocument>,
+}
+
+/// A value of a run that does not follow from its parameters and its motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClaimDocument {
+    /// Such as `samples.lag` or `oscillation.period`.
+    pub field: String,
+    /// Time of the sample whose difference is largest against what is allowed, in Γ/k; null where it is no sample.
+    pub t: Option<f64>,
+    /// What stands there.
+    pub claimed: Value,
+    /// What was computed.
+    pub computed: Value,
+    /// By how much a number may differ, in its unit; null for what is no number.
+    pub allowed: Option<f64>,
+    /// Entries of the field that differ by more than is allowed.
+    pub count: u64,
 }
 
 impl VerifyDocument {
@@ -32,6 +54,7 @@ impl VerifyDocument {
     pub fn new(
         parameters: RunParameters,
         verification: VerificationDocument,
+        differences: Vec<ClaimDocument>,
         lines: Option<LinesDocument>,
     ) -> Self {
         Self {
@@ -40,6 +63,7 @@ impl VerifyDocument {
             software: Software::this(),
             parameters,
             verification,
+            differences,
             lines,
         }
     }

@@ -7,6 +7,9 @@ use stickslip_documents::ScaleName;
 const ROUND_OFF: f64 = 1e-6;
 /// Bound of the numbers that are drawn.
 const HUGE: f64 = 1e100;
+/// What is not distinguished: a span of this part of the larger end, and numbers next to 0.
+const LEAST_PART: f64 = 1e-12;
+const TINY: f64 = 1.0 / HUGE;
 /// A logarithmic axis spans no more decades than these below its highest value.
 const DECADES: f64 = 60.0;
 
@@ -37,13 +40,13 @@ impl Axis {
     pub(crate) fn new(low: f64, high: f64, scale: ScaleName, count: f64) -> Self {
         match scale {
             ScaleName::Logarithmic => {
-                let high = if high > 0.0 { high } else { 1.0 };
-                let low = if low > 0.0 { low } else { 1e-3 * high };
+                let high = if (TINY..HUGE).contains(&high) { high } else { 1.0 };
+                let low = if (TINY..HUGE).contains(&low) { low } else { 1e-3 * high };
                 let high = if high > low * (1.0 + 1e-9) { high } else { 10.0 * low };
                 Self { low, high, scale, ticks: ticks::logarithmic(low, high, count) }
             }
             ScaleName::Linear => {
-                let high = if high > low { high } else { low + 1.0 };
+                let (low, high) = if is_range([low, high]) { (low, high) } else { about(low) };
                 Self { low, high, scale, ticks: ticks::linear(low, high, count) }
             }
         }
@@ -84,6 +87,19 @@ impl Axis {
     }
 }
 
+/// Whether an axis can go from the first to the second: both drawable, and told apart by doubles with some digits left for
+/// what lies between them.
+pub(crate) fn is_range([low, high]: [f64; 2]) -> bool {
+    let size = low.abs().max(high.abs());
+    drawable(low) && drawable(high) && high - low >= (LEAST_PART * size).max(TINY)
+}
+
+/// Ends of an axis that holds one value.
+fn about(value: f64) -> (f64, f64) {
+    let value = if drawable(value) { value } else { 0.0 };
+    (value, value + value.abs().max(1.0))
+}
+
 fn linear_range(low: f64, high: f64, fit: Fit) -> (f64, f64) {
     let scale = low.abs().max(high.abs()).max(fit.natural);
     if high - low > ROUND_OFF * scale && scale > 1.0 / HUGE {
@@ -96,6 +112,8 @@ fn linear_range(low: f64, high: f64, fit: Fit) -> (f64, f64) {
 }
 
 fn logarithmic_range(low: f64, high: f64, padding: f64) -> (f64, f64) {
+    // Numbers next to 0 have no place on an axis whose other end is as large as may be.
+    let (low, high) = (low.max(TINY), high.max(TINY));
     let (low, high) = (low.log10().max(high.log10() - DECADES), high.log10());
     let pad = if high - low > ROUND_OFF { padding * (high - low) } else { 0.5 };
     (10f64.powf(low - pad), 10f64.powf(high + pad))
@@ -138,6 +156,29 @@ mod tests {
         assert_eq!(labels(&Axis::fit(nothing, FIT)).first(), Some(&"0.0"));
         let axis = Axis::fit([-1.0, 0.0], Fit { scale: ScaleName::Logarithmic, ..FIT });
         assert!(axis.low > 0.0 && axis.high > axis.low);
+    }
+
+    #[test]
+    fn ends_that_no_axis_goes_between_are_put_apart() {
+        let nearly = f64::from_bits(1.0_f64.to_bits() + 3);
+        for (low, high) in [
+            (0.0, 1e-310),
+            (0.0, 5e-324),
+            (-1e-320, 1e-320),
+            (1.0, nearly),
+            (1e99, 1e99 * nearly),
+            (-1e300, 1e300),
+            (f64::NAN, 1.0),
+            (2.0, 1.0),
+        ] {
+            for scale in [ScaleName::Linear, ScaleName::Logarithmic] {
+                let axis = Axis::new(low, high, scale, 5.0);
+                assert!(is_range([axis.low, axis.high]), "{low} {high} {axis:?}");
+                let count = axis.labelled().count();
+                assert!((1..200).contains(&count), "{low} {high} {axis:?}");
+            }
+        }
+        assert!(is_range([0.0, 1e-99]) && is_range([1.0, 1.0 + 1e-11]) && !is_range([1.0, 1.0]));
     }
 
     #[test]

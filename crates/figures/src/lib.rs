@@ -36,7 +36,9 @@ mod ticks;
 #[cfg(any(feature = "png", feature = "pdf"))]
 mod vector;
 
-pub use compose::{Drawn, FORMATS, Taker, View, judge_sweep, of, onset_of, saved, saved_as};
+pub use compose::{
+    Drawn, FORMATS, Taker, View, can_be_drawn, judge_sweep, of, onset_of, saved, saved_as,
+};
 pub use encode::{draw, svg};
 pub use error::FigureError;
 pub use format::FigureFormat;

@@ -62,6 +62,19 @@ pub enum RasterError {
         /// Lines within it.
         most: usize,
     },
+    /// More than memory holds.
+    #[error(
+        "the grooves of {lines} lines over {extent:.3e} in x take {:.1} GB, and 1 GB is held at most: fewer or shorter lines will do",
+        bytes / 1e9
+    )]
+    Memory {
+        /// Lines with a y of their own.
+        lines: usize,
+        /// From the smallest x to the largest.
+        extent: f64,
+        /// What they take.
+        bytes: f64,
+    },
     /// A shape whose lines are all to be the same.
     #[error("an area is scanned one-way or zigzag: name a line as often as it is to be repeated")]
     RepeatedArea,

@@ -22,6 +22,11 @@ pub struct Plan {
 
 /// Lines within reach of one.
 const MOST_WITHIN_REACH: f64 = 1e4;
+/// Of each line a complex amplitude is kept for each wave number, and of the lattice, four cells to a wave, sums,
+/// transforms and their workspace. In bytes.
+const BYTES_OF_A_WAVE: f64 = 16.0;
+const BYTES_OF_THE_LATTICE: f64 = 320.0;
+const MOST_MEMORY: f64 = 1e9;
 /// Points of the lattice that a line is held on.
 const MOST_POINTS: f64 = 1e7;
 /// A Gaussian ends so many widths from its center: e^{-40.5} = 2.6e-18.
@@ -78,9 +83,27 @@ impl Plan {
             (Area::Lines(_), _) => {}
         }
         self.area.validate(most, (reach, MOST_WITHIN_REACH))?;
+        self.judge_memory(0.0)?;
         let longest =
             Scenario { until: self.duration_of(self.area.longest()), ..self.line(0, (0.0, 0.0)) };
         longest.validate().map_err(|error| RasterError::Line { line: 1, error })
+    }
+
+    /// Refuses what the grooves of all lines do not fit in memory of, with tips up to `outside` of where their supports go.
+    ///
+    /// # Errors
+    /// They take more than a gigabyte.
+    pub fn judge_memory(&self, outside: f64) -> Result<(), RasterError> {
+        let (low, high) = self.area.ends();
+        // The stretch of the lattice is made longer by doubling what lies beside the supports.
+        let period = high - low + 6.0 * self.reach_along() + 4.0 * outside;
+        let waves = period * self.band() / std::f64::consts::TAU;
+        let rows = if self.path == Path::Repeat { 1 } else { self.lines() };
+        let bytes = waves * (BYTES_OF_A_WAVE * rows as f64 + BYTES_OF_THE_LATTICE);
+        if bytes <= MOST_MEMORY {
+            return Ok(());
+        }
+        Err(RasterError::Memory { lines: rows, extent: high - low + 2.0 * outside, bytes })
     }
 
     /// How many lines.

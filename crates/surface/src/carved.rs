@@ -19,9 +19,12 @@ pub enum Method {
 const PAIRS_PER_POINT: f64 = 16.0;
 /// Cells of the lattice that cost as much as one point.
 const CELLS_PER_POINT: f64 = 2.0;
+/// Cells of a lattice that fits in memory: a gigabyte with its transforms.
+const MOST_CELLS: f64 = 1e7;
 
 impl Method {
-    /// The cheaper one for so many positions and points over this extent.
+    /// The cheaper one for so many positions and points over this extent; the definition where no lattice over it fits in
+    /// memory.
     #[must_use]
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
         let (sources, targets) = (positions.len() as f64, x.len() as f64);
@@ -35,7 +38,7 @@ impl Method {
         };
         let cells = extent * tip.band() * 2.0 / std::f64::consts::PI;
         let by_fft = PAIRS_PER_POINT * (sources + targets + cells / CELLS_PER_POINT + 200.0);
-        if sources * targets <= by_fft { Self::Direct } else { Self::Fft }
+        if sources * targets <= by_fft || cells > MOST_CELLS { Self::Direct } else { Self::Fft }
     }
 }
 

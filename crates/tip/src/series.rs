@@ -5,6 +5,9 @@ use thiserror::Error;
 /// Why a series was refused. Rows are counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SeriesError {
+    /// Columns of different lengths.
+    #[error("the columns have {0} and {1} rows: each row is a pair")]
+    Uneven(usize, usize),
     /// A spline needs three points.
     #[error("{0} rows were found: at least 3 are needed")]
     Short(usize),
@@ -23,7 +26,10 @@ pub enum SeriesError {
 
 /// A series that a spline can go through.
 pub(crate) fn checked(x: Vec<f64>, y: Vec<f64>) -> Result<(Vec<f64>, Vec<f64>), SeriesError> {
-    let rows = x.len().min(y.len());
+    if x.len() != y.len() {
+        return Err(SeriesError::Uneven(x.len(), y.len()));
+    }
+    let rows = x.len();
     if rows < 3 {
         return Err(SeriesError::Short(rows));
     }

@@ -24,6 +24,8 @@ use stickslip_tip::{Force, RunError, Scenario};
 
 /// One sample in so much of the way of the support, by default, in widths of the tip.
 const SAMPLE: f64 = 0.25;
+/// Of all lines: with their columns and what is written of them, under a gigabyte.
+const MOST_SAMPLES: f64 = 5e6;
 
 pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { output, plot, .. } = arguments;
@@ -112,7 +114,9 @@ fn refused(arguments: &ScanArguments, error: RasterError) -> Failure {
     let option = match &error {
         RasterError::Pitch { pitch, .. } => format!("--pitch {}", Typed(*pitch)),
         RasterError::Length { length, .. } => format!("--length {}", Typed(*length)),
-        RasterError::Lines(lines) => in_file.unwrap_or(format!("--lines {lines}")),
+        RasterError::Lines(lines) | RasterError::Memory { lines, .. } => {
+            in_file.unwrap_or(format!("--lines {lines}"))
+        }
         RasterError::AreaLine { .. } | RasterError::Extent { .. } | RasterError::Crowded { .. } => {
             in_file.unwrap_or_default()
         }
@@ -136,10 +140,36 @@ fn refused(arguments: &ScanArguments, error: RasterError) -> Failure {
 /// Times since the start of each line.
 pub(super) fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<Vec<f64>, Failure> {
     let duration = plan.duration_of(plan.area.longest());
+    // As many as the longest line has.
+    let lines = plan.lines() as f64;
     if sampling.sample_at.is_some() || sampling.sample_every.is_some() {
-        return times(sampling, (0.0, duration), "each line");
+        let times = times(sampling, (0.0, duration), "each line")?;
+        return if times.len() as f64 * lines <= MOST_SAMPLES {
+            Ok(times)
+        } else {
+            Err(too_many(sampling, (times.len() as f64, lines), duration))
+        };
     }
     let width = 8.7 / plan.footprint.path().band();
-    let count = (plan.area.longest() / (SAMPLE * width)).ceil().clamp(2.0, 2000.0);
+    let most = (MOST_SAMPLES / lines - 1.0).clamp(2.0, 2000.0);
+    let count = (plan.area.longest() / (SAMPLE * width)).ceil().clamp(2.0, most);
     Ok((0..=count as usize).map(|i| duration * i as f64 / count).collect())
+}
+
+/// Refuses samples that memory does not hold, with what it would.
+fn too_many(sampling: &SamplingArguments, (each, lines): (f64, f64), duration: f64) -> Failure {
+    let (count, most) = (each * lines, (MOST_SAMPLES / lines).floor());
+    let message =
+        format!("would make {count:.1e} samples on {lines} lines, more than are kept in memory");
+    match sampling.sample_every {
+        Some(every) => {
+            let named = format!("--sample-every {}", Typed(every));
+            let least = duration / (most - 1.0).max(1.0);
+            Failure::input(named, format!("{message}; {least:.3e} or above will do"))
+        }
+        None => {
+            let named = format!("--sample-at with {each} times");
+            Failure::input(named, format!("{message}; {most} times will do"))
+        }
+    }
 }

@@ -8,6 +8,8 @@ use crate::message::remark;
 use std::collections::HashSet;
 use std::io;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_documents::{KeptLine, RasterParameters};
 use stickslip_raster::{Line, Plan, Scanning};
 use stickslip_tip::stop;
@@ -30,6 +32,14 @@ pub(super) fn scan(
     if let (Some(path), true) = (finished.path(), first > 0) {
         remark(format_args!("stickslip: {first} of {count} lines are in {}", path.display()));
     }
+    let scanned = Arc::new(AtomicUsize::new(first));
+    {
+        // All that is scanned is in a file, or nowhere: whatever this is at, it need not come to an end.
+        let (done, path) = (Arc::clone(&scanned), finished.path().map(Path::to_owned));
+        interrupt.or_else(move |signal| {
+            unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
+        });
+    }
     let mut progress = Progress::new(first as f64, count as f64).at_every_call();
     for index in first..count {
         let next = || scanning.next_line().map(|line| line.is_some());
@@ -45,6 +55,7 @@ pub(super) fn scan(
                 Failure::Write { target, error }
             })?;
         }
+        scanned.store(index + 1, Ordering::Relaxed);
         progress.counted(index as f64 + 1.0, || format!("{} of {count} lines", index + 1));
     }
     Ok((scanning.into_lines(), finished))

@@ -2,7 +2,10 @@
 
 use super::integration::Integrated;
 use crate::failure::Failure;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use stickslip_documents::{OscillationDocument, RunEnd, WorkDocument};
+use stickslip_outcome::Watched;
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{InitialSurface, Scenario, stop};
 
@@ -13,15 +16,25 @@ pub(super) fn end(
     integrated: &Integrated,
 ) -> Result<RunEnd, Failure> {
     let Integrated { running, seconds, interrupt, .. } = integrated;
+    let end = became(scenario, initial, running, interrupt.flag())?;
+    let work = WorkDocument { seconds: *seconds, ..end.work };
+    Ok(RunEnd { work, interrupted: interrupt.signal().is_some(), ..end })
+}
+
+/// What became of a run that has come as far as this. Whoever raises the flag is told what can be said at once.
+pub(crate) fn became(
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    running: &Watched,
+    flag: &Arc<AtomicBool>,
+) -> Result<RunEnd, Failure> {
     let tail = running.tail().ok_or_else(|| Failure::Run("the run has no steps".into()))?;
-    // Whoever stops the judgement too, or stopped the run, is told what can be said at once.
-    let outcome = stop::where_asked_by(interrupt.flag(), || running.outcome());
+    let outcome = stop::where_asked_by(flag, || running.outcome());
     let oscillation = outcome.oscillation.as_ref().map(|o| {
         let surface = Surface::new(&scenario.model, initial, &tail);
         OscillationDocument::of(o, ripple_behind(&surface, &tail, o.wavelength))
     });
     let memory = (running.memory(), running.memory_reason());
-    let work = WorkDocument::of(&running.work(), memory, *seconds);
-    let interrupted = interrupt.signal().is_some();
-    Ok(RunEnd { interrupted, ..RunEnd::of(running.t(), outcome, oscillation, work) })
+    let work = WorkDocument::of(&running.work(), memory, 0.0);
+    Ok(RunEnd::of(running.t(), outcome, oscillation, work))
 }

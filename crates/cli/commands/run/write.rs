@@ -81,6 +81,9 @@ pub(super) fn all(
             let found =
                 asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
+            // From here on nothing is computed that would be lost: a signal ends the program.
+            let interrupt = integrated.interrupt;
+            let _keeps = interrupt.signal().is_some().then_some(interrupt);
             let mut document = document.in_units(order.scales.as_ref());
             let told = told::of_run(&document, &end).in_units(document.physical.as_ref());
             let figure = job.write_told(&Written { document: &document, reached }, &told)?;

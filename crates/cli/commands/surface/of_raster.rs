@@ -1,6 +1,6 @@
 //! Heights of a raster: points, profiles and images.
 
-use super::places::{Places, evenly};
+use super::places::{MOST_PIXELS, Places, evenly};
 use super::write::SurfaceFormat;
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::in_units::{in_metres, scales};
@@ -36,6 +36,7 @@ pub(super) fn surface(
             if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
         }
     };
+    judge_size(&places, &y)?;
     let scales = scales(&arguments.in_units, None, Some(plan.law.model.r()))?;
     let (is_gsf, written) = match format {
         SurfaceFormat::Document(format) => (false, format),
@@ -49,6 +50,22 @@ pub(super) fn surface(
     let Some(unit) = in_metres else { return job.finish(document) };
     let bytes = field(&document.parameters, &document.surfaces[0], unit);
     job.finish_bytes(&bytes, document)
+}
+
+/// Rows by default are the lines, of which there may be a million.
+fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
+    let (columns, rows) = (places.x.len() as f64, y.len() as f64);
+    if columns * rows <= MOST_PIXELS {
+        return Ok(());
+    }
+    let least = places.spacing.unwrap_or(1.0) * columns * rows / MOST_PIXELS;
+    Err(Failure::input(
+        "--spacing and --y",
+        format!(
+            "make {columns} columns of {rows} rows, more than fit in memory; --spacing {least:.3e} or above will do, or \
+             fewer rows by --y or --y-range"
+        ),
+    ))
 }
 
 /// What has no meaning after the last line.

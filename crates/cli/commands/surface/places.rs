@@ -9,7 +9,7 @@ const DEFAULT_SPACING: f64 = 0.05;
 const MARGIN: f64 = 12.0;
 /// 200 MB with what is written of them: of curves, which have an x each, and of images.
 const MOST_POINTS: f64 = 3e6;
-const MOST_PIXELS: f64 = 1e7;
+pub(super) const MOST_PIXELS: f64 = 1e7;
 
 /// Times and positions.
 #[derive(Debug)]

@@ -2,6 +2,7 @@
 
 use super::{Told, digits};
 use crate::commands::job::Product;
+use crate::commands::verify::claims::said;
 use stickslip_documents::{LargestDifferenceDocument, VerifyDocument};
 
 impl Product for VerifyDocument {
@@ -13,6 +14,8 @@ impl Product for VerifyDocument {
             "the tolerance of {:e} is {verdict}: l is off by {:.1e} at most, {:.1e} is allowed; repeated with {} at {:.0e}",
             self.parameters.tolerance, l.largest, l.allowed, found.memory, found.tolerance
         ));
+        let off = self.differences.iter();
+        let told = off.fold(told, |told, off| told.row("does not follow", said(off)));
         told.row("l", difference(l, "t"))
             .maybe("u", found.u.as_ref().map(|u| difference(u, "x")))
             .maybe("trusted until", found.trusted_until.map(|t| format!("t = {}", digits(t, 10))))

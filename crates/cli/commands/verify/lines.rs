@@ -1,6 +1,6 @@
 //! The verification of a run written as lines: read twice, and never held.
 
-use super::{job, repeated, said_of};
+use super::{claims, job, repeated, said_of};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
@@ -9,7 +9,7 @@ use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip_documents::{
-    EndingName, LinesDocument, RunHead, VerificationDocument, VerifyDocument,
+    EndingName, LinesDocument, RunHead, SampleLine, VerificationDocument, VerifyDocument,
 };
 use stickslip_tip::{MemoryChoice, Running, Scenario};
 use stickslip_verify::{ComparedSamples, Sample, verify_samples};
@@ -39,9 +39,22 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let found = found?;
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
     let verification = VerificationDocument::from(&found);
+    let told = (&head.parameters.model, head.steady_state.as_ref());
+    let differences =
+        claims::of_lines(&scenario, told, samples.lines(), (until, extent.end.as_ref()))?;
+    if let Some(flaw) = samples.flaw.take() {
+        return Err(refused(flaw, &named));
+    }
     let failure = failure(&verification, &lines, &scenario, &named);
+    let failure = match claims::said_of(&differences) {
+        None => failure,
+        Some(said) => {
+            let before = failure.map_or(String::new(), |failure| format!("{failure}\n"));
+            Some(Failure::Run(format!("{before}{named}: {said}")))
+        }
+    };
     let job = job.silent_if(failure.is_some());
-    job.write(VerifyDocument::new(head.parameters, verification, Some(lines)))?;
+    job.write(VerifyDocument::new(head.parameters, verification, differences, Some(lines)))?;
     failure.map_or(Ok(()), Err)
 }
 
@@ -95,12 +108,18 @@ struct Samples<'a> {
 
 impl Samples<'_> {
     fn read(&self) -> impl Iterator<Item = Sample> {
+        self.lines().map(|line| Sample {
+            t: line.t,
+            l: line.l.or(line.lag).unwrap_or(line.x0),
+            x0: line.x0,
+        })
+    }
+
+    fn lines(&self) -> impl Iterator<Item = SampleLine> {
         let failed = |flaw| self.flaw.replace(Some(flaw));
         let lines = Lines::of(self.file).and_then(|mut lines| lines.head().map(|_| lines));
         let mut lines = lines.map_err(failed).ok();
-        (0..self.number).map_while(move |_| lines.as_mut()?.sample().map_err(failed).ok()).map(
-            |line| Sample { t: line.t, l: line.l.or(line.lag).unwrap_or(line.x0), x0: line.x0 },
-        )
+        (0..self.number).map_while(move |_| lines.as_mut()?.sample().map_err(failed).ok())
     }
 }
 

@@ -42,6 +42,8 @@ pub struct HeightMap {
 const POINTS: f64 = 4.0;
 /// but no more along a line than these.
 const MOST: f64 = 4000.0;
+/// Heights in a map: 80 MB.
+const MOST_HEIGHTS: f64 = 1e7;
 /// Rows over a line that was scanned again and again, on either side.
 const ROWS_BESIDE: usize = 20;
 
@@ -86,7 +88,8 @@ impl RasterDocument {
         let plan = self.parameters.plan()?;
         let width = 8.7 / plan.footprint.path().band();
         let (low, high) = plan.area.ends();
-        let count = (POINTS * (high - low) / width).ceil().clamp(2.0, MOST);
+        let most = (MOST_HEIGHTS / plan.lines() as f64).clamp(2.0, MOST);
+        let count = (POINTS * (high - low) / width).ceil().clamp(2.0, most);
         let x = (0..=count as usize).map(|i| low + (high - low) * i as f64 / count).collect();
         let y = if plan.path == Path::Repeat {
             let step = 0.5 * plan.reach_across() / ROWS_BESIDE as f64;

@@ -163,7 +163,10 @@ impl RasterHistory {
         }
         let rule = (&*self.nodes, &*self.weights);
         let line = |(n, line): (usize, &LineHistory)| line.line(rule, plan, n, Work::default());
-        self.lines.iter().enumerate().map(line).collect()
+        let lines: Vec<Line> = self.lines.iter().enumerate().map(line).collect::<Result<_, _>>()?;
+        let outside = lines.iter().map(outside).fold(0.0, f64::max);
+        plan.judge_memory(outside).map_err(Unusable::new)?;
+        Ok(lines)
     }
 
     pub(super) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
@@ -188,6 +191,13 @@ impl RasterHistory {
         }
         arrays
     }
+}
+
+/// How far the tip was outside of where its support goes, at most, in σ.
+fn outside(line: &Line) -> f64 {
+    let motion = line.trajectory();
+    let (positions, _) = motion.residence(motion.end());
+    positions.iter().map(|x| (-x).max(x - line.track().length)).fold(0.0, f64::max)
 }
 
 impl KeptLine {

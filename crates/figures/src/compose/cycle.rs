@@ -11,13 +11,15 @@ use stickslip_documents::{
     CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable,
 };
 use stickslip_surface::Surface;
-use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory};
+use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_weights};
 
 /// Of the ripple.
 const WAVELENGTHS: f64 = 3.0;
 const POINTS: usize = 1500;
 /// On either side of them; a wave so much shorter than the tip is wide leaves no ripple.
 const MOST_PERIODS: f64 = 3000.0;
+/// Of all periods: 300 MB with the visits that they are read off as.
+const MOST_STEPS: f64 = 1e6;
 
 impl Drawn for CycleDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
@@ -34,7 +36,7 @@ impl Drawn for CycleDocument {
         let part = Part::of(&motion, view.x_range);
         let l = part.line("l(t)", &|step, t| step.l(r, t));
         let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
-        let ripple = ripple(self, &model, &motion)?;
+        let ripple = ripple(&model, &motion)?;
         figure.panels = vec![
             against(L, l, Some(&(steady, format!("steady state, l₀ = {}", short(steady))))),
             against(VELOCITY, velocity, Some(&(r, format!("support, r = {}", short(r))))),
@@ -45,19 +47,18 @@ impl Drawn for CycleDocument {
 }
 
 /// u far behind the tip: what the motion has left that went on for long enough.
-fn ripple(
-    cycle: &CycleDocument,
-    model: &Model,
-    motion: &Trajectory,
-) -> Result<Option<PanelDocument>, FigureError> {
-    let (wavelength, period) = (cycle.wavelength, motion.end() - motion.start());
+fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, FigureError> {
+    // What is shown follows from the motion alone.
+    let period = motion.end() - motion.start();
+    let wavelength = model.r() * period;
     if model.wider().healing_time.is_some() {
         return Ok(None);
     }
-    // From out of reach before to out of reach behind; a motion leaves the mean by less than its amplitude.
-    let reach = model.tip().reach().unwrap_or(0.0) + 2.0 * cycle.amplitude_x0;
+    // From out of reach before to out of reach behind; a motion leaves the mean by less than its peak-to-peak.
+    let reach = model.tip().reach().unwrap_or(0.0) + swing(motion, model.r());
     let before = (reach / wavelength).ceil() + 1.0;
-    if before.is_nan() || before >= MOST_PERIODS {
+    let steps = motion.steps().len() as f64;
+    if !(before < MOST_PERIODS && (2.0 * before + WAVELENGTHS) * steps < MOST_STEPS) {
         return Ok(None);
     }
     let periods = (2.0 * before + WAVELENGTHS) as usize;
@@ -78,4 +79,16 @@ fn ripple(
     panel.natural = NATURAL;
     panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
     Ok(Some(panel))
+}
+
+/// Peak-to-peak of l at the nodes, in σ.
+fn swing(motion: &Trajectory, r: f64) -> f64 {
+    let (nodes, _) = nodes_and_weights();
+    let within = |step: &Step| nodes.map(|node| step.l(r, step.t + node * step.h));
+    let (low, high) = motion
+        .steps()
+        .iter()
+        .flat_map(within)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), l| (low.min(l), high.max(l)));
+    high - low
 }

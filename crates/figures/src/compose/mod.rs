@@ -21,6 +21,7 @@ mod sweep;
 mod tip;
 mod walking;
 
+use crate::axis::is_range;
 use crate::error::FigureError;
 use in_units::{asked_of, in_units};
 use serde::Serialize;
@@ -89,6 +90,13 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
         return Ok(());
     }
     Err(FigureError::Damaged("a map has not as many rows and columns as its axes".into()))
+}
+
+/// Whether an axis can go from the first of these to the second: below 1e100, and apart by at least 1e-12 of the larger and
+/// by 1e-100.
+#[must_use]
+pub fn can_be_drawn(range: [f64; 2]) -> bool {
+    is_range(range)
 }
 
 /// Formats of the documents that have a figure.
@@ -204,7 +212,13 @@ pub fn onset_of(document: &BoundaryDocument, view: &View) -> Result<FigureDocume
 
 impl Drawn for FigureDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        Ok(self.clone())
+        let mut ranges = self.panels.iter().flat_map(|panel| [panel.x_range, panel.y_range]);
+        match ranges.find_map(|range| range.filter(|range| !can_be_drawn(*range))) {
+            None => Ok(self.clone()),
+            Some([low, high]) => {
+                Err(FigureError::Damaged(format!("no axis goes from {low:e} to {high:e}")))
+            }
+        }
     }
 }
 

@@ -6,6 +6,8 @@ PYTHONS ?= python3
 # Cases of each of seven parsers, and of each of four laws.
 CASES ?= 1670000
 MOTIONS ?= 25000
+# Changed documents, each through one of the commands that read it.
+DOCUMENTS ?= 1000000
 # Runs of `make judge`.
 RUNS ?= 1000
 
@@ -82,8 +84,9 @@ figures: ## the paper's figures, and its numbers beside ours, in target/figures
 peers: ## race other programs on one problem at matched error: data/peers.json, data/peers.md
 	python3 peers/race.py data
 
-fuzz: ## millions of mutated files and command lines, 100,000 random motions; CASES and MOTIONS set how many
-	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked -p stickslip --lib fuzz -- --nocapture
+fuzz: ## millions of mutated files, command lines and documents, 100,000 random motions; CASES, DOCUMENTS and MOTIONS set how many
+	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked -p stickslip --lib fuzz::any -- --nocapture
+	PROPTEST_CASES=$(DOCUMENTS) $(CARGO) test --release --locked -p stickslip --lib fuzz_documents -- --nocapture
 	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test science properties
 
 doc: ## the libraries' documentation, in target/doc

@@ -15,6 +15,8 @@ mod failure;
 mod files;
 #[cfg(test)]
 mod fuzz;
+#[cfg(test)]
+mod fuzz_documents;
 mod host;
 pub mod hosted;
 mod interrupt;

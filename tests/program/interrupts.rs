@@ -85,3 +85,46 @@ fn sizes_are_judged_before_anything_is_made_of_them() {
         folder.refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000 will do"]);
     }
 }
+
+#[test]
+fn samples_of_a_raster_are_counted_before_it_is_scanned() {
+    let folder = Folder::new("raster_samples");
+    let raster = "raster --alpha 1.2 --r 1 --pitch 1 --width-y 1 --length 100 -o out.json";
+    let line = format!("{raster} --lines 200 --sample-every 1e-4");
+    folder.refuses(&line, &["--sample-every 0.0001", "2.0e8 samples", "or above will do"]);
+    let line = format!("{raster} --lines 1000000");
+    folder.refuses(&line, &["--lines 1000000", "GB"]);
+    let places: Vec<String> = (0..300).map(|i| format!("{}", f64::from(i) / 3.0)).collect();
+    let line = format!("{raster} --lines 20000 --sample-at {}", places.join(","));
+    folder.refuses(&line, &["--sample-at with 300 times", "250 times will do"]);
+}
+
+/// After the last line there is a document to make, write and draw: that ends too, and leaves nothing half-written.
+#[cfg(unix)]
+#[test]
+fn a_signal_is_heard_while_a_result_is_written() {
+    let folder = Folder::new("late_signal");
+    let raster = "raster --tip gaussian --alpha 0.5 --r 1 --pitch 1 --width-y 1 --lines 40 --length 10 --tolerance 1e-4 \
+                  --sample-every 1e-4 -o out.json --plot out.png";
+    let runs = "run --alpha 1.2 --r 1 --kick 0.05 --until 400 --sample-every 2e-4 -o out.json --plot out.png";
+    for (line, after) in [(raster, "40 of 40 lines"), (runs, "interrupted")] {
+        for name in folder.names() {
+            std::fs::remove_file(folder.path(&name)).unwrap();
+        }
+        let mut child = folder.command(line).stderr(Stdio::piped()).spawn().unwrap();
+        // It is being written once its temporary file is there.
+        while !folder.names().iter().any(|name| name.starts_with(".stickslip-")) {
+            assert!(child.try_wait().unwrap().is_none(), "{line}: it must take longer to write");
+            sleep(Duration::from_millis(1));
+        }
+        let (output, took) = ended_by("-TERM", child);
+        assert_eq!(output.status.code(), Some(143), "{line}: {}", said(&output));
+        assert!(said(&output).contains(after), "{line}: {}", said(&output));
+        assert!(took < AT_ONCE, "{line}: took {took:?}");
+        let left = |name: &String| {
+            name.starts_with(".stickslip-")
+                || name.starts_with("out.json") && !name.ends_with(".partial")
+        };
+        assert!(!folder.names().iter().any(left), "{:?}", folder.names());
+    }
+}

@@ -18,7 +18,10 @@ use std::path::PathBuf;
 /// On a cycle errors of the period add up: a run of thousands of periods is right to ten tolerances only until some
 /// time, which is said. The repetition takes some twenty times as long as the run.
 ///
-/// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows; 3 if all that there is of
+/// All else that the run contains, derived columns of samples, regime, oscillation, steady state, numbers in other units,
+/// is computed once more; `differences` lists what does not follow.
+///
+/// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows, or a value does not follow; 3 if all that there is of
 /// a run is right, but it has no end: it was killed, or is not over.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]

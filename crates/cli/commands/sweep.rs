@@ -1,7 +1,7 @@
 //! `stickslip sweep`.
 
 mod axes;
-mod divided;
+pub(crate) mod divided;
 mod grid;
 pub(crate) mod merge;
 mod point;

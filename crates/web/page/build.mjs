@@ -4,6 +4,7 @@ import { build } from 'esbuild';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { createHash } from 'node:crypto';
 import { gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -34,6 +35,17 @@ const parts = {
   worker: within(await script('worker.js')),
   main: within(await script('main.js')),
 };
+/** Nothing is loaded from anywhere, and no script runs but this one, its workers, and the module. */
+const main = createHash('sha256').update(parts.main).digest('base64');
+parts.policy = [
+  "default-src 'none'",
+  `script-src 'sha256-${main}' 'wasm-unsafe-eval'`,
+  'worker-src blob:',
+  "style-src 'unsafe-inline'",
+  'img-src data: blob:',
+  "base-uri 'none'",
+  "form-action 'none'",
+].join('; ');
 let page = await readFile(join(here, 'index.html'), 'utf8');
 for (const [name, text] of Object.entries(parts)) page = page.replace(`/*{${name}}*/`, () => text);
 await mkdir(dirname(out), { recursive: true });

@@ -69,6 +69,12 @@ impl Tip {
         self.0.positions(t).to_vec()
     }
 
+    /// The time that a run reached which took too long and was cut off; nothing of one that came to its end.
+    #[must_use]
+    pub fn cut_off(&self) -> Option<f64> {
+        self.0.cut_off()
+    }
+
     /// What became of the run, as in its document.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The run: its samples, the surface at any time of it, and its document.
 
 use crate::asked::Asked;
-use crate::limits::MOST_TIME;
+use crate::limits::{MOST_MILLISECONDS, MOST_TIME, STEPS_PER_LOOK};
 use crate::refusal::Refusal;
 use stickslip_documents::{
     OscillationDocument, RunDocument, RunEnd, RunParameters, SampleLine, SteadyState, Times,
@@ -21,10 +21,12 @@ pub(crate) struct Motion {
     trajectory: Trajectory,
     observer: Observer,
     work: WorkDocument,
+    /// Whether it ended before its time, as it took too long.
+    is_cut_off: bool,
 }
 
 impl Motion {
-    /// Makes the run; `now` tells the time in milliseconds.
+    /// Makes the run, as far as it comes in [`MOST_MILLISECONDS`]; `now` is the time in milliseconds.
     pub(crate) fn of(asked: &Asked, now: impl Fn() -> f64) -> Result<Self, Refusal> {
         if asked.until > MOST_TIME {
             return Err(Refusal::TooLong(asked.until));
@@ -33,10 +35,14 @@ impl Motion {
         let initial = scenario.initial_surface()?;
         let (began, mut steps, mut observer) = (now(), vec![], Observer::new(&scenario));
         let mut running = Running::new(&scenario, &initial)?;
-        while let Some(step) = running.step()? {
+        let mut is_cut_off = false;
+        while !is_cut_off && let Some(step) = running.step()? {
             observer.observe(&step);
             steps.push(step);
+            let is_due = steps.len().is_multiple_of(STEPS_PER_LOOK);
+            is_cut_off = is_due && now() - began > MOST_MILLISECONDS;
         }
+        is_cut_off &= running.t() < scenario.until;
         if steps.is_empty() {
             return Err(Refusal::NoSteps);
         }
@@ -44,14 +50,20 @@ impl Motion {
         let work = WorkDocument::of(&running.work(), memory, (now() - began) / 1e3);
         drop(running);
         let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
-        Ok(Self { scenario, initial, trajectory, observer, work })
+        Ok(Self { scenario, initial, trajectory, observer, work, is_cut_off })
     }
 
     fn times(&self) -> impl Iterator<Item = f64> {
-        let (start, end) = (self.scenario.start_time(), self.scenario.until);
+        let (start, end) =
+            (self.scenario.start_time(), self.cut_off().unwrap_or(self.scenario.until));
         let every = (end - start) / INTERVALS as f64;
         let times = Times::Every { start, every, end, intervals: INTERVALS };
         (0..=INTERVALS).filter_map(move |i| times.at(i))
+    }
+
+    /// The time reached by a run that was cut off.
+    pub(crate) fn cut_off(&self) -> Option<f64> {
+        self.is_cut_off.then(|| self.trajectory.end())
     }
 
     fn lines(&self) -> Vec<SampleLine> {
@@ -106,7 +118,8 @@ impl Motion {
             let ripple = ripple_behind(&self.surface(&tail), &tail, o.wavelength);
             OscillationDocument::of(o, ripple)
         });
-        Ok(RunEnd::of(self.trajectory.end(), outcome, oscillation, self.work.clone()))
+        let end = RunEnd::of(self.trajectory.end(), outcome, oscillation, self.work.clone());
+        Ok(RunEnd { interrupted: self.is_cut_off, ..end })
     }
 
     pub(crate) fn document(&self) -> Result<RunDocument, Refusal> {

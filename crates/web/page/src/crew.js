@@ -11,26 +11,62 @@ export function prepare(text, base64) {
   bytes = new Response(plain).arrayBuffer();
 }
 
-/** A worker that answers by `on[kind](message)`. `end` stops it in the middle of anything. */
+/** A newer wish waits so long for an older one to end by itself. */
+const PATIENCE = 1000; // ms
+/** What ends a wish. */
+const ENDS = new Set(['settled', 'mapped', 'scanned', 'refused']);
+
+/**
+ * A worker that answers by `on[kind](message)`. `end` stops it in the middle of anything. Of wishes with an `id` the newest
+ * supersedes all others: a worker that is still at an older one after a while is ended, and another begins with the newest.
+ */
 export function hire(on) {
   let worker = null;
+  let newest = null; // wish with an id
+  let busy = false; // at a wish with an id
+  let timer;
+  const calm = () => (clearTimeout(timer), (timer = undefined));
   const start = () => {
     worker = new Worker(script);
-    worker.onmessage = ({ data }) => on[data.kind]?.(data);
-    worker.onerror = (event) => on.refused?.({ message: event.message });
+    worker.onmessage = ({ data }) => {
+      if (data.kind === 'begun') {
+        busy = true;
+        if (data.id === newest?.id) calm();
+      }
+      if (ENDS.has(data.kind)) busy = false;
+      on[data.kind]?.(data);
+    };
+    worker.onerror = (event) => {
+      busy = false;
+      on.refused?.({ message: event.message });
+    };
     const mine = worker;
     bytes.then((module) => mine.postMessage({ kind: 'begin', bytes: module }));
   };
+  const end = () => {
+    calm();
+    busy = false;
+    worker?.terminate();
+    worker = null;
+  };
+  const post = (message) => {
+    if (!worker) start();
+    const mine = worker;
+    // After the module, and in the order asked for.
+    bytes.then(() => mine.postMessage(message));
+  };
+  const replace = () => {
+    end();
+    post(newest);
+  };
   return {
     ask(message) {
-      if (!worker) start();
-      const mine = worker;
-      // After the module, and in the order asked for.
-      bytes.then(() => mine.postMessage(message));
+      if (message.id !== undefined) {
+        newest = message;
+        if (busy) timer ??= setTimeout(replace, PATIENCE);
+      }
+      post(message);
     },
-    end() {
-      worker?.terminate();
-      worker = null;
-    },
+    end,
   };
 }

@@ -20,6 +20,8 @@ let wish = 0; // number of the latest run asked for
 let since = 0; // when it was
 let latest = null; // its columns
 let command = '';
+let cut; // the time at which the run was cut off, if it was
+const cutOff = () => `Cut off at t = ${cut.toPrecision(6)}: the page computes for 4 seconds, the command below goes on.`;
 /** For whoever measures: how long each redraw took, and what is shown. */
 const seen = (window.stickslip = { redraws: [], wish: () => wish, state: () => state, columns: () => latest, map: () => map.seen() });
 
@@ -33,7 +35,7 @@ const live = hire({
   cycle: (found) => found.id === wish && table.cycle(found),
   settled({ id }) {
     if (id !== wish) return;
-    at('said').textContent = table.sentence(state.run);
+    at('said').textContent = cut === undefined ? table.sentence(state.run) : `${cutOff()} ${table.sentence(state.run)}`;
     plots.describe();
     document.body.dataset.settled = id;
   },
@@ -94,8 +96,10 @@ function remember() {
   }, 150);
 }
 
-function shown({ id, samples, command: line }) {
+function shown({ id, samples, command: line, cut: reached }) {
   if (id !== wish) return;
+  cut = reached;
+  if (cut !== undefined) at('said').textContent = cutOff();
   const n = samples.length / 5;
   latest = [0, 1, 2, 3, 4].map((column) => samples.subarray(column * n, (column + 1) * n));
   at('error').hidden = true;

@@ -33,12 +33,13 @@ async function follow() {
 
 /** A run first, as it is waited for; then what takes longer, unless another is asked for meanwhile. */
 async function judge(id, asked) {
+  say({ kind: 'begun', id });
   const made = tried(() => new Tip(asked));
   if (made.why) return say({ kind: 'refused', id, message: made.why });
   tip?.free();
   tip = made.found;
   const samples = tip.samples();
-  say({ kind: 'run', id, samples, command: command(asked) }, [samples.buffer]);
+  say({ kind: 'run', id, samples, command: command(asked), cut: tip.cut_off() }, [samples.buffer]);
   const parts = {
     linear: () => JSON.parse(linear(asked)),
     judged: () => JSON.parse(tip.judged()),
@@ -72,6 +73,7 @@ function frame({ t, behind, ahead, count }) {
 /** Row by row of r, coarse first; a later wish ends it. */
 async function map({ id, asked, velocities, alphas }) {
   mapping = id;
+  say({ kind: 'begun', id });
   const curve = boundary(asked, Float64Array.from(velocities));
   say({ kind: 'boundary', id, curve });
   for (let stride = 8, first = true; stride >= 1; stride /= 2, first = false) {

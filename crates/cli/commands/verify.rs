@@ -75,7 +75,7 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
 /// What is said of a run that does not keep its tolerance, or says what does not follow.
 fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<Failure> {
     let said: Vec<String> = broken.into_iter().chain(claims::said_of(differences)).collect();
-    (!said.is_empty()).then(|| Failure::Run(said.join("\n")))
+    (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
 /// Whether the motion begins where the parameters have it: what does not is not worth a repetition.

@@ -8,16 +8,18 @@ use crate::commands::model::model_under;
 use crate::commands::progress::Progress;
 use crate::commands::run::document::became;
 use crate::failure::Failure;
+use crate::message::say;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip_documents::{
-    ClaimDocument, LoopDocument, ModelParameters, Physical, RunDocument, RunEnd, SampleLine,
-    SteadyState,
+    ClaimDocument, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
+    SampleLine, SteadyState,
 };
 use stickslip_outcome::Watched;
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
+use stickslip_verify::TOLERANCES_ALLOWED;
 
 /// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
@@ -100,36 +102,37 @@ impl Columns {
     /// A sample that was read off this step.
     fn of_history(&mut self, sample: &SampleLine, step: &Step) {
         let rounding = ROUNDINGS * (1.0 + step.extension.abs() + sample.x0.abs());
-        let slope = DIGITS + rounding / step.h;
-        self.see(sample, step, (self.tolerance + rounding, slope, DIGITS));
+        let [l, x0, lag, ..] = &mut self.columns;
+        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+        let allowed = self.tolerance + rounding;
+        l.see(sample.t, sample.l, found.l, allowed);
+        x0.see(sample.t, Some(sample.x0), Some(found.x0), allowed);
+        lag.see(sample.t, sample.lag, found.lag, allowed);
+        self.see(sample, &found, (DIGITS + rounding / step.h, DIGITS));
     }
 
-    /// A sample of a run to the same tolerance: whether l and x0 are right another run says.
+    /// A sample of a run to the same tolerance. Whether l and x0 are right another run says; the lag goes with x0.
     fn of_repetition(&mut self, sample: &SampleLine, step: &Step) {
+        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+        let support = self.support.position(sample.t);
+        let rounding = ROUNDINGS * (1.0 + support.abs() + sample.x0.abs());
+        let lag = found.lag.map(|_| support - sample.x0);
+        let [_, _, lags, ..] = &mut self.columns;
+        lags.see(sample.t, sample.lag, lag, TOLERANCES_ALLOWED * self.tolerance + rounding);
         let off = SLOPES * self.tolerance;
-        self.see(sample, step, (f64::INFINITY, DIGITS + off / step.h, DIGITS + off));
+        self.see(sample, &found, (DIGITS + off / step.h, DIGITS + off));
     }
 
-    /// With what position, velocity and height may be off by; the last two also by some digits of themselves.
-    fn see(&mut self, sample: &SampleLine, step: &Step, (x, velocity, height): (f64, f64, f64)) {
+    /// Velocity and height may be off by so much, and by some digits of themselves; the weight is that of the height.
+    fn see(&mut self, sample: &SampleLine, found: &SampleLine, (velocity, height): (f64, f64)) {
         let t = sample.t;
-        let found = SampleLine::of(step, (&self.support, &self.wider), t);
-        // R - x0, of the x0 that stands there.
-        let support = self.support.position(t);
-        let lag = found.lag.map(|_| support - sample.x0);
-        let rounding = ROUNDINGS * (1.0 + support.abs() + sample.x0.abs());
-        let weight = sample.height.filter(|_| found.height.is_some());
-        let weight = weight.map(|height| self.wider.weight(height));
-        let within =
-            |value: Option<f64>, allowed: f64| allowed + DIGITS * value.unwrap_or(0.0).abs();
-        let [l, x0, lags, velocities, heights, weights] = &mut self.columns;
-        l.see(t, sample.l, found.l, x);
-        x0.see(t, Some(sample.x0), Some(found.x0), x);
-        lags.see(t, sample.lag, lag, rounding);
-        let allowed = within(Some(found.velocity), velocity);
+        let [_, _, _, velocities, heights, weights] = &mut self.columns;
+        let allowed = velocity + DIGITS * found.velocity.abs();
         velocities.see(t, Some(sample.velocity), Some(found.velocity), allowed);
-        heights.see(t, sample.height, found.height, within(found.height, height));
-        weights.see(t, sample.weight, weight, DIGITS);
+        let allowed = height + DIGITS * found.height.unwrap_or(0.0).abs();
+        heights.see(t, sample.height, found.height, allowed);
+        let limited = sample.height.filter(|_| found.height.is_some());
+        weights.see(t, sample.weight, limited.map(|height| self.wider.weight(height)), DIGITS);
     }
 
     fn worst(self) -> impl Iterator<Item = ClaimDocument> {
@@ -226,6 +229,12 @@ impl Claims {
     /// What became of the run.
     fn of_end(&mut self, claimed: &RunEnd, computed: &RunEnd, tolerance: f64) {
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
+        let names = (&claimed.work.memory, &computed.work.memory);
+        self.judge("work.memory", &json!(names.0), &json!(names.1), &digits);
+        // A run that was stopped may have had no time to judge its motion.
+        if claimed.interrupted && claimed.regime == RegimeName::Transient {
+            return;
+        }
         self.judge("regime", &json!(claimed.regime), &json!(computed.regime), &digits);
         let oscillation = computed.oscillation.as_ref();
         let amplitude = oscillation.map_or(1.0, |o| o.amplitude_x0);
@@ -256,8 +265,6 @@ impl Claims {
         if said(ours) != said(theirs) {
             self.judge("remarks", &json!(ours.join("; ")), &json!(theirs.join("; ")), &digits);
         }
-        let names = (&claimed.work.memory, &computed.work.memory);
-        self.judge("work.memory", &json!(names.0), &json!(names.1), &digits);
     }
 
     /// What is read off the history of a document, and the same numbers in other units.
@@ -379,8 +386,10 @@ pub(super) fn of_lines(
         claims.of_end(end, &computed, scenario.tolerance);
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let is_cut = computed.end < scenario.until && scenario.until - computed.end > DIGITS;
-        claims.judge("end", &json!(end.end), &json!(computed.end), &digits);
         claims.judge("interrupted", &json!(end.interrupted), &json!(is_cut), &digits);
+        if !end.interrupted {
+            claims.judge("end", &json!(end.end), &json!(computed.end), &digits);
+        }
     }
     Ok(claims.0)
 }
@@ -399,12 +408,16 @@ fn end_of(run: &RunDocument) -> RunEnd {
     }
 }
 
-/// What is said of values that do not follow, each on a line of its own.
+/// Says of each value that does not follow what it is, on a line of its own; of all of them, their names.
 pub(super) fn said_of(differences: &[ClaimDocument]) -> Option<String> {
-    let lines: Vec<String> = differences.iter().map(|d| format!("\n  {}", said(d))).collect();
-    let count = differences.len();
-    (count > 0)
-        .then(|| format!("{count} of the values do not follow from the run:{}", lines.concat()))
+    let first = differences.first()?;
+    let each = differences.iter().filter(|_| differences.len() > 1);
+    each.for_each(|d| say(format_args!("stickslip: does not follow: {}", said(d))));
+    let names: Vec<&str> = differences.iter().map(|d| &*d.field).collect();
+    Some(match names.len() {
+        1 => format!("a value does not follow from the run: {}", said(first)),
+        count => format!("{count} values do not follow from the run: {}", names.join(", ")),
+    })
 }
 
 /// Such as `samples.lag at t = 20: 3.2, computed 2.1, 1e-9 allowed (2 entries are off)`.

@@ -49,7 +49,7 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let failure = match claims::said_of(&differences) {
         None => failure,
         Some(said) => {
-            let before = failure.map_or(String::new(), |failure| format!("{failure}\n"));
+            let before = failure.map_or(String::new(), |failure| format!("{failure}; "));
             Some(Failure::Run(format!("{before}{named}: {said}")))
         }
     };

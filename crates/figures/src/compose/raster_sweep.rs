@@ -27,6 +27,9 @@ impl Drawn for RasterSweepDocument {
         let mut figure = FigureDocument::new("raster-sweep", &title(self), vec![]);
         let parameters = &self.parameters;
         figure.panels = match (parameters.pitch.as_slice(), parameters.alpha.as_slice()) {
+            ([], _) | (_, []) => {
+                return Err(FigureError::Damaged("the grid has no points".into()));
+            }
             ([_], [_]) => {
                 let message = "a single point is no picture: give a range LO:HI:N".into();
                 return Err(FigureError::Nothing(message));

@@ -100,7 +100,7 @@ site: ## the book and the page to play with, in target/site (needs node and a st
 
 test-site: ## the page in a Chromium beside the program, and every link of the book; pictures in target/site-shots
 	.ci/site
-	cd crates/web && node --test test/site.test.mjs test/page.test.mjs
+	cd crates/web && node --test test/crew.test.mjs test/site.test.mjs test/page.test.mjs
 
 dist: ## for Linux, in target/dist: an archive with its checksum and a .deb, with man pages and completions (glibc 2.28)
 	.ci/dist

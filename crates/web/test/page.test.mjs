@@ -44,6 +44,22 @@ test('it is ready within 2.5 s, and says nothing to the console', { skip }, asyn
   await page.context().close();
 });
 
+test('nothing may be loaded, and a run that takes too long is cut off with a word', { skip }, async () => {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(`file://${file}#alpha=100&r=20&width=0.1&depth_limit=0.001&until=20000`);
+  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 20_000 });
+  assert.match(await page.locator('#said').innerText(), /^Cut off at t = [0-9.]+: the page computes for 4 seconds/);
+  const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute('content');
+  assert.match(policy, /default-src 'none'; script-src 'sha256-[^']+' 'wasm-unsafe-eval'; worker-src blob:/);
+  const fetched = await page.evaluate(() => fetch('data:,x').then(() => true, () => false));
+  assert.equal(fetched, false);
+  // A slider that moves on is not kept waiting by what is still computed.
+  await page.evaluate(() => (location.hash = '#alpha=1.2&r=1'));
+  await page.waitForFunction(() => document.body.dataset.ready === String(window.stickslip.wish()), null, { timeout: 10_000 });
+  await context.close();
+});
+
 test('what is shown is what the program says, to the last bit', { skip }, async () => {
   const { page, noted } = await open(browser);
   const presets = page.locator('#presets button');

@@ -1,0 +1,69 @@
+// A worker that is at an older wish while a newer one waits. No browser: a worker of our own, which only notes what it is sent.
+import assert from 'node:assert/strict';
+import { beforeEach, mock, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { hire, prepare } from '../page/src/crew.js';
+
+let workers;
+class Noting {
+  constructor() {
+    workers.push(this);
+    [this.posted, this.ended] = [[], false];
+  }
+  postMessage(message) {
+    this.posted.push(message);
+  }
+  terminate() {
+    this.ended = true;
+  }
+  says(data) {
+    this.onmessage({ data });
+  }
+}
+globalThis.Worker = Noting;
+prepare('', gzipSync('module').toString('base64'));
+/** Until the module is unpacked and all that waits for it is sent. */
+const sent = async () => {
+  for (let i = 0; i < 20; i++) await new Promise((go) => setImmediate(go));
+};
+const run = (id) => ({ kind: 'run', id });
+
+beforeEach(() => {
+  workers = [];
+  mock.timers.reset();
+});
+
+test('a worker that stays at an older wish is ended, and another gets the newest', async () => {
+  mock.timers.enable({ apis: ['setTimeout'] });
+  const crew = hire({});
+  crew.ask(run(1));
+  await sent();
+  workers[0].says({ kind: 'begun', id: 1 });
+  crew.ask(run(2));
+  crew.ask(run(3));
+  await sent();
+  mock.timers.tick(999);
+  assert.equal(workers[0].ended, false);
+  mock.timers.tick(1);
+  await sent();
+  assert.equal(workers[0].ended, true);
+  assert.deepEqual(workers[1].posted.map(({ kind, id }) => [kind, id]), [['begin', undefined], ['run', 3]]);
+});
+
+test('one that comes to the newest in time goes on', async () => {
+  mock.timers.enable({ apis: ['setTimeout'] });
+  const crew = hire({});
+  crew.ask(run(1));
+  await sent();
+  workers[0].says({ kind: 'begun', id: 1 });
+  crew.ask(run(2));
+  workers[0].says({ kind: 'begun', id: 2 });
+  mock.timers.tick(10_000);
+  await sent();
+  assert.deepEqual([workers.length, workers[0].ended], [1, false]);
+  // Nor is one ended that has nothing to do.
+  workers[0].says({ kind: 'settled', id: 2 });
+  crew.ask(run(3));
+  mock.timers.tick(10_000);
+  assert.equal(workers[0].ended, false);
+});

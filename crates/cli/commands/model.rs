@@ -7,7 +7,6 @@ use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use stickslip_documents::{Indentation, Law, NamedTip, Refused, TipName, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
-
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
     if wider.no_spring {

@@ -1,6 +1,8 @@
 //! Parameters that several questions share: footprint, law, indentation rate.
 
-use crate::{GaussianDocument, LayerDocument, ModelParameters, Refused, TipDocument, Typed};
+use crate::{
+    GaussianDocument, LayerDocument, ModelParameters, Refused, TipDocument, Typed, judge_details,
+};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -127,7 +129,9 @@ impl TipFields {
                 whole(TipDocument::Footprint { layers })
             }
             (None, None, None, Some((x, f))) => {
-                TipFunction::table(&x, &f).map_err(|error| error.to_string())
+                let tip = TipFunction::table(&x, &f).map_err(|error| error.to_string())?;
+                judge_details(&tip).map_err(|error| error.to_string())?;
+                Ok(tip)
             }
             (Some("bessel"), None, None, None) => named(TipName::Bessel),
             (Some("cosine"), None, None, None) => named(TipName::Cosine),

@@ -3,11 +3,12 @@
 use std::error::Error;
 use stickslip_raster::{Path, Plan, Regime, Scanning, pattern};
 use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Model, Scenario, TipFunction};
+use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Wider};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let footprint = Footprint::separable(TipFunction::gaussian(1.0)?, 1.0)?; // exp(-(x² + y²)/2)
-    let theory = Raster::new(&footprint, 1.0, 1.0)?.critical(RasterPath::OneWay)?; // r = 1, pitch 1
+    let theory =
+        Raster::new(&footprint, Wider::default(), (1.0, 1.0), 1.0)?.critical(RasterPath::OneWay)?; // r = 1, pitch 1
     println!("αc = {:.6}, q = {:.4}", theory.alpha, theory.q);
     let model = Model::new(footprint.path().clone(), 1.1 * theory.alpha, 1.0)?;
     let mut plan = Plan::new(footprint, model, Path::OneWay, 1.0, 120, 100.0); // 120 lines of 100

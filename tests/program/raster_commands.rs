@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::process::Stdio;
 use std::time::Duration;
 use stickslip_raster::{Path, Plan, Scanned, Scanning};
-use stickslip_stability::{Raster, RasterPath, WiderRaster};
+use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 const GAUSSIAN: &str = "raster --tip gaussian --alpha 0.6 --r 1 --pitch 0.5";
@@ -252,7 +252,8 @@ fn a_raster_under_the_wider_law_is_one_too() {
     let line = "stability --tip gaussian --r 1 --pitch 1 --depth-limit 8";
     let limited = folder.prints_json(line);
     let wider = Wider { depth_limit: Some(8.0), ..Wider::default() };
-    let wanted = WiderRaster::new(&round(), wider, (1.0, 1.0), 1.0).unwrap().critical().unwrap();
+    let wanted = Raster::new(&round(), wider, (1.0, 1.0), 1.0).unwrap();
+    let wanted = wanted.critical(RasterPath::OneWay).unwrap();
     assert!((number(&limited["critical"]["alpha"]) - wanted.alpha).abs() < 1e-12);
     assert_eq!(limited["parameters"]["depth_limit"], 8.0);
     let healing = "stability --tip gaussian --r 1 --pitch 1 --healing-time 100";
@@ -271,8 +272,8 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
         let line = format!("stability --tip gaussian --r 1 --pitch {pitch}");
         let found = folder.prints_json(&line);
         let critical = &found["critical"];
-        let wanted =
-            Raster::new(&round(), 1.0, pitch).unwrap().critical(RasterPath::OneWay).unwrap();
+        let wanted = Raster::new(&round(), Wider::default(), (1.0, pitch), 1.0).unwrap();
+        let wanted = wanted.critical(RasterPath::OneWay).unwrap();
         assert!((number(&critical["alpha"]) - wanted.alpha).abs() < 1e-15);
         assert!((number(&critical["alpha"]) - alpha).abs() < 5e-7);
         assert!((number(&critical["crest_angle"]) - angle).abs() < 0.05);

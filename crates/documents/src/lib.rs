@@ -101,8 +101,8 @@ pub use raster::{
     RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use raster_stability::{
-    RasterBoundaryDocument, RasterBoundaryParameters, RasterCriticalDocument, RasterGrowth,
-    RasterStabilityDocument, RasterStabilityParameters,
+    RasterBoundaryDocument, RasterBoundaryParameters, RasterCertificateDocument,
+    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
 };
 pub use read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};

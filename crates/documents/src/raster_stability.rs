@@ -6,7 +6,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::RasterCritical;
+use stickslip_stability::{RasterCertificate, RasterCritical};
 
 /// Linear stability of many scan lines beside each other. Lengths in σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -95,8 +95,27 @@ pub struct RasterCriticalDocument {
     pub crest_angle: Option<f64>,
     /// 2π/q, in σ.
     pub wavelength_x: f64,
-    /// Phase from one line to the next, from -π to π.
+    /// Phase from one line to the next, from -π to π; on a zigzag that from a way there to the way back after it.
     pub phase_per_line: f64,
+    /// Evidence that it is the threshold; missing in documents of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<RasterCertificateDocument>,
+}
+
+/// Evidence that no ripple grows below a threshold, and that one does above.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterCertificateDocument {
+    /// Largest relative distance of a lower threshold that the search over all wave numbers and phases does not rule out.
+    pub tolerance: f64,
+    /// Cells of wave numbers and phases that the search went through.
+    pub cells: usize,
+    /// Relative distance from the threshold of the two α at which the waves of its q that grow were counted.
+    pub margin: f64,
+    /// Waves that grow below the threshold, on a zigzag pairs ±z; null where lines feel each other too little for a count.
+    pub growing_below: Option<usize>,
+    /// Waves that grow above it.
+    pub growing_above: Option<usize>,
 }
 
 /// Growth of ripples over wave numbers along the lines.
@@ -114,9 +133,18 @@ pub struct RasterGrowth {
 
 impl From<&RasterCritical> for RasterCriticalDocument {
     fn from(critical: &RasterCritical) -> Self {
-        let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, wavelength_x } =
-            *critical;
-        Self { alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line }
+        let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, .. } = *critical;
+        let wavelength_x = critical.wavelength_x;
+        let certificate = Some((&critical.certificate).into());
+        Self { alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line, certificate }
+    }
+}
+
+impl From<&RasterCertificate> for RasterCertificateDocument {
+    fn from(certificate: &RasterCertificate) -> Self {
+        let RasterCertificate { tolerance, cells, margin, growing_below, growing_above } =
+            *certificate;
+        Self { tolerance, cells, margin, growing_below, growing_above }
     }
 }
 
@@ -170,7 +198,7 @@ pub struct RasterBoundaryDocument {
     pub kappa: Vec<f64>,
     /// Between crests and scan axis, in degrees.
     pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null where none was found, and under a wider law, which linear theory of a zigzag leaves out.
+    /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
     pub alpha_zigzag: Vec<Option<f64>>,
     /// What a reader should know; empty if there is nothing.
     pub remarks: Vec<String>,

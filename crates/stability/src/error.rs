@@ -76,6 +76,24 @@ pub enum StabilityError {
         "the pitch is {0:?}: the distance of scan lines must be a finite number above 0, and no less than 1e-5 of the reach of the tip across them"
     )]
     Pitch(f64),
+    /// Too many cells of wave numbers and phases: [`crate::Raster::critical`].
+    #[error(
+        "the threshold of the raster is not certain: {cells} cells of wave numbers and phases did not suffice to rule out a lower one"
+    )]
+    Uncertified {
+        /// How many were looked at.
+        cells: usize,
+    },
+    /// A raster of J0 or cos x.
+    #[error(
+        "a raster of this tip function has no threshold: its Fourier transform is infinite at the wave number 1, beside which ripples grow from line to line at any alpha"
+    )]
+    NoRipples,
+    /// Healing on the way back.
+    #[error(
+        "a zigzag over a healing surface has no threshold of its own: the time since the line before passed a place differs along the line, so that no wave e^{{iqx}} is its own answer; go one way, or leave the healing time out"
+    )]
+    HealingZigzag,
     /// Nobody waits for it any more: [`stickslip_tip::stop`].
     #[error("stopped before it was found")]
     Stopped,

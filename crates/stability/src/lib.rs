@@ -51,7 +51,7 @@ pub use critical::{Critical, critical, critical_r};
 pub use error::StabilityError;
 pub use inversion::Inversion;
 pub use onset::{Criticality, Onset, onset, onset_at};
-pub use raster::{Raster, RasterCritical, RasterPath, WiderRaster};
+pub use raster::{Raster, RasterCertificate, RasterCritical, RasterPath};
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use spectrum::Spectrum;

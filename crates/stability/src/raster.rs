@@ -1,28 +1,47 @@
 //! Linear stability of a raster: many scan lines beside each other, each in the grooves of those before it.
 //!
-//! Line n, at y = n d, moves over what the earlier lines left. A small ripple A_n e^{iqx} of its track answers to
-//! those of the earlier lines, with f(x,y) = Σ_k g_k(x) h_k(y),
+//! Line n, at y = n d, moves over the grooves of the earlier lines. It deviates by A_n e^{iωt} from even motion, ω = qr, and
+//! its weight is w0(1 + B_n e^{iωt}). With f(x,y) = Σ_l g_l(x) h_l(y), a = αw0, s = 1/(rT), p = s + iq, what is left of a
+//! groove after a line c = e^{-X/(rT)}, one-sided transforms φ, φ1, G of f, f', f'' and ĝ_l(p) = ∫ g_l e^{-px}dx over all x,
+//! small deviations obey
 //!
 //! ```text
-//!     D(q) A_n = (α/r) q² Σ_{j≥1} Σ_k ĝ_k(q) h_k(jd) A_{n-j},      D(q) = 1 + irq + (α/r) G(iq)
+//!     P (A_n, B_n) = (a/r) u Σ_j Σ_l c^j h_l(jd) ĝ_l(p) v·(A_{n-j}, B_{n-j}),    u = (p, β),   v = (-p, 1)
+//!
+//!     P = | 1 + irq - Mr²q² - (a/r)(G(s) - G(p) + s²E)    -(a/r) φ1(p)     |
+//!         | -(aβ/r)(φ1(s) - φ1(p) + sE)                    1 - (aβ/r) φ(p) |
 //! ```
 //!
-//! with G of (30) and ĝ the Fourier transform. A_n ∝ zⁿ grows from line to line where |z| > 1, so that the
-//! threshold is the smallest α with a root on |z| = 1, z = e^{iφ}: crests qx + κy = const., κ = φ/d, that stand
-//! oblique to the scan lines. On the way back of a zigzag q changes its sign: D becomes D* on every other line.
-//! `docs/stability.md` derives it.
+//! with E = Σ_j Σ_l c^j h_l(jd) ĝ_l(s) of the even grooves beside, u0 = -(a/r)(φ(s) + E) the height under the tip, w0 =
+//! e^{-|u0|/b}, and β = ±1/b as u0 is above 0 or below. Under the basic law (s = β = M = 0, c = 1) this is
+//!
+//! ```text
+//!     D(q) A_n = (α/r) q² Σ_j Σ_l h_l(jd) ĝ_l(q) A_{n-j},      D(q) = 1 + irq + (α/r) G(iq)
+//! ```
+//!
+//! A line leaves one number, v·(A, B), and so ripples change from line to line as by a recurrence: A_n ∝ zⁿ grows where
+//! |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}: crests qx + κy = const., κ = φ/d, that stand
+//! oblique to the scan lines. On the way back of a zigzag q changes its sign: what is a line's own becomes its complex
+//! conjugate. α = a e^{|u0|/b} rises with a. `docs/stability.md` derives it.
 
+mod count;
+mod determinant;
+mod extent;
 mod growth;
-mod wider;
+mod lines;
+mod optimum;
+mod patch;
+mod search;
+mod waves;
 
-pub use wider::WiderRaster;
-
-use super::transform::CurvatureTransform;
-use super::{StabilityError, critical};
-use num_complex::Complex64;
+use super::StabilityError;
+use determinant::{Lines, Terms};
+use optimum::Place;
+use search::{Found, MARGIN, largest};
 use std::f64::consts::PI;
-use stickslip_tip::Footprint;
 use stickslip_tip::roots::zero_between;
+use stickslip_tip::{Footprint, TipFunction, Wider};
+use waves::Waves;
 
 /// How the tip goes from one line to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +61,7 @@ pub struct RasterCritical {
     pub r: f64,
     /// Its wave number along the lines.
     pub q: f64,
-    /// Phase φ from one line to the next, between -π and π; on a zigzag it goes to and fro.
+    /// Phase φ from one line to the next, between -π and π; on a zigzag that from a way there to the way back.
     pub phase_per_line: f64,
     /// φ/d, the wave number across the lines; `None` on a zigzag.
     pub kappa: Option<f64>,
@@ -50,272 +69,225 @@ pub struct RasterCritical {
     pub crest_angle: Option<f64>,
     /// 2π/q
     pub wavelength_x: f64,
+    /// What shows that it is the threshold.
+    pub certificate: RasterCertificate,
+}
+
+/// Evidence that no ripple grows below the threshold, and that one does above.
+///
+/// Ripples that grow are the zeros of a determinant within the unit circle of w = 1/z (w² on a zigzag), counted by its turns
+/// along the circle. The search over all wave numbers and phases ruled out zeros on the circle, and with them any growth, at
+/// all α below the threshold by more than `tolerance`. It is floating-point arithmetic with bounds of what it leaves out,
+/// not interval arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RasterCertificate {
+    /// By how much of itself a lower threshold could at most be lower.
+    pub tolerance: f64,
+    /// Cells of wave numbers and phases that the search went through.
+    pub cells: usize,
+    /// Distance from the threshold, as a part of it, of the two α at which waves of its q were counted.
+    pub margin: f64,
+    /// How many grow below; `None` where they could not be counted, for lines that hardly feel each other.
+    pub growing_below: Option<usize>,
+    /// How many grow above.
+    pub growing_above: Option<usize>,
 }
 
 /// Lines that pass over each other's grooves.
 #[derive(Debug, Clone)]
 pub struct Raster {
     footprint: Footprint,
-    transform: CurvatureTransform,
+    waves: Waves,
     r: f64,
     pitch: f64,
-    /// h_k(jd) of each layer, j = 1, 2, …
+    law: Wider,
+    /// c^j h_l(jd) of each layer, j = 1, 2, …
     heights: Vec<Vec<f64>>,
+    /// u0 = -a times this.
+    depth: f64,
+    terms: Terms,
 }
 
-/// Samples of q and of κ in the search for the first crossing.
-const SAMPLES: u32 = 400;
 /// h_k(jd) below this share of the largest is none.
 const NEGLIGIBLE: f64 = 1e-17;
 /// Lines beyond so many are not summed: the pitch is refused.
 const MOST_LINES: usize = 1_000_000;
 /// Grooves that change a line by less than this leave it alone.
 const ALONE: f64 = 1e-13;
-/// Step of the differences that a minimum is found by; their error is its fourth power.
-const DIFFERENCE: f64 = 1e-3;
+/// A T = r/a below this part of what a tip could have is none: nothing grows.
+const LEAST: f64 = 1e-6;
+/// α = a e^{|u0|/b} is infinite where |u0|/b is larger.
+const LARGEST_EXPONENT: f64 = 700.0;
+/// A height under the tip below this part of those that cancel in it is 0.
+const LEVEL: f64 = 1e-9;
 
 impl Raster {
-    /// Lines a pitch d apart, dragged at r.
+    /// Lines a pitch d apart, dragged at r, of whose grooves so much is left after a line as `left` says: e^{-X/(rT)},
+    /// 1 where nothing heals.
     ///
     /// # Errors
-    /// r or the pitch not a positive finite number, or a pitch so small that the lines within reach cannot be summed.
-    pub fn new(footprint: &Footprint, r: f64, pitch: f64) -> Result<Self, StabilityError> {
+    /// r or the pitch not a positive finite number, or a pitch so small that the lines within reach cannot be summed. Under a
+    /// wider law than the basic one also a parameter out of range, no spring, J0 and cos x, and a height of 0 under the tip,
+    /// where |h| has its corner.
+    pub fn new(
+        footprint: &Footprint,
+        law: Wider,
+        (r, pitch): (f64, f64),
+        left: f64,
+    ) -> Result<Self, StabilityError> {
         if !(r.is_finite() && r > 0.0) {
             return Err(StabilityError::R(r));
         }
-        let widest = footprint.layers().iter().map(|layer| layer.across);
-        let reach = widest.map(|h| h.center + 9.0 * h.width).fold(0.0, f64::max);
-        let lines = (reach / pitch).ceil();
-        if !(pitch.is_finite() && pitch > 0.0 && lines < MOST_LINES as f64) {
-            return Err(StabilityError::Pitch(pitch));
+        if !law.spring {
+            return Err(StabilityError::NoSupport);
         }
-        let transform = CurvatureTransform::new(footprint.path());
-        let layers = footprint.layers().iter();
-        let heights = layers.map(|layer| {
-            let height = |j: usize| layer.across.value(pitch * j as f64);
-            let largest = layer.across.value(layer.across.center);
-            let negligible = |h: &f64| h.abs() < NEGLIGIBLE * largest;
-            let mut heights: Vec<f64> = (1..=lines as usize).map(height).collect();
-            let kept = heights.iter().rposition(|h| !negligible(h)).map_or(0, |last| last + 1);
-            heights.truncate(kept);
-            heights
-        });
-        let heights = heights.collect();
-        Ok(Self { footprint: footprint.clone(), transform, r, pitch, heights })
+        law.validate()?;
+        if !law.is_papers() && !is_gaussian(footprint) {
+            let what = "a raster of a tip that is no sum of Gaussians";
+            return Err(StabilityError::PapersLawOnly(what));
+        }
+        let heights = heights(footprint, pitch, left)?;
+        let fading = law.healing_time.map_or(0.0, |time| 1.0 / (r * time));
+        let waves = Waves::new(footprint, fading);
+        let each = waves.steady_layers();
+        let each = each.iter().zip(&heights).map(|(g, heights)| g * heights.iter().sum::<f64>());
+        let beside: f64 = each.sum();
+        let [own, ..] = waves.steady();
+        let depth = (own + beside) / r;
+        if law.depth_limit.is_some()
+            && (own + beside).abs() <= LEVEL * footprint.path().value(0.0).abs()
+        {
+            return Err(StabilityError::Corner);
+        }
+        let steepness = law.depth_limit.map_or(0.0, |limit| -depth.signum() / limit);
+        let terms = Terms { r, mass: law.inertia.unwrap_or(0.0), steepness, beside };
+        Ok(Self { footprint: footprint.clone(), waves, r, pitch, law, heights, depth, terms })
     }
 
-    /// The first ripple that does not fade from line to line.
+    /// The first ripple that does not fade from line to line: the smallest α at which, for some q, a wave that fades at all
+    /// smaller α has |z| = 1.
     ///
-    /// On a zigzag the crossing is that at z = ±1, where the two directions mirror each other. A scan of all phases for
-    /// Gaussian tips found none at a smaller α.
+    /// Phases are those of all z on the circle, on a zigzag too. The search ends on no sample: all wave numbers and phases are
+    /// bounded, and the threshold itself is a root to round-off. See [`RasterCertificate`].
     ///
     /// # Errors
-    /// As [`critical`]: no ripple grows, however large α.
+    /// [`StabilityError::NoCrossing`] where no ripple grows, however large α; [`StabilityError::HealingZigzag`];
+    /// [`StabilityError::NoRipples`] for J0 and cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
     pub fn critical(&self, path: RasterPath) -> Result<RasterCritical, StabilityError> {
-        let found = match path {
-            RasterPath::OneWay => self.one_way(),
-            RasterPath::Zigzag => self.zigzag(),
+        let lines = self.lines(path)?;
+        let none = StabilityError::NoCrossing { r: self.r };
+        let floor = self.least_t(&lines);
+        let alone = largest(&lines.alone(), floor)?;
+        let single = alone.place.map_or(floor, |place| place.t);
+        let found = if self.is_alone() {
+            Found { place: None, cells: 0 }
+        } else {
+            largest(&lines, single)?
         };
-        if self.is_alone() {
-            let alone = critical(self.footprint.path(), self.r)?;
-            let q = 2.0 * PI / alone.wavelength;
-            return Ok(self.threshold(path, alone.alpha, q, 0.0));
+        let cells = alone.cells + found.cells;
+        let place = found.place.or(alone.place).ok_or(none)?;
+        let alpha = self.alpha(self.r / place.t);
+        if !alpha.is_finite() {
+            return Err(none);
         }
-        let (alpha, q, phase) = found.ok_or(StabilityError::NoCrossing { r: self.r })?;
-        Ok(self.threshold(path, alpha, q, phase))
-    }
-
-    fn threshold(&self, path: RasterPath, alpha: f64, q: f64, phase: f64) -> RasterCritical {
+        let counted = found.place.map(|place| count::beside(&lines, place));
+        let certificate = RasterCertificate {
+            tolerance: MARGIN,
+            cells,
+            margin: counted.map_or(0.0, |counted| counted.margin),
+            growing_below: counted.and_then(|counted| counted.below),
+            growing_above: counted.and_then(|counted| counted.above),
+        };
+        let phase = found.place.map_or(0.0, |place| Self::phase(&lines, place));
         let kappa = (path == RasterPath::OneWay).then_some(phase / self.pitch);
-        RasterCritical {
+        Ok(RasterCritical {
             alpha,
             r: self.r,
-            q,
+            q: place.q,
             phase_per_line: phase,
             kappa,
-            crest_angle: kappa.map(|kappa| q.atan2(kappa.abs()).to_degrees()),
-            wavelength_x: 2.0 * PI / q,
+            crest_angle: kappa.map(|kappa| place.q.atan2(kappa.abs()).to_degrees()),
+            wavelength_x: 2.0 * PI / place.q,
+            certificate,
+        })
+    }
+
+    /// φ of z = e^{iφ} = 1/w; on a zigzag that between both ways.
+    fn phase(lines: &Lines, place: Place) -> f64 {
+        if !lines.is_zigzag() {
+            return wrapped(-place.theta);
         }
+        let (wave, phase) = (lines.wave(place.q, 1.0), lines.phase(place.theta, 1.0));
+        lines.back_by_forth(&wave, &phase, place.t).arg()
+    }
+
+    fn lines(&self, path: RasterPath) -> Result<Lines, StabilityError> {
+        if !is_gaussian(&self.footprint) {
+            return Err(StabilityError::NoRipples);
+        }
+        match path {
+            RasterPath::OneWay => Ok(Lines::one_way(self.waves.clone(), self.terms, &self.heights)),
+            RasterPath::Zigzag if self.law.healing_time.is_some() => {
+                Err(StabilityError::HealingZigzag)
+            }
+            RasterPath::Zigzag => Ok(Lines::zigzag(self.waves.clone(), self.terms, &self.heights)),
+        }
+    }
+
+    /// T below which nothing is looked for: α would be infinite, or far beyond all scales of the tip.
+    fn least_t(&self, lines: &Lines) -> f64 {
+        let finite = self
+            .law
+            .depth_limit
+            .map_or(0.0, |limit| self.r * self.depth.abs() / (LARGEST_EXPONENT * limit));
+        finite.max(LEAST * lines.scale())
     }
 
     fn is_alone(&self) -> bool {
         self.heights.iter().flatten().all(|h| h.abs() < ALONE)
     }
 
-    /// D(q).
-    fn denominator(&self, q: f64, ratio: f64) -> Complex64 {
-        Complex64::new(1.0, self.r * q) + ratio * self.g(q)
+    /// α of a.
+    fn alpha(&self, a: f64) -> f64 {
+        self.law.depth_limit.map_or(a, |limit| a * (a * self.depth.abs() / limit).exp())
     }
 
-    /// G(iq).
-    fn g(&self, q: f64) -> Complex64 {
-        self.transform.at(Complex64::new(0.0, q)).value
-    }
-
-    /// q² Σ_k ĝ_k(q) h_k((j+1)d).
-    fn coupling(&self, q: f64, j: usize) -> f64 {
-        let layers = self.footprint.layers().iter().zip(&self.heights);
-        let layer = |(layer, heights): (&stickslip_tip::Layer, &Vec<f64>)| {
-            heights.get(j).map_or(0.0, |h| h * layer.along.fourier(q))
-        };
-        q * q * layers.map(layer).sum::<f64>()
-    }
-
-    /// q² ĝ_k(q) of each layer.
-    fn ripples(&self, q: f64) -> Vec<f64> {
-        let layers = self.footprint.layers().iter();
-        layers.map(|layer| q * q * layer.along.fourier(q)).collect()
-    }
-
-    /// Σ_j h_k(jd) e^{-ijφ} of each layer, over the odd and over the even j.
-    fn phased(&self, phase: f64) -> Vec<[Complex64; 2]> {
-        let sums = |heights: &Vec<f64>| {
-            let mut sums = [Complex64::new(0.0, 0.0); 2];
-            for (j, h) in heights.iter().enumerate() {
-                sums[j % 2] += Complex64::from_polar(*h, -phase * (j + 1) as f64);
-            }
-            sums
-        };
-        self.heights.iter().map(sums).collect()
-    }
-
-    /// Wave numbers in which the footprint has anything to say.
-    fn wave_numbers(&self) -> Vec<f64> {
-        let step = self.footprint.path().band() / f64::from(SAMPLES);
-        (1..=SAMPLES).map(|i| step * f64::from(i)).collect()
-    }
-}
-
-/// What one q and one φ say of a one-way raster: with K = G - q² Σ ĝ L(φ), D = C L asks that (1 + irq) + (α/r)K = 0,
-/// so that K(1 - irq) is real and negative.
-fn real_alpha(
-    r: f64,
-    q: f64,
-    g: Complex64,
-    ripples: &[f64],
-    phased: &[[Complex64; 2]],
-) -> (f64, f64) {
-    let sums = phased.iter().map(|[odd, even]| odd + even);
-    let lines: Complex64 = ripples.iter().zip(sums).map(|(ripple, sum)| ripple * sum).sum();
-    let m = (g - lines) * Complex64::new(1.0, -r * q);
-    (-r * (1.0 + (r * q).powi(2)) / m.re, m.im)
-}
-
-impl Raster {
-    /// α, q and φ of the first crossing of a one-way raster.
-    fn one_way(&self) -> Option<(f64, f64, f64)> {
-        let q = self.wave_numbers();
-        let at: Vec<(f64, Complex64, Vec<f64>)> =
-            q.iter().map(|q| (*q, self.g(*q), self.ripples(*q))).collect();
-        let farthest = PI.min(self.footprint.path().band() * self.pitch);
-        let step = farthest / f64::from(SAMPLES);
-        let mut first: Option<(f64, f64, f64)> = None;
-        for i in -SAMPLES.cast_signed()..=SAMPLES.cast_signed() {
-            let phase = step * f64::from(i);
-            let phased = self.phased(phase);
-            let seen = |(q, g, ripples): &(f64, Complex64, Vec<f64>)| {
-                real_alpha(self.r, *q, *g, ripples, &phased)
-            };
-            let mut before = seen(&at[0]);
-            for pair in at.windows(2) {
-                let here = seen(&pair[1]);
-                if before.1 * here.1 < 0.0 && before.0 > 0.0 && here.0 > 0.0 {
-                    let share = before.1 / (before.1 - here.1);
-                    let alpha = before.0 + share * (here.0 - before.0);
-                    if first.is_none_or(|(least, ..)| alpha < least) {
-                        first = Some((alpha, pair[0].0 + share * (pair[1].0 - pair[0].0), phase));
-                    }
-                }
-                before = here;
-            }
+    /// a of α.
+    fn density(&self, alpha: f64) -> f64 {
+        if self.law.depth_limit.is_none() {
+            return alpha;
         }
-        let (_, q, phase) = first?;
-        let spacing = at[1].0 - at[0].0;
-        let crossing = |phase: f64| self.crossing(phase, q, spacing);
-        let slope =
-            |phase: f64| difference(step, phase, |phase| crossing(phase).map_or(f64::NAN, |c| c.0));
-        let phase = least_near(slope, phase, step);
-        crossing(phase).map(|(alpha, q)| (alpha, q, wrapped(phase)))
+        zero_between(|a| self.alpha(a) - alpha, 0.0, alpha)
     }
+}
 
-    /// α and q near `q` at a phase.
-    fn crossing(&self, phase: f64, q: f64, spacing: f64) -> Option<(f64, f64)> {
-        let phased = self.phased(phase);
-        let at = |q: f64| real_alpha(self.r, q, self.g(q), &self.ripples(q), &phased);
-        let ends =
-            (1..=8).map(|n| spacing * f64::from(n)).map(|far| ((q - far).max(0.5 * q), q + far));
-        let (low, high) = ends.into_iter().find(|(low, high)| at(*low).1 * at(*high).1 < 0.0)?;
-        let q = zero_between(|q| at(q).1, low, high);
-        Some((at(q).0, q))
+/// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter.
+fn heights(footprint: &Footprint, pitch: f64, left: f64) -> Result<Vec<Vec<f64>>, StabilityError> {
+    let widest = footprint.layers().iter().map(|layer| layer.across);
+    let reach = widest.map(|h| h.center + 9.0 * h.width).fold(0.0, f64::max);
+    let lines = (reach / pitch).ceil();
+    if !(pitch.is_finite() && pitch > 0.0 && lines < MOST_LINES as f64) {
+        return Err(StabilityError::Pitch(pitch));
     }
-
-    /// α, q and the phase between the two directions at the first crossing of a zigzag.
-    fn zigzag(&self) -> Option<(f64, f64, f64)> {
-        let phased = self.phased(0.0);
-        let alpha = |q: f64| self.zigzag_alpha(q, &phased);
-        let q = self.wave_numbers();
-        let seen = |q: &f64| alpha(*q).map(|alpha| (alpha, *q));
-        let first = q.iter().filter_map(seen).min_by(|a, b| a.0.total_cmp(&b.0));
-        let step = q[1] - q[0];
-        // Lines that hardly feel each other grow beside the q of a single line alone, on a stretch between samples.
-        let (near, step) = match first.map(|(_, q)| q) {
-            Some(q) => (q, 0.5 * step),
-            None => self.beside_single_line(&phased)?,
+    let layers = footprint.layers().iter();
+    let heights = layers.map(|layer| {
+        let mut kept = 1.0;
+        let height = |j: usize| {
+            kept *= left;
+            kept * layer.across.value(pitch * j as f64)
         };
-        let slope = |q: f64| difference(step, q, |q| alpha(q).unwrap_or(f64::NAN));
-        let q = least_near(slope, near, step);
-        let alpha = alpha(q)?;
-        let (d, c) = (self.denominator(q, alpha / self.r), alpha / self.r);
-        let [odd, even] = self.summed(q, &phased);
-        Some((alpha, q, ((d - c * even) / (c * odd)).arg()))
-    }
-
-    /// The q of a single line, and how far beside it a weak coupling may move it: |D| = |C| there, and D changes by more
-    /// than r in a unit of q.
-    fn beside_single_line(&self, phased: &[[Complex64; 2]]) -> Option<(f64, f64)> {
-        let alone = critical(self.footprint.path(), self.r).ok()?;
-        let q = 2.0 * PI / alone.wavelength;
-        let coupling = self.summed(q, phased).map(|sum| alone.alpha / self.r * sum.norm());
-        Some((q, 0.1 * coupling[0].max(coupling[1]) / self.r))
-    }
-
-    /// q² Σ_k ĝ_k L_k over odd and even lines.
-    fn summed(&self, q: f64, phased: &[[Complex64; 2]]) -> [Complex64; 2] {
-        let ripples = self.ripples(q);
-        [0, 1].map(|which| {
-            ripples.iter().zip(phased).map(|(ripple, sums)| ripple * sums[which]).sum()
-        })
-    }
-
-    /// The smallest α > 0 with (D - C_e)(D* - C_e) = C_o²: a quadratic in α/r at z = 1, with C_e and C_o of the even
-    /// and odd lines.
-    fn zigzag_alpha(&self, q: f64, phased: &[[Complex64; 2]]) -> Option<f64> {
-        let g = self.g(q);
-        let [odd, even] = self.summed(q, phased).map(|sum| sum.re);
-        let square = g.norm_sqr() - 2.0 * even * g.re + even * even - odd * odd;
-        let linear = g.re + self.r * q * g.im - even;
-        let constant = 1.0 + (self.r * q).powi(2);
-        let root = (linear * linear - square * constant).max(0.0).sqrt();
-        // Of a x² + 2bx + c, without cancellation.
-        let far = -linear - linear.signum() * root;
-        let real = linear * linear >= square * constant;
-        let roots =
-            [constant / far, far / square].into_iter().filter(|x| *x > 0.0 && x.is_finite());
-        roots.min_by(f64::total_cmp).filter(|_| real).map(|x| x * self.r)
-    }
+        let largest = layer.across.value(layer.across.center);
+        let mut heights: Vec<f64> = (1..=lines as usize).map(height).collect();
+        let last = heights.iter().rposition(|h| h.abs() >= NEGLIGIBLE * largest);
+        heights.truncate(last.map_or(0, |last| last + 1));
+        heights
+    });
+    Ok(heights.collect())
 }
 
-/// Where a slope passes zero near x, looked for ever farther out; x where it does not.
-fn least_near(slope: impl Fn(f64) -> f64, x: f64, step: f64) -> f64 {
-    let brackets = (0..7).map(|n| step * f64::from(1 << n)).map(|far| (x - far, x + far));
-    let bracket = brackets.into_iter().find(|(low, high)| slope(*low) * slope(*high) < 0.0);
-    bracket.map_or(x, |(low, high)| zero_between(slope, low, high))
-}
-
-/// f' by differences of fourth order.
-fn difference(scale: f64, x: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let h = DIFFERENCE.min(0.1 * scale);
-    (8.0 * (f(x + h) - f(x - h)) - (f(x + 2.0 * h) - f(x - 2.0 * h))) / (12.0 * h)
+fn is_gaussian(footprint: &Footprint) -> bool {
+    let of_gaussians = |tip: &TipFunction| matches!(tip, TipFunction::Gaussians(_));
+    footprint.layers().iter().all(|layer| of_gaussians(&layer.along))
 }
 
 /// Between -π and π.

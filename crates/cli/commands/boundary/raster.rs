@@ -6,11 +6,11 @@ use crate::commands::footprint::footprint;
 use crate::commands::grooves::left;
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
-use crate::commands::model::wider;
+use crate::commands::model::{refused_wider, wider};
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
 use stickslip_documents::{Physical, RasterBoundaryDocument, RasterBoundaryParameters};
-use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError, WiderRaster};
+use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
 
 const OPTION: &str = "--pitch-range";
@@ -55,7 +55,7 @@ pub(super) fn boundary(
             }
             // That nothing grows is an answer of the wider law.
             Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
-            Err(error) => return Err(refused(error, r, typed)),
+            Err(error) => return Err(refused(&error, r, typed)),
         }
         progress.counted(n as f64 + 1.0, || format!("{} of {points} pitches", n + 1));
     }
@@ -63,21 +63,23 @@ pub(super) fn boundary(
     job.finish(document.in_units(scales.as_ref()))
 }
 
-/// Where ripples of lines that go one way begin to grow, and the α of a zigzag, of which linear theory knows the paper's law
-/// alone.
+/// Where ripples of lines that go one way begin to grow, and the α of a zigzag; of that none over a surface that heals, and
+/// none where nothing grows.
 fn thresholds(
     footprint: &Footprint,
     law: Wider,
     (r, pitch): (f64, f64),
     left: f64,
 ) -> Result<(RasterCritical, Option<f64>), StabilityError> {
-    if !law.is_papers() {
-        let raster = WiderRaster::new(footprint, law, (r, pitch), left)?;
-        return Ok((raster.critical()?, None));
-    }
-    let raster = Raster::new(footprint, r, pitch)?;
+    let raster = Raster::new(footprint, law, (r, pitch), left)?;
     let one_way = raster.critical(RasterPath::OneWay)?;
-    Ok((one_way, raster.critical(RasterPath::Zigzag).ok().map(|at| at.alpha)))
+    match raster.critical(RasterPath::Zigzag) {
+        Ok(zigzag) => Ok((one_way, Some(zigzag.alpha))),
+        Err(StabilityError::HealingZigzag | StabilityError::NoCrossing { .. }) => {
+            Ok((one_way, None))
+        }
+        Err(error) => Err(error),
+    }
 }
 
 fn remark(left_out: &[f64]) -> Option<String> {
@@ -88,12 +90,15 @@ fn remark(left_out: &[f64]) -> Option<String> {
     ))
 }
 
-fn refused(error: StabilityError, r: f64, typed: &Interval) -> Failure {
+fn refused(error: &StabilityError, r: f64, typed: &Interval) -> Failure {
     match error {
         StabilityError::R(_) => Failure::input(format!("--r {}", Typed(r)), error),
         StabilityError::NoSupport => Failure::input("--no-spring", error),
         StabilityError::Corner => Failure::input("--depth-limit", error),
-        StabilityError::PapersLawOnly(_) => Failure::input("--tip", error),
+        StabilityError::Wider(error) => refused_wider(error),
+        StabilityError::PapersLawOnly(_) | StabilityError::NoRipples => {
+            Failure::input("--tip", error)
+        }
         error => typed.refused(OPTION, error),
     }
 }

@@ -17,7 +17,7 @@ use stickslip_documents::{
     PathName, Physical, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
 };
 use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
-use stickslip_stability::{Raster, RasterPath, WiderRaster};
+use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 const MOST_POINTS: usize = 100_000;
@@ -155,15 +155,9 @@ impl Grid {
     fn threshold(&self, pitch: f64) -> Option<f64> {
         let RasterSweepParameters { r, path, length, .. } = &self.parameters;
         let path = if *path == PathName::Zigzag { RasterPath::Zigzag } else { RasterPath::OneWay };
-        let critical = if self.law.is_papers() {
-            Raster::new(&self.footprint, *r, pitch).and_then(|raster| raster.critical(path))
-        } else if path == RasterPath::OneWay {
-            let left = self.law.left_after(length / r);
-            WiderRaster::new(&self.footprint, self.law, (*r, pitch), left)
-                .and_then(|raster| raster.critical())
-        } else {
-            return None;
-        };
+        let left = self.law.left_after(length / r);
+        let raster = Raster::new(&self.footprint, self.law, (*r, pitch), left);
+        let critical = raster.and_then(|raster| raster.critical(path));
         critical.ok().map(|at| at.alpha)
     }
 }

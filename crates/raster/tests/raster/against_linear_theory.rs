@@ -11,7 +11,7 @@
 use num_complex::Complex64;
 use stickslip_raster::{Line, Path, Plan, Scanning};
 use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction};
+use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction, Wider};
 
 /// Of the pulse; its square is what is not linear.
 const WEAK: f64 = 1e-4;
@@ -55,7 +55,7 @@ fn pitch(plan: &Plan) -> f64 {
 
 /// The largest relative error of δρ̂_n against the recurrence.
 fn worst(plan: &Plan, width_y: f64, q: f64) -> f64 {
-    let theory = Raster::new(&plan.footprint, 1.0, pitch(plan)).unwrap();
+    let theory = Raster::new(&plan.footprint, Wider::default(), (1.0, pitch(plan)), 1.0).unwrap();
     let gain = theory.repeat_gain(plan.law.model.alpha(), q) - 1.0;
     let found = ripples(plan, q);
     let mut worst = 0.0_f64;
@@ -89,7 +89,7 @@ fn every_line_answers_to_those_before_as_theory_says() {
 #[test]
 fn growth_from_line_to_line_is_that_of_theory() {
     let plan = plan(0.0, 1.0, 0.43, Path::OneWay, (0.5, 60, 280.0));
-    let theory = Raster::new(&plan.footprint, 1.0, 0.5).unwrap();
+    let theory = Raster::new(&plan.footprint, Wider::default(), (1.0, 0.5), 1.0).unwrap();
     let critical = theory.critical(RasterPath::OneWay).unwrap();
     assert!(critical.alpha < 0.43);
     let found = ripples(&plan, critical.q);
@@ -104,7 +104,7 @@ fn growth_from_line_to_line_is_that_of_theory() {
 #[test]
 fn a_repeated_pass_has_the_gain_of_theory() {
     let plan = plan(0.0, 1.0, 0.25, Path::Repeat, (1.0, 5, 130.0));
-    let theory = Raster::new(&plan.footprint, 1.0, 1.0).unwrap();
+    let theory = Raster::new(&plan.footprint, Wider::default(), (1.0, 1.0), 1.0).unwrap();
     for q in [0.7, 1.2] {
         let found = ripples(&plan, q);
         let groove = |n: usize| found[..n].iter().sum::<Complex64>();

@@ -26,7 +26,10 @@ fn written(alpha: f64, path: Path, pitch: f64) -> (Regime, Option<Pattern>, Vec<
 /// A little above the threshold the crests are those of linear theory, which knows nothing of runs.
 #[test]
 fn ripples_are_those_that_grow() {
-    let critical = Raster::new(&round(), 1.0, 1.0).unwrap().critical(RasterPath::OneWay).unwrap();
+    let critical = Raster::new(&round(), Wider::default(), (1.0, 1.0), 1.0)
+        .unwrap()
+        .critical(RasterPath::OneWay)
+        .unwrap();
     let (regime, found, lines) = written(1.1 * critical.alpha, Path::OneWay, 1.0);
     let found = found.unwrap();
     println!("{regime:?} {found:?}");
@@ -62,7 +65,10 @@ fn what_is_no_ripple_is_called_otherwise() {
 /// linear theory, so that crests stand upright and neighbours differ by its cosine.
 #[test]
 fn a_zigzag_is_ordered_among_lines_that_go_the_same_way() {
-    let critical = Raster::new(&round(), 1.0, 1.0).unwrap().critical(RasterPath::Zigzag).unwrap();
+    let critical = Raster::new(&round(), Wider::default(), (1.0, 1.0), 1.0)
+        .unwrap()
+        .critical(RasterPath::Zigzag)
+        .unwrap();
     let (regime, found, _) = written(1.05 * critical.alpha, Path::Zigzag, 1.0);
     let found = found.unwrap();
     println!("{regime:?} {found:?}");

@@ -1,5 +1,5 @@
 //! Small ripples of nonlinear rasters under the wider law grow from line to line as linear theory says
-//! (`stickslip_stability::WiderRaster`, which knows nothing of runs): with inertia, healing and a depth limit, alone and
+//! (`stickslip_stability::Raster`, which knows nothing of runs): with inertia, healing and a depth limit, alone and
 //! together. A weak pulse on the first line, with either sign; half the difference is linear. What is measured is what
 //! deviates of the density that a line leaves, ∫ w e^{-px0(t)} e^{t/T} dt with p = iq + 1/(rT), over the motion itself.
 
@@ -7,7 +7,7 @@
 
 use num_complex::Complex64;
 use stickslip_raster::{Line, Path, Plan, Scanning};
-use stickslip_stability::{Raster, RasterPath, StabilityError, WiderRaster};
+use stickslip_stability::{Raster, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction, Wider};
 
 const WEAK: f64 = 1e-4;
@@ -41,9 +41,9 @@ impl Case {
         plan
     }
 
-    fn theory(&self) -> WiderRaster {
+    fn theory(&self) -> Raster {
         let at = (self.r, self.pitch);
-        WiderRaster::new(&footprint(self.beta), self.law, at, left(&self.law, self.r)).unwrap()
+        Raster::new(&footprint(self.beta), self.law, at, left(&self.law, self.r)).unwrap()
     }
 
     /// What deviates of the density of every line.
@@ -84,7 +84,8 @@ fn every_line_answers_to_those_before_as_theory_says() {
         ("all", 0.0, all, 1.0, 1.0, 17),
     ] {
         let case = Case { beta, law, alpha: 1.0, r, pitch, lines };
-        let (theory, critical) = (case.theory(), case.theory().critical().unwrap());
+        let (theory, critical) =
+            (case.theory(), case.theory().critical(RasterPath::OneWay).unwrap());
         let case = Case { alpha: 0.9 * critical.alpha, ..case };
         let found = case.deviations(critical.q);
         let last = case.lines - 1;
@@ -97,7 +98,7 @@ fn every_line_answers_to_those_before_as_theory_says() {
         println!("{name}: α {:.4}, q {:.4}: {error:.1e}", case.alpha, critical.q);
         assert!(error < 1e-6, "{name}: {error:e}");
         // Negative control: the paper's law says otherwise.
-        let plain = WiderRaster::new(&footprint(beta), papers, (r, pitch), 1.0).unwrap();
+        let plain = Raster::new(&footprint(beta), papers, (r, pitch), 1.0).unwrap();
         assert!(off(&plain.answers(case.alpha, critical.q)) > 1e-2, "{name}");
     }
 }
@@ -108,9 +109,12 @@ fn every_line_answers_to_those_before_as_theory_says() {
 fn thresholds_are_where_the_recurrence_neither_grows_nor_fades() {
     let round = footprint(0.0);
     for pitch in [0.25, 1.0] {
-        let papers = Raster::new(&round, 1.0, pitch).unwrap().critical(RasterPath::OneWay).unwrap();
-        let found = WiderRaster::new(&round, Wider::default(), (1.0, pitch), 1.0).unwrap();
-        let found = found.critical().unwrap();
+        let papers = Raster::new(&round, Wider::default(), (1.0, pitch), 1.0)
+            .unwrap()
+            .critical(RasterPath::OneWay)
+            .unwrap();
+        let found = Raster::new(&round, Wider::default(), (1.0, pitch), 1.0).unwrap();
+        let found = found.critical(RasterPath::OneWay).unwrap();
         assert!((found.alpha - papers.alpha).abs() < 1e-11, "{found:?} {papers:?}");
         assert!((found.q - papers.q).abs() < 1e-7);
     }
@@ -122,8 +126,8 @@ fn thresholds_are_where_the_recurrence_neither_grows_nor_fades() {
     for law in [limited, heavy, healing, all] {
         for pitch in [0.5, 1.0] {
             let left = law.healing_time.map_or(1.0, |_| 0.3);
-            let raster = WiderRaster::new(&round, law, (1.0, pitch), left).unwrap();
-            let at = raster.critical().unwrap();
+            let raster = Raster::new(&round, law, (1.0, pitch), left).unwrap();
+            let at = raster.critical(RasterPath::OneWay).unwrap();
             let z = raster.growth(at.alpha, at.q);
             println!("{law:?} {pitch}: {at:?} {z}");
             assert!((z.norm() - 1.0).abs() < 1e-8, "{law:?} {z}");
@@ -141,13 +145,15 @@ fn thresholds_are_where_the_recurrence_neither_grows_nor_fades() {
 fn where_there_is_no_linear_law_it_is_said() {
     let limited = Wider { depth_limit: Some(3.0), ..Wider::default() };
     let at = (1.0, 0.5);
-    let error = WiderRaster::new(&footprint(1.0), limited, at, 1.0).unwrap_err();
+    let error = Raster::new(&footprint(1.0), limited, at, 1.0).unwrap_err();
     assert_eq!(error, StabilityError::Corner);
     let bessel = Footprint::separable(TipFunction::Bessel, 1.0).unwrap();
-    assert!(WiderRaster::new(&bessel, Wider::default(), at, 1.0).is_err());
+    assert!(Raster::new(&bessel, Wider::default(), at, 1.0).is_err());
     // A shallow limit leaves nothing to grow.
     let shallow = Wider { depth_limit: Some(0.01), ..Wider::default() };
-    let error =
-        WiderRaster::new(&footprint(0.0), shallow, at, 1.0).unwrap().critical().unwrap_err();
+    let error = Raster::new(&footprint(0.0), shallow, at, 1.0)
+        .unwrap()
+        .critical(RasterPath::OneWay)
+        .unwrap_err();
     assert_eq!(error, StabilityError::NoCrossing { r: 1.0 });
 }

@@ -12,7 +12,7 @@ mod walking;
 pub(super) use characteristic::WiderCharacteristic;
 pub use limits::{least_depth_limit, memory_length};
 pub use onset::{OnsetKind, WiderCritical, boundary_under, critical_under};
-pub(super) use transforms::PlainTransforms;
+pub(super) use transforms::{Jet, PlainTransforms};
 pub use walking::{Walk, walk, walking_alpha, walking_speeds};
 
 use super::StabilityError;

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use stickslip_tip::TipFunction;
 
 /// A value and its derivative.
-pub(super) type Jet = (Complex64, Complex64);
+pub(in super::super) type Jet = (Complex64, Complex64);
 
 /// The transforms at one p, all of them times `unit`·e^{`log_scale`}: 1 for Gaussians, √(p²+1) for J0 and p²+1
 /// for cos x, whose transforms are infinite at ±i.
@@ -48,12 +48,12 @@ pub(super) struct Footprint {
 #[derive(Debug, Clone)]
 pub(in super::super) struct PlainTransforms(Footprint);
 
-/// φ, φ1 and G.
+/// φ, φ1 and G, with their derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(in super::super) struct Values {
-    pub(in super::super) height: Complex64,
-    pub(in super::super) slope: Complex64,
-    pub(in super::super) curvature: Complex64,
+    pub(in super::super) height: Jet,
+    pub(in super::super) slope: Jet,
+    pub(in super::super) curvature: Jet,
 }
 
 impl PlainTransforms {
@@ -63,12 +63,12 @@ impl PlainTransforms {
 
     pub(in super::super) fn at(&self, p: Complex64) -> Values {
         let at = self.0.at(p);
-        let unit = at.unit.0;
-        Values {
-            height: at.height.0 / unit,
-            slope: at.slope.0 / unit,
-            curvature: at.curvature.0 / unit,
-        }
+        let (unit, change) = at.unit;
+        let over = |(value, slope): Jet| {
+            let value = value / unit;
+            (value, (slope - value * change) / unit)
+        };
+        Values { height: over(at.height), slope: over(at.slope), curvature: over(at.curvature) }
     }
 }
 

@@ -6,11 +6,11 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use stickslip_stability::{Raster, RasterPath, critical};
-use stickslip_tip::{Footprint, TipFunction};
+use stickslip_tip::{Footprint, TipFunction, Wider};
 
 fn gaussian(pitch: f64) -> Raster {
     let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
-    Raster::new(&footprint, 1.0, pitch).unwrap()
+    Raster::new(&footprint, Wider::default(), (1.0, pitch), 1.0).unwrap()
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn at_the_threshold_a_ripple_neither_grows_nor_fades() {
     let triple = TipFunction::triple_gaussian(0.6, 1.0).unwrap();
     let footprint = Footprint::separable(triple, 0.7).unwrap();
     for (r, pitch) in [(1.0, 0.5), (0.4, 0.8), (2.0, 1.1)] {
-        let raster = Raster::new(&footprint, r, pitch).unwrap();
+        let raster = Raster::new(&footprint, Wider::default(), (r, pitch), 1.0).unwrap();
         let found = raster.critical(RasterPath::OneWay).unwrap();
         let z = raster.growth(found.alpha, found.q);
         assert!((z.norm() - 1.0).abs() < 1e-9, "{z}");
@@ -117,8 +117,9 @@ fn another_pass_flattens_long_ripples_and_deepens_none_at_small_alpha() {
 fn what_is_no_pitch_is_refused() {
     let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
     for pitch in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9] {
-        let error = Raster::new(&footprint, 1.0, pitch).unwrap_err().to_string();
+        let error =
+            Raster::new(&footprint, Wider::default(), (1.0, pitch), 1.0).unwrap_err().to_string();
         assert!(error.contains("pitch"), "{error}");
     }
-    assert!(Raster::new(&footprint, -1.0, 1.0).is_err());
+    assert!(Raster::new(&footprint, Wider::default(), (-1.0, 1.0), 1.0).is_err());
 }

@@ -1,0 +1,55 @@
+//! Waves that grow at a given T and q, by the turns of the determinant along the unit circle.
+
+use super::determinant::Lines;
+use super::optimum::Place;
+use crate::transform::Scaled;
+use crate::winding::{argument_along, whole};
+use num_complex::Complex64;
+use std::f64::consts::{PI, TAU};
+
+/// The wave of the threshold is counted this far within the circle and beyond.
+const OFF_CIRCLE: f64 = 1e-3;
+/// α at which waves are counted are no farther from the threshold than this part of it.
+const FARTHEST: f64 = 1e-3;
+
+/// What grows beside a threshold.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Counted {
+    pub(super) margin: f64,
+    pub(super) below: Option<usize>,
+    pub(super) above: Option<usize>,
+}
+
+/// Waves of the q of a threshold a little below it and above.
+pub(super) fn beside(lines: &Lines, place: Place) -> Counted {
+    let slopes = place.slopes(lines);
+    // How far T moves while w moves by OFF_CIRCLE.
+    let moved = OFF_CIRCLE * (slopes.theta / slopes.t).norm();
+    let margin = (moved / place.t).min(FARTHEST);
+    let at = |part: f64| growing(lines, place.t * part, place.q);
+    Counted { margin, below: at(1.0 + margin), above: at(1.0 - margin) }
+}
+
+/// Zeros of Q within the unit circle; `None` where one lies on it.
+pub(super) fn growing(lines: &Lines, t: f64, q: f64) -> Option<usize> {
+    let wave = lines.wave(q, 1.0);
+    let along = |theta: Complex64| {
+        let here = lines.determinant(&wave, &lines.phase(theta.re, 1.0), t).value;
+        Scaled { value: here.value, derivative: here.along[1], log_scale: 0.0 }
+    };
+    let turned = argument_along(along, &corners(lines.felt())).ok()?;
+    whole(turned, TAU)
+}
+
+/// Phases from -π to π, closer to each other than sums of so many lines vary.
+fn corners(lines: usize) -> Vec<Complex64> {
+    let finest = 0.3 / (lines as f64).max(1.0);
+    let mut half = vec![0.0_f64];
+    let mut theta = 0.0_f64;
+    while theta < PI {
+        theta = (theta + finest.max(0.1 * theta)).min(PI);
+        half.push(theta);
+    }
+    let negative = half.iter().skip(1).rev().map(|theta| -theta);
+    negative.chain(half.iter().copied()).map(Complex64::from).collect()
+}

@@ -1,0 +1,81 @@
+//! Bounds of the transforms of a footprint and of their second derivatives, from integrals over it.
+
+use stickslip_tip::TipFunction;
+
+/// Samples of f over its reach, from which its integrals are bounded.
+const SAMPLES: (f64, f64) = (256.0, 4000.0);
+/// A sum of more Gaussians than this is a table, smooth between its rows.
+const MOST_TERMS: usize = 16;
+/// Kept between those sums and the bounds that use them.
+const MARGIN: f64 = 1.2;
+
+/// Of f, f' and f'' in turn, F the transform ∫ f e^{-px}dx or its like, over x > 0 or all x:
+/// |F| ≤ `area` and ≤ `decay`/|p|, and |F''| ≤ `second` and ≤ `bend`/|p|².
+///
+/// ```text
+///     area = ∫|f|W,   decay = |f(0)| + ∫|f'|W,   second = ∫x²|f|W,   bend = ∫|(x²f)''|W
+/// ```
+///
+/// by parts once and twice; W bounds e^{-Re(p)x}.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Extent {
+    pub(super) area: [f64; 3],
+    pub(super) decay: [f64; 3],
+    pub(super) second: [f64; 3],
+    pub(super) bend: [f64; 3],
+}
+
+impl Extent {
+    /// Over x > 0, Re p ≥ 0.
+    pub(super) fn one_sided(tip: &TipFunction) -> Self {
+        Self::weighted(tip, true, |_| 1.0)
+    }
+
+    /// Over all x, Re p = `fading`.
+    pub(super) fn two_sided(tip: &TipFunction, fading: f64) -> Self {
+        Self::weighted(tip, false, |x| 2.0 * (fading * x).cosh())
+    }
+
+    /// |F''| where |p| ≥ `distance`, of f, f' and f''.
+    pub(super) fn curvature(&self, distance: f64) -> [f64; 3] {
+        [0, 1, 2].map(|i: usize| self.second[i].min(self.bend[i] / (distance * distance)))
+    }
+
+    fn weighted(tip: &TipFunction, has_edge: bool, weight: impl Fn(f64) -> f64) -> Self {
+        let reach = tip.reach().unwrap_or(1.0);
+        let is_table = matches!(tip, TipFunction::Gaussians(sum) if sum.terms().len() > MOST_TERMS);
+        let wanted = if is_table { SAMPLES.0 } else { 4.0 * reach * tip.band() };
+        let samples = wanted.clamp(SAMPLES.0, SAMPLES.1).ceil();
+        let step = reach / samples;
+        let at = |x: f64| {
+            let (slope, curvature) = tip.slope_and_curvature(x);
+            [tip.value(x), slope, curvature]
+        };
+        let mut extent = Self::default();
+        let mut last = at(0.0);
+        if has_edge {
+            extent.decay = last.map(f64::abs);
+        }
+        // (x²f)' over the last step; 0 at 0.
+        let mut slopes = [0.0; 3];
+        let mut x = 0.0;
+        while x < reach {
+            let here = at(x + step);
+            let w = weight(x + step);
+            let (from, to) = (x * x, (x + step) * (x + step));
+            for i in 0..3 {
+                extent.area[i] += 0.5 * w * step * (here[i].abs() + last[i].abs());
+                extent.decay[i] += w * (here[i] - last[i]).abs();
+                extent.second[i] += 0.5 * w * step * (to * here[i].abs() + from * last[i].abs());
+                let slope = (to * here[i] - from * last[i]) / step;
+                extent.bend[i] += w * (slope - slopes[i]).abs();
+                slopes[i] = slope;
+            }
+            (last, x) = (here, x + step);
+        }
+        let Self { area, decay, second, bend } = extent;
+        let [area, decay, second, bend] =
+            [area, decay, second, bend].map(|all| all.map(|f| MARGIN * f));
+        Self { area, decay, second, bend }
+    }
+}

@@ -1,0 +1,127 @@
+//! Sums over earlier lines, Σ_j h(jd) w^j, on intervals of the phase of w = e^{iθ}.
+
+use super::patch::Patch;
+use num_complex::Complex64;
+
+/// Differences up to this order bound the sums away from θ = 0.
+const ORDERS: usize = 4;
+
+/// Σ_i h_i w^{i+first}: heights of earlier lines at y of this one.
+#[derive(Debug, Clone)]
+pub(super) struct Sequence {
+    heights: Vec<f64>,
+    first: usize,
+    /// Σ|Δ^k h|, which bounds |sum| |1-w|^k, by summation by parts.
+    sizes: [f64; ORDERS],
+    /// Σ|Δ^k (i + first)² h|, likewise of the second derivative.
+    seconds: [f64; ORDERS],
+}
+
+impl Sequence {
+    pub(super) fn new(heights: Vec<f64>, first: usize) -> Self {
+        let squares =
+            heights.iter().enumerate().map(|(i, h)| h * ((i + first) as f64).powi(2)).collect();
+        let (sizes, seconds) = (differences(heights.clone()), differences(squares));
+        Self { heights, first, sizes, seconds }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.heights.len()
+    }
+
+    /// Σ|h|
+    pub(super) fn total(&self) -> f64 {
+        self.sizes[0]
+    }
+
+    /// The sum and its derivative with respect to θ.
+    pub(super) fn at(&self, theta: f64) -> (Complex64, Complex64) {
+        let w = Complex64::from_polar(1.0, theta);
+        let (mut sum, mut slope) = (Complex64::ZERO, Complex64::ZERO);
+        for h in self.heights.iter().rev() {
+            slope = slope * w + sum;
+            sum = sum * w + h;
+        }
+        let shift = Complex64::from_polar(1.0, theta * self.first as f64);
+        let derivative = (slope * w + sum * self.first as f64) * shift * Complex64::I;
+        (sum * shift, derivative)
+    }
+
+    /// For |θ - centre| ≤ `half`.
+    pub(super) fn patch(&self, centre: f64, half: f64) -> Patch {
+        let (value, slope) = self.at(centre);
+        let slope = slope * half;
+        let apart = distance_to_1(centre, half);
+        let bound = |sums: &[f64; ORDERS]| {
+            let mut power = 1.0;
+            sums.iter().fold(f64::INFINITY, |least, sum| {
+                let here = sum / power;
+                power *= apart;
+                least.min(here)
+            })
+        };
+        let tangent = 0.5 * half * half * bound(&self.seconds);
+        let anything = bound(&self.sizes) + value.norm() + slope.norm();
+        Patch { value, along: [Complex64::ZERO, slope], rest: tangent.min(anything) }
+    }
+}
+
+/// |1 - e^{iθ}| is nowhere less for |θ - centre| ≤ half.
+fn distance_to_1(centre: f64, half: f64) -> f64 {
+    let turns = std::f64::consts::TAU;
+    let off = (centre - turns * (centre / turns).round()).abs() - half;
+    // Beyond π it comes nearer to the next turn.
+    let off = if off + 2.0 * half > std::f64::consts::PI {
+        off.min(turns - (off + 2.0 * half))
+    } else {
+        off
+    };
+    2.0 * (0.5 * off.max(0.0)).sin()
+}
+
+/// Σ|Δ^k h| of h with 0 before and behind.
+fn differences(mut h: Vec<f64>) -> [f64; ORDERS] {
+    let mut sums = [0.0; ORDERS];
+    for sum in &mut sums {
+        *sum = h.iter().map(|h| h.abs()).sum();
+        h.push(0.0);
+        for i in (1..h.len()).rev() {
+            h[i] -= h[i - 1];
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum written out, at many phases of many intervals.
+    #[test]
+    fn sums_are_within_their_patches() {
+        for (pitch, first) in [(1.0, 1), (0.2, 1), (0.03, 0)] {
+            let heights: Vec<f64> = (0..)
+                .map(|i| f64::from(i) * pitch)
+                .take_while(|y| *y < 9.0)
+                .map(|y| (1.0 - 0.4 * y * y) * (-0.5 * y * y).exp())
+                .collect();
+            let exact = |theta: f64| -> Complex64 {
+                let each = heights.iter().enumerate();
+                each.map(|(i, h)| Complex64::from_polar(*h, theta * (i + first) as f64)).sum()
+            };
+            let sequence = Sequence::new(heights.clone(), first);
+            for i in -40..=40 {
+                for half in [1e-3, 0.02, 0.3, 3.2] {
+                    let centre = 0.0785 * f64::from(i);
+                    let patch = sequence.patch(centre, half);
+                    for k in -5..=5 {
+                        let y = 0.2 * f64::from(k);
+                        let said = patch.value + patch.along[1] * y;
+                        let off = (exact(centre + y * half) - said).norm();
+                        assert!(off <= patch.rest + 1e-12, "{pitch} {centre} {half}: {off}");
+                    }
+                }
+            }
+        }
+    }
+}

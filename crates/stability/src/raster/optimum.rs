@@ -1,0 +1,159 @@
+//! Where T is largest, by Newton's method.
+
+use super::determinant::{Determinant, Lines};
+use num_complex::Complex64;
+
+/// Steps of Newton's method.
+const MOST_STEPS: usize = 40;
+/// Part of a cell over which slopes are compared.
+const PART: f64 = 1e-2;
+/// Steps longer than so many cells lead away.
+const FARTHEST: f64 = 1e3;
+/// Q = 0 to so much of what T changes it.
+const SOLVED: f64 = 1e-12;
+
+/// A zero of Q.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// T
+    pub(super) t: f64,
+    pub(super) q: f64,
+    /// arg w, or arg W
+    pub(super) theta: f64,
+    /// Whether T is stationary there.
+    pub(super) is_stationary: bool,
+}
+
+/// Q and its derivatives with respect to T, q and θ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slopes {
+    pub(super) value: Complex64,
+    pub(super) t: Complex64,
+    pub(super) q: Complex64,
+    pub(super) theta: Complex64,
+}
+
+impl Place {
+    /// Whether it is stationary, and in a cell or beside it.
+    pub(super) fn settles(&self, [q, theta]: [(f64, f64); 2]) -> bool {
+        let is_in = |x: f64, (centre, half): (f64, f64)| (x - centre).abs() <= 3.0 * half;
+        self.is_stationary && is_in(self.q, q) && is_in(self.theta, theta)
+    }
+
+    pub(super) fn slopes(&self, lines: &Lines) -> Slopes {
+        let here =
+            lines.determinant(&lines.wave(self.q, 1.0), &lines.phase(self.theta, 1.0), self.t);
+        let Determinant { value, slope, .. } = here;
+        let [q, theta] = value.along;
+        Slopes { value: value.value, t: slope.value, q, theta }
+    }
+}
+
+/// A zero of Q from the middle of a cell: one at which T is stationary, or any.
+pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2]) -> Option<Place> {
+    let [(q, _), (theta, half_theta)] = cell;
+    let start = started(lines, q, lines.symmetric(theta, half_theta))?;
+    if lines.is_alone() {
+        return solved(lines, start);
+    }
+    let stationary = stationary(lines, start, cell).and_then(|place| solved(lines, place));
+    let stationary = stationary.map(|place| Place { is_stationary: true, ..place });
+    stationary.or_else(|| solved(lines, start))
+}
+
+/// Newton's method for Q = 0 and for what is 0 where T is stationary.
+fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<Place> {
+    let [(_, half_q), (_, half_theta)] = cell;
+    let (step_q, step_theta) = (PART * half_q, PART * half_theta);
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        let here = place.slopes(lines);
+        let at =
+            |t: f64, q: f64, theta: f64| balance(&Place { t, q, theta, ..place }.slopes(lines));
+        let Place { t, q, theta, .. } = place;
+        let difference = |up: f64, down: f64, step: f64| (up - down) / (2.0 * step);
+        let step_t = PART * here.t.norm();
+        let row = [
+            difference(at(t + step_t, q, theta), at(t - step_t, q, theta), step_t),
+            difference(at(t, q + step_q, theta), at(t, q - step_q, theta), step_q),
+            difference(at(t, q, theta + step_theta), at(t, q, theta - step_theta), step_theta),
+        ];
+        let rows =
+            [[here.t.re, here.q.re, here.theta.re], [here.t.im, here.q.im, here.theta.im], row];
+        let [t, q, theta] = solution(rows, [here.value.re, here.value.im, balance(&here)])?;
+        let size = (t / place.t).abs() + (q / half_q).abs() + (theta / half_theta).abs();
+        place = Place { t: place.t - t, q: place.q - q, theta: place.theta - theta, ..place };
+        if !(place.q > 0.0 && place.t > 0.0 && size < FARTHEST) {
+            return None;
+        }
+        if size < 1e-13 || size < 1e-6 && size >= before {
+            return Some(place);
+        }
+        before = size;
+    }
+    None
+}
+
+/// T where the real part of Q vanishes in the middle of a cell, the largest there is.
+fn started(lines: &Lines, q: f64, theta: f64) -> Option<Place> {
+    let here = lines.determinant(&lines.wave(q, 1.0), &lines.phase(theta, 1.0), 0.0);
+    let (value, slope) = (here.value.value, here.slope.value);
+    let t = if here.curved {
+        let root = (0.25 * slope * slope - value).sqrt();
+        (-0.5 * slope.re) + root.re.abs()
+    } else {
+        -(value / slope).re
+    };
+    (t.is_finite() && t > 0.0).then_some(Place { t, q, theta, is_stationary: lines.is_alone() })
+}
+
+/// Q = 0 at the same q, or for a single line at any.
+fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
+    for _ in 0..MOST_STEPS {
+        let here = place.slopes(lines);
+        let other = if lines.is_alone() { here.q } else { here.theta };
+        let determinant = here.t.re * other.im - here.t.im * other.re;
+        let step_t = (here.value.re * other.im - here.value.im * other.re) / determinant;
+        let step = (here.t.re * here.value.im - here.t.im * here.value.re) / determinant;
+        if !(step_t.is_finite() && step.is_finite()) {
+            return None;
+        }
+        place.t -= step_t;
+        if lines.is_alone() {
+            place.q -= step;
+        } else {
+            place.theta -= step;
+        }
+        if !(place.t > 0.0 && place.q > 0.0) {
+            return None;
+        }
+        if step_t.abs() <= 2.0 * f64::EPSILON * place.t && step.abs() < SOLVED {
+            return Some(place);
+        }
+    }
+    let here = place.slopes(lines);
+    (here.value.norm() <= SOLVED * place.t * here.t.norm()).then_some(place)
+}
+
+/// 0 where T is stationary: there Q = 0 allows a change of q and θ alone, so that both slopes are of one direction in the
+/// plane.
+fn balance(slopes: &Slopes) -> f64 {
+    (slopes.q * slopes.theta.conj()).im / slopes.theta.norm()
+}
+
+/// Of three linear equations, by Cramer's rule.
+fn solution(rows: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
+    let determinant = |m: [[f64; 3]; 3]| {
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    };
+    let all = determinant(rows);
+    let part = |column: usize| {
+        let mut replaced = rows;
+        (0..3).for_each(|row| replaced[row][column] = right[row]);
+        determinant(replaced) / all
+    };
+    let x = [part(0), part(1), part(2)];
+    x.iter().all(|x| x.is_finite()).then_some(x)
+}

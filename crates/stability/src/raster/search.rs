@@ -1,0 +1,124 @@
+//! The first ripple that neither grows nor fades: the largest T = r/a at which the determinant Q(T, q, θ) vanishes.
+//!
+//! Branch and bound. The half-strip of all wave numbers and phases is cut into cells; on each, Q is known with its slopes and
+//! a bound of all else ([`Patch`](super::patch)). A cell on which Q has no zero at any T above the largest known one, T',
+//! raised by one part in 1e10, is done with: there, for some μ, Re (1 - iμ)Q > 0 at all these T. Others are halved. In
+//! between, Newton's method looks for larger T in the cells that promise them. So the search ends only when no ripple is left
+//! that could grow at a smaller α, however narrow the band that it grows in; it ends because near the largest T bounds
+//! tighten with the square of a cell's size, as T falls away from it. What it proves holds but for round-off, of which the
+//! bounds know nothing.
+
+use super::determinant::{Determinant, Lines, Phase, Wave};
+use super::optimum::{Place, candidate};
+use crate::StabilityError;
+use stickslip_tip::stop;
+
+/// A threshold is the least to so much of itself.
+pub(super) const MARGIN: f64 = 1e-10;
+/// Beyond so many cells the search is given up.
+const MOST_CELLS: usize = 4_000_000;
+/// Cells of a round in which Newton's method is tried.
+const TRIED: usize = 3;
+
+/// An interval of wave numbers or of phases, and its halves once they were asked for.
+struct Interval<F> {
+    centre: f64,
+    half: f64,
+    of: F,
+    halves: Option<[usize; 2]>,
+}
+
+/// A binary tree of intervals.
+struct Tree<'a, F> {
+    of: &'a dyn Fn(f64, f64) -> F,
+    all: Vec<Interval<F>>,
+}
+
+/// What a search found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Found {
+    /// Where T is largest, if it is above the floor anywhere.
+    pub(super) place: Option<Place>,
+    /// Cells that were looked at.
+    pub(super) cells: usize,
+}
+
+impl<'a, F> Tree<'a, F> {
+    fn new(of: &'a dyn Fn(f64, f64) -> F, (centre, half): (f64, f64)) -> Self {
+        let root = Interval { centre, half, of: of(centre, half), halves: None };
+        Self { of, all: vec![root] }
+    }
+
+    fn halves(&mut self, index: usize) -> [usize; 2] {
+        if let Some(halves) = self.all[index].halves {
+            return halves;
+        }
+        let (centre, half) = (self.all[index].centre, 0.5 * self.all[index].half);
+        let halves = [centre - half, centre + half].map(|centre| {
+            self.all.push(Interval { centre, half, of: (self.of)(centre, half), halves: None });
+            self.all.len() - 1
+        });
+        self.all[index].halves = Some(halves);
+        halves
+    }
+}
+
+/// The largest T above `floor`.
+///
+/// # Errors
+/// [`StabilityError::Uncertified`] if there are too many cells, [`StabilityError::Stopped`].
+pub(super) fn largest(lines: &Lines, floor: f64) -> Result<Found, StabilityError> {
+    let (mut best, mut least): (Option<Place>, f64) = (None, floor);
+    let farthest = farthest(lines, least);
+    let (wave, phase) = (|q, half| lines.wave(q, half), |theta, half| lines.phase(theta, half));
+    let mut waves: Tree<'_, Wave> = Tree::new(&wave, (0.5 * farthest, 0.5 * farthest));
+    let mut phases: Tree<'_, Phase> = Tree::new(&phase, lines.phases());
+    let mut cells = vec![(0, 0)];
+    let mut looked_at = 0;
+    while !cells.is_empty() {
+        looked_at += cells.len();
+        if stop::is_asked() {
+            return Err(StabilityError::Stopped);
+        }
+        if looked_at > MOST_CELLS {
+            return Err(StabilityError::Uncertified { cells: MOST_CELLS });
+        }
+        let above = least * (1.0 + MARGIN);
+        let at = |(i, j): &(usize, usize)| -> Determinant {
+            lines.determinant(&waves.all[*i].of, &phases.all[*j].of, above)
+        };
+        let left = cells.into_iter().map(|cell| (cell, at(&cell)));
+        let mut left: Vec<_> = left.filter(|(_, here)| !here.has_none()).collect();
+        left.sort_by(|a, b| b.1.promise().total_cmp(&a.1.promise()));
+        for ((i, j), _) in left.iter().take(TRIED) {
+            let (q, theta) = (&waves.all[*i], &phases.all[*j]);
+            let cell = [(q.centre, q.half), (theta.centre, theta.half)];
+            if best.is_some_and(|best| best.settles(cell)) {
+                continue;
+            }
+            let found = candidate(lines, cell).filter(|found| found.t > least);
+            if let Some(found) = found {
+                (least, best) = (found.t, Some(found));
+            }
+        }
+        cells = Vec::with_capacity(2 * left.len());
+        for ((i, j), _) in left {
+            let [along_q, along_phase] = waves.all[i].of.spreads(&phases.all[j].of);
+            if along_phase > along_q && along_q.is_finite() {
+                cells.extend(phases.halves(j).map(|j| (i, j)));
+            } else {
+                cells.extend(waves.halves(i).map(|i| (i, j)));
+            }
+        }
+    }
+    Ok(Found { place: best, cells: looked_at })
+}
+
+/// The q beyond which no T reaches `least`.
+fn farthest(lines: &Lines, least: f64) -> f64 {
+    let mut q = 1e-6;
+    while lines.largest_beyond(q) > least && q < 1e12 {
+        q *= 1.5;
+    }
+    q
+}

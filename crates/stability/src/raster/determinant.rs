@@ -310,10 +310,10 @@ impl Determinant {
         self.is_beside_axis() || self.multipliers().any(|mu| self.is_positive(mu))
     }
 
-    /// How near the cell comes to a zero to first order: the larger, the nearer.
+    /// How near the cell, or a cell beside it, comes to a zero to first order: the larger, the nearer.
     pub(super) fn promise(&self) -> f64 {
         let turned: f64 = self.value.along.iter().map(|l| l.im.abs()).sum();
-        if self.value.value.im.abs() > turned {
+        if self.value.value.im.abs() > 2.0 * turned {
             return f64::NEG_INFINITY;
         }
         let least = |mu: f64| self.part(&self.value, mu, 0.0);
@@ -328,17 +328,35 @@ impl Determinant {
         value > 0.0 && (slope >= 0.0 || self.curved && slope * slope < 4.0 * value)
     }
 
-    /// Im Q ≠ 0 for all T, of one sign.
+    /// Im Q ≠ 0 for all T, or Re Q ≠ 0 where it vanishes.
     fn is_beside_axis(&self) -> bool {
-        let least = |f: &Patch, sign: f64| {
-            let slopes: f64 = f.along.iter().map(|l| l.im.abs()).sum();
-            sign * f.value.im - slopes - f.rest
+        let range = |f: &Patch, part: fn(&Complex64) -> f64| {
+            let slopes: f64 = f.along.iter().map(|l| part(l).abs()).sum();
+            let off = slopes + f.rest;
+            (part(&f.value) - off, part(&f.value) + off)
         };
-        [1.0, -1.0].iter().any(|sign| {
-            // Of a real slope nothing is added.
-            let is_real = !self.curved;
-            least(&self.value, *sign) > 0.0 && (is_real || least(&self.slope, *sign) >= 0.0)
-        })
+        let (low, high) = range(&self.value, |z| z.im);
+        if !self.curved {
+            return low > 0.0 || high < 0.0;
+        }
+        if low <= 0.0 && high >= 0.0 {
+            return false;
+        }
+        // Im Q = value + slope τ of the other sign at 0: what brings it to 0 is a slope towards it.
+        let (least, most) = range(&self.slope, |z| z.im);
+        let (near, far) = if low > 0.0 { (low, high) } else { (-high, -low) };
+        let (steepest, flattest) = if low > 0.0 { (-least, -most) } else { (most, least) };
+        if steepest <= 0.0 {
+            return true;
+        }
+        let first = near / steepest;
+        let last = if flattest > 0.0 { far / flattest } else { f64::INFINITY };
+        let (value, slope) = (range(&self.value, |z| z.re), range(&self.slope, |z| z.re));
+        // Re Q = value + slope τ + τ² from the first to the last of these τ: below 0 at both ends, or above 0 throughout.
+        let below = |tau: f64| value.1 + (slope.1 + tau) * tau < 0.0;
+        let least = (-0.5 * slope.0).clamp(first, last.max(first));
+        let above = value.0 + (slope.0 + least) * least > 0.0;
+        above || last.is_finite() && below(first) && below(last)
     }
 
     /// The least of Re (1 - iμ) f on the cell.

@@ -49,10 +49,10 @@ impl Place {
     }
 }
 
-/// A zero of Q from the middle of a cell: one at which T is stationary, or any.
-pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2]) -> Option<Place> {
+/// A zero of Q from the middle of a cell, near T = `known`: one at which T is stationary, or any.
+pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
     let [(q, _), (theta, half_theta)] = cell;
-    let start = started(lines, q, lines.symmetric(theta, half_theta))?;
+    let start = started(lines, q, lines.symmetric(theta, half_theta), known)?;
     if lines.is_alone() {
         return solved(lines, start);
     }
@@ -94,17 +94,19 @@ fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<
     None
 }
 
-/// T where the real part of Q vanishes in the middle of a cell, the largest there is.
-fn started(lines: &Lines, q: f64, theta: f64) -> Option<Place> {
-    let here = lines.determinant(&lines.wave(q, 1.0), &lines.phase(theta, 1.0), 0.0);
+/// T where Q would vanish in the middle of a cell if it were real there, the largest there is.
+fn started(lines: &Lines, q: f64, theta: f64, known: f64) -> Option<Place> {
+    let here = lines.determinant(&lines.wave(q, 1.0), &lines.phase(theta, 1.0), known);
     let (value, slope) = (here.value.value, here.slope.value);
-    let t = if here.curved {
+    let beyond = if here.curved {
         let root = (0.25 * slope * slope - value).sqrt();
         (-0.5 * slope.re) + root.re.abs()
     } else {
         -(value / slope).re
     };
-    (t.is_finite() && t > 0.0).then_some(Place { t, q, theta, is_stationary: lines.is_alone() })
+    let t = known + beyond;
+    let is_stationary = lines.is_alone();
+    (t.is_finite() && t > 0.0).then_some(Place { t, q, theta, is_stationary })
 }
 
 /// Q = 0 at the same q, or for a single line at any.

@@ -90,13 +90,14 @@ pub(super) fn largest(lines: &Lines, floor: f64) -> Result<Found, StabilityError
         let left = cells.into_iter().map(|cell| (cell, at(&cell)));
         let mut left: Vec<_> = left.filter(|(_, here)| !here.has_none()).collect();
         left.sort_by(|a, b| b.1.promise().total_cmp(&a.1.promise()));
-        for ((i, j), _) in left.iter().take(TRIED) {
-            let (q, theta) = (&waves.all[*i], &phases.all[*j]);
-            let cell = [(q.centre, q.half), (theta.centre, theta.half)];
-            if best.is_some_and(|best| best.settles(cell)) {
-                continue;
-            }
-            let found = candidate(lines, cell).filter(|found| found.t > least);
+        let cell = |(i, j): (usize, usize)| {
+            let (q, theta) = (&waves.all[i], &phases.all[j]);
+            [(q.centre, q.half), (theta.centre, theta.half)]
+        };
+        let known = best;
+        let is_open = |cell: &[(f64, f64); 2]| !known.is_some_and(|best| best.settles(*cell));
+        for cell in left.iter().map(|(at, _)| cell(*at)).filter(is_open).take(TRIED) {
+            let found = candidate(lines, cell, least).filter(|found| found.t > least);
             if let Some(found) = found {
                 (least, best) = (found.t, Some(found));
             }

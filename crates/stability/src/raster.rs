@@ -152,7 +152,7 @@ impl Raster {
         let each = waves.steady_layers();
         let each = each.iter().zip(&heights).map(|(g, heights)| g * heights.iter().sum::<f64>());
         let beside: f64 = each.sum();
-        let [own, ..] = waves.steady();
+        let [own, ..] = waves.steady;
         let depth = (own + beside) / r;
         if law.depth_limit.is_some()
             && (own + beside).abs() <= LEVEL * footprint.path().value(0.0).abs()

@@ -174,7 +174,7 @@ impl Lines {
         }
         let steep = self.steepness.abs();
         let still = self.still().abs();
-        let [_, steady, _] = self.waves.steady();
+        let [_, steady, _] = self.waves.steady;
         let groove = (curvature + still + all(2)) / drag;
         let weight = steep * (height + all(0));
         let felt = slope + all(1);
@@ -200,7 +200,7 @@ impl Lines {
 
     /// G(s) + s²E
     fn still(&self) -> f64 {
-        let [_, _, curvature] = self.waves.steady();
+        let [_, _, curvature] = self.waves.steady;
         curvature + self.waves.fading.powi(2) * self.beside
     }
 
@@ -220,7 +220,7 @@ impl Lines {
             let lines = each(&|g| g[0] * beta - g[2] * inverse);
             return Wave(vec![Entry { own: groove + height * beta, lines }]);
         }
-        let [_, steady, _] = self.waves.steady();
+        let [_, steady, _] = self.waves.steady;
         let fading = Patch::constant(steady + self.waves.fading * self.beside);
         Wave(vec![
             Entry { own: groove, lines: each(&|g| g[2] * inverse * -1.0) },

@@ -56,7 +56,7 @@ impl Raster {
     fn at(&self, q: f64) -> At {
         let (r, s) = (self.r, self.waves.fading);
         let p = Complex64::new(s, q);
-        let [_, even_slope, even_curvature] = self.waves.steady();
+        let [_, even_slope, even_curvature] = self.waves.steady;
         let [height, slope, curvature] = self.waves.jets(p).map(|jet| jet.0);
         let (beta, beside) = (self.terms.steepness, self.terms.beside);
         let m = Complex64::new(1.0 - self.terms.mass * (r * q).powi(2), r * q);

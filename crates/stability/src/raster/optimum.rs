@@ -1,6 +1,6 @@
 //! Where T is largest, by Newton's method.
 
-use super::determinant::{Determinant, Lines};
+use super::determinant::{Determinant, Lines, Phase, Wave};
 use num_complex::Complex64;
 
 /// Steps of Newton's method.
@@ -41,12 +41,14 @@ impl Place {
     }
 
     pub(super) fn slopes(&self, lines: &Lines) -> Slopes {
-        let here =
-            lines.determinant(&lines.wave(self.q, 1.0), &lines.phase(self.theta, 1.0), self.t);
-        let Determinant { value, slope, .. } = here;
-        let [q, theta] = value.along;
-        Slopes { value: value.value, t: slope.value, q, theta }
+        slopes(lines, (&lines.wave(self.q, 1.0), &lines.phase(self.theta, 1.0)), self.t)
     }
+}
+
+fn slopes(lines: &Lines, (wave, phase): (&Wave, &Phase), t: f64) -> Slopes {
+    let Determinant { value, slope, .. } = lines.determinant(wave, phase, t);
+    let [q, theta] = value.along;
+    Slopes { value: value.value, t: slope.value, q, theta }
 }
 
 /// A zero of Q from the middle of a cell, near T = `known`: one at which T is stationary, or any.
@@ -67,16 +69,17 @@ fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<
     let (step_q, step_theta) = (PART * half_q, PART * half_theta);
     let mut before = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let here = place.slopes(lines);
-        let at =
-            |t: f64, q: f64, theta: f64| balance(&Place { t, q, theta, ..place }.slopes(lines));
         let Place { t, q, theta, .. } = place;
+        let waves = [q, q - step_q, q + step_q].map(|q| lines.wave(q, 1.0));
+        let phases = [theta, theta - step_theta, theta + step_theta].map(|x| lines.phase(x, 1.0));
+        let here = slopes(lines, (&waves[0], &phases[0]), t);
+        let at = |t: f64, i: usize, j: usize| balance(&slopes(lines, (&waves[i], &phases[j]), t));
         let difference = |up: f64, down: f64, step: f64| (up - down) / (2.0 * step);
         let step_t = PART * here.t.norm();
         let row = [
-            difference(at(t + step_t, q, theta), at(t - step_t, q, theta), step_t),
-            difference(at(t, q + step_q, theta), at(t, q - step_q, theta), step_q),
-            difference(at(t, q, theta + step_theta), at(t, q, theta - step_theta), step_theta),
+            difference(at(t + step_t, 0, 0), at(t - step_t, 0, 0), step_t),
+            difference(at(t, 2, 0), at(t, 1, 0), step_q),
+            difference(at(t, 0, 2), at(t, 0, 1), step_theta),
         ];
         let rows =
             [[here.t.re, here.q.re, here.theta.re], [here.t.im, here.q.im, here.theta.im], row];

@@ -12,28 +12,48 @@ use stickslip_tip::{Footprint, Gaussian, TipFunction};
 pub(super) struct Waves {
     own: PlainTransforms,
     own_extent: Extent,
-    layers: Vec<(TipFunction, Extent)>,
+    layers: Vec<(Terms, Extent)>,
+    /// Centre and width of all Gaussians of all layers, those of tables the same in each.
+    shapes: Vec<(f64, f64)>,
     /// s = 1/(rT)
     pub(super) fading: f64,
+    /// φ, φ1 and G at s.
+    pub(super) steady: [f64; 3],
 }
+
+/// Area of a Gaussian of a layer, and which shape it has.
+type Terms = Vec<(f64, usize)>;
 
 /// A function of q on an interval, for f, f' and f'' each.
 pub(super) type Transformed = [Patch; 3];
 
 impl Waves {
     pub(super) fn new(footprint: &Footprint, fading: f64) -> Self {
-        let layers = footprint.layers().iter().map(|layer| layer.along.clone());
+        let tips = || footprint.layers().iter().map(|layer| &layer.along);
+        let mut shapes: Vec<(f64, f64)> =
+            tips().flat_map(gaussians).map(|g| (g.center, g.width)).collect();
+        let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
+        shapes.sort_by(order);
+        shapes.dedup_by(|a, b| order(a, b).is_eq());
+        let term = |g: &Gaussian| {
+            let area = g.amplitude * g.width * (2.0 * PI).sqrt();
+            let shape = shapes.binary_search_by(|shape| order(shape, &(g.center, g.width)));
+            (area, shape.unwrap_or_default())
+        };
+        let layer = |tip: &TipFunction| {
+            (gaussians(tip).iter().map(term).collect(), Extent::two_sided(tip, fading))
+        };
+        let own = PlainTransforms::new(footprint.path());
+        let still = own.at(fading.into());
+        let steady = [still.height, still.slope, still.curvature].map(|jet| jet.0.re);
         Self {
-            own: PlainTransforms::new(footprint.path()),
+            own,
             own_extent: Extent::one_sided(footprint.path()),
-            layers: layers.map(|tip| (tip.clone(), Extent::two_sided(&tip, fading))).collect(),
+            layers: tips().map(layer).collect(),
+            shapes,
             fading,
+            steady,
         }
-    }
-
-    /// φ, φ1 and G at s.
-    pub(super) fn steady(&self) -> [f64; 3] {
-        self.jets(self.fading.into()).map(|jet| jet.0.re)
     }
 
     /// ĝ(s) of every layer.
@@ -49,7 +69,20 @@ impl Waves {
 
     /// ĝ(p) = ∫ g e^{-px}dx of every layer, with derivatives.
     pub(super) fn layers_at(&self, p: Complex64) -> Vec<Jet> {
-        self.layers.iter().map(|(tip, _)| two_sided(tip, p)).collect()
+        let shape = |(center, width): &(f64, f64)| {
+            let square = p * (width * width);
+            let value = (0.5 * p * square - p * center).exp();
+            (value, value * (square - center))
+        };
+        let shapes: Vec<Jet> = self.shapes.iter().map(shape).collect();
+        let layer = |(terms, _): &(Terms, Extent)| {
+            let zero = (Complex64::ZERO, Complex64::ZERO);
+            terms.iter().fold(zero, |sum, (area, index)| {
+                let (value, slope) = shapes[*index];
+                (sum.0 + value * area, sum.1 + slope * area)
+            })
+        };
+        self.layers.iter().map(layer).collect()
     }
 
     /// φ, φ1 and G for |q - centre| ≤ `half`.
@@ -97,15 +130,7 @@ fn on_axis((value, slope): Jet, half: f64, second: f64) -> Patch {
     Patch { value, along, rest: 0.5 * half * half * second }
 }
 
-/// ∫ g e^{-px}dx over all x, and its derivative.
-fn two_sided(tip: &TipFunction, p: Complex64) -> Jet {
-    let TipFunction::Gaussians(sum) = tip else { return (Complex64::ZERO, Complex64::ZERO) };
-    let term = |g: &Gaussian| {
-        let area = g.amplitude * g.width * (2.0 * PI).sqrt();
-        let (square, shift) = (p * g.width * g.width, g.center);
-        let value = (0.5 * p * square - p * shift).exp() * area;
-        (value, value * (square - shift))
-    };
-    let each = sum.terms().iter().map(term);
-    each.fold((Complex64::ZERO, Complex64::ZERO), |sum, f| (sum.0 + f.0, sum.1 + f.1))
+fn gaussians(tip: &TipFunction) -> &[Gaussian] {
+    let TipFunction::Gaussians(sum) = tip else { return &[] };
+    sum.terms()
 }

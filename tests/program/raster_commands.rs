@@ -261,7 +261,15 @@ fn a_raster_under_the_wider_law_is_one_too() {
     assert_eq!(growing["stable"], false);
     folder.refuses(healing, &["--length", "heals"]);
     folder.refuses(&format!("{line} --length 60"), &["--length", "does not heal"]);
-    folder.refuses(&format!("{line} --path zigzag"), &["--path", "one-way"]);
+    let zigzag = folder.prints_json(&format!("{line} --path zigzag --inertia 0.2"));
+    let wider = Wider { inertia: Some(0.2), ..wider };
+    let wanted = Raster::new(&round(), wider, (1.0, 1.0), 1.0).unwrap();
+    let wanted = wanted.critical(RasterPath::Zigzag).unwrap();
+    assert!((number(&zigzag["critical"]["alpha"]) - wanted.alpha).abs() < 1e-12);
+    let healing = format!("{healing} --length 60 --path zigzag");
+    folder.refuses(&healing, &["--path zigzag", "healing surface"]);
+    let repeat = "stability --tip gaussian --r 1 --path repeat --depth-limit 8 --alpha 1";
+    folder.refuses(repeat, &["--path repeat", "basic law"]);
 }
 
 /// Thresholds and angles, in the document as in the library.
@@ -280,7 +288,19 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
         let kappa = number(&critical["phase_per_line"]) / pitch;
         assert!((number(&critical["kappa"]) - kappa).abs() < 1e-14);
         assert_eq!(found["growth"], Value::Null);
+        let certificate = &critical["certificate"];
+        assert_eq!(
+            (&certificate["growing_below"], &certificate["growing_above"]),
+            (&0.into(), &1.into())
+        );
+        let schema = folder.prints_json("schema raster-stability");
+        assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&found));
     }
+    // A search that ended on a sample found 1.070297773, more than that of a single line.
+    let wide = folder.prints_json("stability --beta 1 --r 1 --pitch 3 --path zigzag");
+    assert!((number(&wide["critical"]["alpha"]) - 1.050_997_0).abs() < 1e-7);
+    folder
+        .refuses("stability --tip bessel --width-y 1 --r 1 --pitch 1", &["--tip", "wave number 1"]);
     let zigzag = folder.prints_json("stability --tip gaussian --r 1 --pitch 0.5 --path zigzag");
     assert!((number(&zigzag["critical"]["alpha"]) - 0.457_309).abs() < 5e-7);
     assert_eq!(zigzag["critical"]["kappa"], Value::Null);

@@ -7,7 +7,7 @@
 
 use num_complex::Complex64;
 use stickslip_raster::{Line, Path, Plan, Scanning};
-use stickslip_stability::{Raster, RasterPath, StabilityError};
+use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction, Wider};
 
 const WEAK: f64 = 1e-4;
@@ -28,6 +28,7 @@ struct Case {
     r: f64,
     pitch: f64,
     lines: usize,
+    path: Path,
 }
 
 impl Case {
@@ -36,9 +37,17 @@ impl Case {
         let model = Model::under(self.law, tip, self.alpha, self.r).unwrap();
         let size = (self.pitch, self.lines, LENGTH);
         let footprint = footprint(self.beta);
-        let mut plan = Plan::new(footprint, model, Path::OneWay, size.0, size.1, size.2);
+        let mut plan = Plan::new(footprint, model, self.path, size.0, size.1, size.2);
         plan.law.tolerance = 1e-13;
         plan
+    }
+
+    fn critical(&self) -> RasterCritical {
+        let path = match self.path {
+            Path::Zigzag => RasterPath::Zigzag,
+            _ => RasterPath::OneWay,
+        };
+        self.theory().critical(path).unwrap()
     }
 
     fn theory(&self) -> Raster {
@@ -49,7 +58,9 @@ impl Case {
     /// What deviates of the density of every line.
     fn deviations(&self, q: f64) -> Vec<Complex64> {
         let one = |sign: f64| -> Vec<Line> {
-            let begin = 0.3 * LENGTH / self.r;
+            // Ripples drift along from line to line, on a zigzag to and fro.
+            let part = if self.path == Path::Zigzag { 0.5 } else { 0.3 };
+            let begin = part * LENGTH / self.r;
             let pulse = Pulse { amplitude: sign * WEAK, time: begin, width: 0.7 };
             let disturbance = Force::new(vec![pulse], None).unwrap();
             let plan = Plan { disturbance, ..self.plan() };
@@ -78,20 +89,24 @@ fn every_line_answers_to_those_before_as_theory_says() {
     let healing = Wider { healing_time: Some(600.0), ..papers };
     let limited = Wider { depth_limit: Some(6.0), ..papers };
     let all = Wider { depth_limit: Some(9.0), inertia: Some(0.6), ..healing };
-    for (name, beta, law, r, pitch, lines) in [
-        ("healing", 0.0, healing, 1.0, 1.0, 18),
-        ("depth limit", 0.5, limited, 0.8, 0.9, 24),
-        ("all", 0.0, all, 1.0, 1.0, 17),
+    let heavy = Wider { inertia: Some(0.4), ..limited };
+    for (name, beta, law, r, pitch, lines, path) in [
+        ("healing", 0.0, healing, 1.0, 1.0, 18, Path::OneWay),
+        ("depth limit", 0.5, limited, 0.8, 0.9, 24, Path::OneWay),
+        ("all", 0.0, all, 1.0, 1.0, 17, Path::OneWay),
+        ("there", 0.0, heavy, 1.0, 1.0, 15, Path::Zigzag),
+        ("and back", 0.0, heavy, 1.0, 1.0, 16, Path::Zigzag),
     ] {
-        let case = Case { beta, law, alpha: 1.0, r, pitch, lines };
-        let (theory, critical) =
-            (case.theory(), case.theory().critical(RasterPath::OneWay).unwrap());
+        let case = Case { beta, law, alpha: 1.0, r, pitch, lines, path };
+        let (theory, critical) = (case.theory(), case.critical());
         let case = Case { alpha: 0.9 * critical.alpha, ..case };
         let found = case.deviations(critical.q);
         let last = case.lines - 1;
+        let is_back = case.plan().track(last).backward;
         let felt = |answers: &[Complex64]| -> Complex64 {
+            let answer = |c: &Complex64| if is_back { c.conj() } else { *c };
             let earlier = found[..last].iter().rev();
-            earlier.zip(answers).map(|(y, c)| y * c).sum()
+            earlier.zip(answers).map(|(y, c)| y * answer(c)).sum()
         };
         let off = |answers: &[Complex64]| (felt(answers) - found[last]).norm() / found[last].norm();
         let error = off(&theory.answers(case.alpha, critical.q));
@@ -108,14 +123,14 @@ fn every_line_answers_to_those_before_as_theory_says() {
 #[test]
 fn thresholds_are_where_the_recurrence_neither_grows_nor_fades() {
     let round = footprint(0.0);
+    // Of the full determinant, in which next to nothing heals and no depth is limited.
+    let slight = Wider { healing_time: Some(1e12), depth_limit: Some(1e12), ..Wider::default() };
     for pitch in [0.25, 1.0] {
-        let papers = Raster::new(&round, Wider::default(), (1.0, pitch), 1.0)
-            .unwrap()
-            .critical(RasterPath::OneWay)
-            .unwrap();
-        let found = Raster::new(&round, Wider::default(), (1.0, pitch), 1.0).unwrap();
-        let found = found.critical(RasterPath::OneWay).unwrap();
-        assert!((found.alpha - papers.alpha).abs() < 1e-11, "{found:?} {papers:?}");
+        let [papers, found] = [Wider::default(), slight].map(|law| {
+            let raster = Raster::new(&round, law, (1.0, pitch), 1.0).unwrap();
+            raster.critical(RasterPath::OneWay).unwrap()
+        });
+        assert!((found.alpha - papers.alpha).abs() < 1e-10, "{found:?} {papers:?}");
         assert!((found.q - papers.q).abs() < 1e-7);
     }
     let limited = Wider { depth_limit: Some(8.0), ..Wider::default() };
@@ -148,7 +163,7 @@ fn where_there_is_no_linear_law_it_is_said() {
     let error = Raster::new(&footprint(1.0), limited, at, 1.0).unwrap_err();
     assert_eq!(error, StabilityError::Corner);
     let bessel = Footprint::separable(TipFunction::Bessel, 1.0).unwrap();
-    assert!(Raster::new(&bessel, Wider::default(), at, 1.0).is_err());
+    assert!(Raster::new(&bessel, limited, at, 1.0).is_err());
     // A shallow limit leaves nothing to grow.
     let shallow = Wider { depth_limit: Some(0.01), ..Wider::default() };
     let error = Raster::new(&footprint(0.0), shallow, at, 1.0)

@@ -125,7 +125,7 @@ impl Lines {
         self.all.is_empty()
     }
 
-    /// Phases that have not been looked at as conjugates of others.
+    /// Centre and half of the interval of phases: all of them one way; on a zigzag those of Im W ≥ 0, as Q(W*) = Q(W)*.
     pub(super) fn phases(&self) -> (f64, f64) {
         let half = std::f64::consts::PI;
         if self.kind == Kind::Zigzag { (0.5 * half, 0.5 * half) } else { (0.0, half) }
@@ -142,7 +142,7 @@ impl Lines {
         self.kind == Kind::Zigzag
     }
 
-    /// How far from 1 the phase of w or W is where sums of lines vary over that distance.
+    /// Lines that are felt at all, at most.
     pub(super) fn felt(&self) -> usize {
         self.all.iter().chain(&self.odd).map(Sequence::len).max().unwrap_or(0)
     }
@@ -258,7 +258,7 @@ impl Lines {
         }
     }
 
-    /// Of the groove of a way back as a part of that of the way before it, where Q = 0.
+    /// The groove of a way back as a multiple of that of the way before it, where Q = 0.
     pub(super) fn back_by_forth(&self, wave: &Wave, phase: &Phase, t: f64) -> Complex64 {
         let there = &wave.0[0];
         let own = there.with(&phase.all).value;

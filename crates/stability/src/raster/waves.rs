@@ -134,3 +134,48 @@ fn gaussians(tip: &TipFunction) -> &[Gaussian] {
     let TipFunction::Gaussians(sum) = tip else { return &[] };
     sum.terms()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The transforms themselves, at many places of many intervals.
+    #[test]
+    fn transforms_are_within_their_patches() {
+        let x: Vec<f64> = (0..60).map(|i| 0.15 * f64::from(i)).collect();
+        let f: Vec<f64> = x.iter().map(|x| (1.0 - 0.3 * x * x) * (-0.5 * x * x).exp()).collect();
+        let tips = [
+            TipFunction::gaussian(0.7).unwrap(),
+            TipFunction::triple_gaussian(1.0, 1.0).unwrap(),
+            TipFunction::table(&x, &f).unwrap(),
+        ];
+        for tip in tips {
+            for fading in [0.0, 0.4] {
+                let waves = Waves::new(&Footprint::separable(tip.clone(), 1.0).unwrap(), fading);
+                for centre in [0.02, 0.5, 1.0, 2.3, 4.0, 7.0] {
+                    for half in [0.01, 0.1, 0.5] {
+                        are_within(&waves, centre, half);
+                    }
+                }
+            }
+        }
+    }
+
+    fn are_within(waves: &Waves, centre: f64, half: f64) {
+        let (own, layers) = (waves.own(centre, half), &waves.layers(centre, half)[0]);
+        for i in -8..=8 {
+            let y = 0.125 * f64::from(i);
+            let p = Complex64::new(waves.fading, centre + half * y);
+            let here = waves.jets(p);
+            let (g, _) = waves.layers_at(p)[0];
+            let exact = [here[0].0, here[1].0, here[2].0, g, p * g, p * p * g];
+            let distance = p.norm();
+            let sizes = [waves.own_bounds(distance), waves.layer_bounds(distance)[0]].concat();
+            for ((patch, exact), size) in own.iter().chain(layers).zip(exact).zip(sizes) {
+                let off = (exact - patch.value - patch.along[0] * y).norm();
+                assert!(off <= patch.rest + 1e-12, "{centre} {half} {y}: {off} {}", patch.rest);
+                assert!(exact.norm() <= size + 1e-12, "{centre} {y}: {exact} {size}");
+            }
+        }
+    }
+}

@@ -276,7 +276,7 @@ fn thresholds_of_footprints_that_are_no_product_are_the_first_too() {
 /// Thresholds rise with the pitch to that of a single line, and none is above it; a zigzag's is above that of one-way lines.
 #[test]
 fn lines_that_hardly_feel_each_other_are_nearly_single_lines() {
-    for (beta, r) in [(0.0, 1.0), (1.0, 1.0), (1.0, 0.3), (0.0, 3.0)] {
+    for (beta, r) in [(0.0, 1.0), (1.0, 1.0), (1.0, 0.3), (0.0, 3.0), (0.0, 100.0), (1.0, 0.01)] {
         let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
         let alone = critical(&tip, r).unwrap();
         let footprint = Footprint::separable(tip, 1.0).unwrap();

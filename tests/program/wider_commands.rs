@@ -116,8 +116,8 @@ fn thresholds_of_rasters_over_pitch_are_those_of_stability() {
             ["--length", "healing-time"],
         ),
         (
-            "stability --tip gaussian --depth-limit 8 --pitch 1 --r 1 --path zigzag",
-            ["--path", "one-way"],
+            "stability --tip gaussian --healing-time 90 --length 9 --pitch 1 --r 1 --path zigzag",
+            ["--path zigzag", "healing surface"],
         ),
     ] {
         folder.refuses(line, &words);

@@ -86,7 +86,7 @@ pub enum StabilityError {
     },
     /// A raster of J0 or cos x.
     #[error(
-        "a raster of this tip function has no threshold: its Fourier transform is infinite at the wave number 1, beside which ripples grow from line to line at any alpha"
+        "rasters of this tip function have no threshold: its Fourier transform is infinite at the wave number 1, beside which ripples of one-way lines grow at any alpha"
     )]
     NoRipples,
     /// Healing on the way back.

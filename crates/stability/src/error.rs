@@ -86,7 +86,7 @@ pub enum StabilityError {
     },
     /// A raster of J0 or cos x.
     #[error(
-        "rasters of this tip function have no threshold: its Fourier transform is infinite at the wave number 1, beside which ripples of one-way lines grow at any alpha"
+        "thresholds of rasters are available for sums of Gaussians only: the Fourier transform of this tip function is infinite at the wave number 1, and so is the answer of a line to ripples of the lines before it"
     )]
     NoRipples,
     /// Healing on the way back.

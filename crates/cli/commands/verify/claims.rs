@@ -257,6 +257,12 @@ impl Claims {
             _ => 1e-6 * value.abs(),
         };
         self.judge_if("creep", claimed.creep.as_ref(), computed.creep.as_ref(), &creep);
+        let error = computed.drifting.as_ref().map_or(0.0, |drifting| drifting.velocity_error);
+        let velocity = |field: &str, value: f64| match field {
+            "drifting.velocity" => 2.0 * error,
+            _ => ERRORS * value.abs() + DIGITS,
+        };
+        self.judge_if("drifting", claimed.drifting.as_ref(), computed.drifting.as_ref(), &velocity);
         // An extrapolation.
         let rough = |_: &str, value: f64| 1.0 + 0.1 * value.abs();
         self.judge_if("transient", claimed.transient.as_ref(), computed.transient.as_ref(), &rough);
@@ -401,6 +407,7 @@ fn end_of(run: &RunDocument) -> RunEnd {
         regime: run.regime,
         oscillation: run.oscillation.clone(),
         creep: run.creep.clone(),
+        drifting: run.drifting.clone(),
         transient: run.transient.clone(),
         remarks: run.remarks.clone(),
         interrupted: run.interrupted,

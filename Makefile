@@ -40,9 +40,10 @@ test-slurm: ## examples/slurm with a controller and a node of Slurm started here
 wheel: ## the Python package for Linux of glibc 2.28 and later, in target/wheels
 	crates/python/wheel
 
-survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 500 tables, 3,000 extreme lines, signals; 400 measured profiles, 800 fitted ripples, 150 other fits
+survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 500 tables, 3,000 extreme lines, signals; 400 measured profiles, 800 fitted ripples, 150 other fits; 200 random rasters
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1
 	$(CARGO) test --release --locked -p stickslip-measurement -- --ignored --nocapture
+	$(CARGO) test --release --locked -p stickslip-raster --test raster -- --ignored --nocapture
 
 judge: ## 1,000 random runs, each against one ten times as long: regimes, errors, prospects
 	CASES=$(RUNS) $(CARGO) test --release --locked -p stickslip-outcome --test judged_runs -- --ignored --nocapture

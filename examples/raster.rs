@@ -15,10 +15,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     plan.law = Scenario { tolerance: 1e-6, ..plan.law };
     let mut scanning = Scanning::new(&plan)?;
     while scanning.next_line()?.is_some() {}
-    let (regime, found) = pattern(&plan, scanning.lines());
-    let found = found.ok_or("no pattern")?;
-    println!("{regime:?}: wavelength {:.3}, crests at {:.1}°", found.wavelength, found.crest_angle);
-    assert_eq!(regime, Regime::Ripples);
-    assert!((found.q / theory.q - 1.0).abs() < 0.15);
+    let written = pattern(&plan, scanning.lines());
+    let found = written.pattern.ok_or("no pattern")?;
+    let angle = found.crest_angle.zip(found.crest_angle_error).ok_or("no angle")?;
+    println!("{:?}: crests at {:.1} ± {:.1}°", written.regime, angle.0, angle.1);
+    assert_eq!(written.regime, Regime::Ripples);
+    assert!((found.q.ok_or("no wavelength")? / theory.q - 1.0).abs() < 0.15);
     Ok(())
 }

@@ -449,7 +449,7 @@ fn critical_points_and_thresholds() {
     let single = critical(&triple(0.0), 1.0).unwrap().alpha;
     let rows = [0.5, 1.0, 2.0].map(|pitch| {
         let footprint = Footprint::separable(triple(0.0), 1.0).unwrap();
-        let raster = Raster::new(&footprint, 1.0, pitch).unwrap();
+        let raster = Raster::new(&footprint, Wider::default(), (1.0, pitch), 1.0).unwrap();
         let one_way = raster.critical(RasterPath::OneWay).unwrap();
         let zigzag = raster.critical(RasterPath::Zigzag).unwrap();
         let angle = one_way.crest_angle.unwrap();

@@ -362,3 +362,48 @@ fn what_no_raster_can_be_made_of_is_refused_with_advice() {
     folder.prints("run --alpha 1 --r 1 --until 20 -o run.json");
     folder.refuses("surface run.json --y 1", &["--y 1", "raster"]);
 }
+
+/// What is reported of a pattern: numbers with errors, the same in words and in the document; where several waves compete null,
+/// and a remark that names them. Wave vectors are judged in crates/raster.
+#[test]
+fn a_pattern_is_reported_with_its_errors_or_with_a_reason() {
+    let folder = Folder::new("raster_pattern");
+    let schema = folder.prints_json("schema raster");
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let line = "raster --tip gaussian --r 1 --tolerance 1e-6 --length 60 --lines 80";
+    let clear = folder.prints_json(&format!("{line} --alpha 0.9 --pitch 1"));
+    assert!(validator.is_valid(&clear));
+    let found = &clear["pattern"];
+    let (angle, error) = (number(&found["crest_angle"]), number(&found["crest_angle_error"]));
+    assert!((angle - 51.7).abs() < error && error < 7.0, "{found}");
+    assert!(number(&found["wavelength_error"]) < 1.0 && number(&found["coherence_error"]) < 0.05);
+    let words =
+        String::from_utf8(folder.prints(&format!("{line} --alpha 0.9 --pitch 1 --format text")));
+    assert!(
+        words.unwrap().contains(&format!("crests at {angle:.1} ± {error:.1}° to the scan axis"))
+    );
+    let mixed = folder.prints_json(&format!("{line} --alpha 0.5 --pitch 0.5"));
+    assert!(validator.is_valid(&mixed));
+    assert_eq!(mixed["regime"], "ripples");
+    for name in ["q", "kappa", "wavelength", "wavelength_error", "crest_angle"] {
+        assert_eq!(mixed["pattern"][name], Value::Null, "{name}");
+    }
+    let remarks = mixed["remarks"].as_array().unwrap();
+    assert!(
+        remarks.iter().any(|remark| remark.as_str().unwrap().contains("as strong")),
+        "{remarks:?}"
+    );
+    // Of too few lines, how many would do.
+    let few = folder
+        .prints_json("raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 20 --length 40");
+    assert_eq!((few["regime"].as_str(), &few["pattern"]), (Some("unknown"), &Value::Null));
+    assert!(few["remarks"][0].as_str().unwrap().contains("55 would be enough"), "{few}");
+    // A map keeps what its rasters remark, and has no angle where there is none.
+    let map = "sweep raster --tip gaussian --r 1 --pitch 0.5:1:2 --alpha 0.5:0.9:2 --lines 80 --length 60 --tolerance 1e-6";
+    let map = folder.prints_json(&format!("{map} --plot map.svg"));
+    assert_eq!(map["points"][0]["pattern"]["crest_angle"], Value::Null);
+    assert_eq!(map["points"][0]["remarks"], mixed["remarks"]);
+    assert!((number(&map["points"][3]["pattern"]["crest_angle"]) - angle).abs() < 1e-9);
+    let drawn = String::from_utf8(folder.read("map.svg")).unwrap();
+    assert!(drawn.contains(&format!("{angle:.0}°")));
+}

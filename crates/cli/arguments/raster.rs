@@ -9,7 +9,10 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip_documents::MemoryName;
 
-/// Scan an area line by line, and say what pattern the lines have written.
+/// Scan an area line by line, and report the pattern that the lines have written.
+///
+/// Wavelength and crest angle are those of the strongest wave on the last half of the lines, with 95 % errors; what these
+/// lines do not determine is null, and a remark says why.
 ///
 /// Each line is a run over what the lines before it have left. Finished lines are kept beside the output at once
 /// (FILE.partial): after an interrupt the same command goes on from there, and writes the same bytes.

@@ -42,7 +42,7 @@ pub use area::Area;
 pub use error::{MOST_LINES, RasterError};
 pub use line::Line;
 pub use path::{AreaLine, Path, Track};
-pub use pattern::{LineRegime, Pattern, Regime, line_regime, pattern};
+pub use pattern::{Doubt, LineRegime, Pattern, Regime, Written, line_regime, pattern};
 pub use plan::Plan;
 pub use scan::Scanning;
 pub use surface::{Scanned, volume};

@@ -46,6 +46,7 @@ impl Scan {
 pub(crate) struct Written {
     regime: RasterRegimeName,
     pattern: Option<PatternDocument>,
+    remarks: Vec<String>,
 }
 
 fn plan(asked: &Asked, scan: &Scan) -> Result<Plan, Refusal> {
@@ -76,8 +77,12 @@ pub(crate) fn raster(
         let heights = Scanned::new(&plan, near).heights(&view.x, &y);
         on_line(lines.len(), first, view.x.len(), heights.as_slice().unwrap_or_default());
     }
-    let (regime, pattern) = pattern(&plan, scanning.lines());
-    Ok(Written { regime: regime.into(), pattern: pattern.map(Into::into) })
+    let found = pattern(&plan, scanning.lines());
+    Ok(Written {
+        regime: found.regime.into(),
+        pattern: found.pattern.map(Into::into),
+        remarks: found.doubts.iter().map(ToString::to_string).collect(),
+    })
 }
 
 /// What is shown of the surface.

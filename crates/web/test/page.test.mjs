@@ -232,7 +232,10 @@ test('a raster grows, can be stopped, and ends as the program ends it', { skip }
   const found = JSON.parse(await page.locator('#raster-told').getAttribute('data-found'));
   const { regime, pattern } = document(found.command);
   assert.equal(found.regime, regime);
-  for (const key of ['q', 'kappa', 'coherence', 'amplitude']) close(found.pattern[key], pattern[key], 1e-9, key);
+  for (const key of ['q', 'kappa', 'wavelength', 'crest_angle', 'coherence', 'amplitude']) {
+    if (pattern[key] === null) assert.equal(found.pattern[key], null, key);
+    else close(found.pattern[key], pattern[key], 1e-9, key);
+  }
   await page.locator('#lines-number').fill('1000');
   await page.locator('#scan').click();
   await page.locator('#raster-told').filter({ hasText: /up to 400 lines/ }).waitFor();

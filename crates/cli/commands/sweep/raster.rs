@@ -146,7 +146,7 @@ impl Grid {
                 let is_stuck =
                     |line: &&Line| line_regime(&plan, line) == LineRegime::StuckAtTheEdge;
                 let stuck = lines.iter().filter(is_stuck).count();
-                point.written(pattern(&plan, &lines), stuck)
+                point.written(&pattern(&plan, &lines), stuck)
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;
 use stickslip_documents::{
-    HeightMap, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    HeightMap, PatternDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
     RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
 };
 
@@ -12,19 +12,20 @@ impl Product for RasterDocument {
         let (count, regime) = (self.lines.len(), self.regime);
         let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));
         let pattern = self.pattern.as_ref();
-        let ripple = pattern.map_or(String::new(), |p| {
-            format!(
-                ", wavelength {} σ, crests at {}° to the scan axis",
-                digits(p.wavelength, 4),
-                digits(p.crest_angle, 3)
-            )
-        });
-        let told = Told::new(format!("{count} lines: {regime}{ripple}"));
-        told.maybe("q along the lines", pattern.map(|p| of(p.q, "1/σ")))
-            .maybe("κ across them", pattern.map(|p| of(p.kappa, "1/σ")))
-            .maybe("wavelength", pattern.map(|p| of(p.wavelength, "σ")))
-            .maybe("crests to scan axis", pattern.map(|p| of(p.crest_angle, "°")))
-            .maybe("coherence", pattern.map(|p| digits(p.coherence, 4)))
+        let [wavelength, angle] = pattern.map(PatternDocument::in_words).unwrap_or_default();
+        let mut headline = format!("{count} lines: {regime}");
+        headline.extend(wavelength.iter().map(|words| format!(", wavelength {words}")));
+        headline.extend(angle.iter().map(|words| format!(", crests at {words} to the scan axis")));
+        let coherence = |p: &PatternDocument| {
+            let error = p.coherence_error.map(|error| format!(" ± {}", digits(error, 2)));
+            digits(p.coherence, 4) + &error.unwrap_or_default()
+        };
+        Told::new(headline)
+            .maybe("q along the lines", pattern.and_then(|p| p.q).map(|q| of(q, "1/σ")))
+            .maybe("κ across them", pattern.and_then(|p| p.kappa).map(|kappa| of(kappa, "1/σ")))
+            .maybe("wavelength", wavelength)
+            .maybe("crests to scan axis", angle)
+            .maybe("coherence", pattern.map(coherence))
             .maybe(
                 "of lines that go the same way",
                 pattern.and_then(|p| p.coherence_same_way).map(|c| digits(c, 4)),

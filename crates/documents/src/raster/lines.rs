@@ -27,7 +27,7 @@ pub enum LineRegimeName {
     Steady,
     /// It changes by more.
     StickSlip,
-    /// The tip did not come out of the pit at the beginning.
+    /// The tip went less than half of the line: it stayed in a pit at an end of it.
     StuckAtTheEdge,
 }
 

@@ -21,7 +21,7 @@ use crate::table::{Array, Column, Named, Tabular};
 use crate::{FORMAT_VERSION, InUnits, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_raster::{Line, Plan, pattern, volume};
+use stickslip_raster::{Line, Plan, Written, pattern, volume};
 
 /// Scan lines beside each other on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times are
 /// counted from the start of each line.
@@ -46,7 +46,7 @@ pub struct RasterDocument {
     pub volume: f64,
     /// The dense history of all lines: what `surface` works from.
     pub history: RasterHistory,
-    /// What a reader should know; empty if there is nothing.
+    /// Why something of the pattern is unknown, or may differ after more lines; empty if there is nothing.
     pub remarks: Vec<String>,
     /// What it took.
     pub work: RasterWork,
@@ -80,16 +80,10 @@ impl RasterDocument {
     /// That of these lines of a plan, sampled at these times since the start of each line, as far as it lasts.
     #[must_use]
     pub fn new(parameters: RasterParameters, plan: &Plan, lines: &[Line], times: &[f64]) -> Self {
-        let (regime, found) = pattern(plan, lines);
+        let Written { regime, pattern: found, doubts } = pattern(plan, lines);
         let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
         let lines_told: Vec<RasterLine> =
             lines.iter().map(|line| RasterLine::of(plan, line, times)).collect();
-        let stuck =
-            lines_told.iter().filter(|l| l.regime == LineRegimeName::StuckAtTheEdge).count();
-        let remark = format!(
-            "on {stuck} of {} lines the tip did not come out of the pit at their beginning",
-            lines.len()
-        );
         Self {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
@@ -101,7 +95,7 @@ impl RasterDocument {
             pattern: found.map(Into::into),
             volume: volume(plan, lines),
             history: RasterHistory::of(lines),
-            remarks: if stuck > 0 { vec![remark] } else { vec![] },
+            remarks: doubts.iter().map(ToString::to_string).collect(),
             work: RasterWork {
                 steps: total(|line| line.work().steps),
                 rejected: total(|line| line.work().rejected),

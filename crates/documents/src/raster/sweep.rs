@@ -5,7 +5,7 @@ use crate::table::{Column, Named, Tabular};
 use crate::{FORMAT_VERSION, InUnits, PatternDocument, ShardDocument, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_raster::{Pattern, Regime};
+use stickslip_raster::Written;
 
 /// The pattern that a raster writes, over a grid of pitch and α. Lengths in σ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -121,8 +121,11 @@ pub struct RasterSweepPoint {
     pub regime: Option<RasterRegimeName>,
     /// The ripple; null where there is none.
     pub pattern: Option<PatternDocument>,
-    /// Lines on which the tip did not come out of the pit at their beginning.
+    /// Lines on which the tip did not leave the pit at an end of them.
     pub stuck_lines: Option<usize>,
+    /// Why something of the pattern is unknown, or may differ after more lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// Why nothing is known.
     pub error: Option<String>,
 }
@@ -139,15 +142,21 @@ impl RasterSweepPoint {
             regime: None,
             pattern: None,
             stuck_lines: None,
+            remarks: vec![],
             error: None,
         }
     }
 
     /// The same with what was found.
     #[must_use]
-    pub fn written(self, (regime, found): (Regime, Option<Pattern>), stuck: usize) -> Self {
-        let pattern = found.map(Into::into);
-        Self { regime: Some(regime.into()), pattern, stuck_lines: Some(stuck), ..self }
+    pub fn written(self, found: &Written, stuck: usize) -> Self {
+        Self {
+            regime: Some(found.regime.into()),
+            pattern: found.pattern.map(Into::into),
+            stuck_lines: Some(stuck),
+            remarks: found.doubts.iter().map(ToString::to_string).collect(),
+            ..self
+        }
     }
 }
 
@@ -157,8 +166,8 @@ impl Tabular for RasterSweepDocument {
         let of = |value: fn(&RasterSweepPoint) -> Option<f64>| -> Column {
             self.points.iter().map(value).collect::<Vec<_>>().into()
         };
-        let pattern = |value: fn(&PatternDocument) -> f64| -> Column {
-            let values = self.points.iter().map(|point| point.pattern.as_ref().map(value));
+        let pattern = |value: fn(&PatternDocument) -> Option<f64>| -> Column {
+            let values = self.points.iter().map(|point| point.pattern.as_ref().and_then(value));
             values.collect::<Vec<_>>().into()
         };
         let regime = |point: &RasterSweepPoint| {
@@ -172,10 +181,13 @@ impl Tabular for RasterSweepDocument {
             ("q", pattern(|p| p.q)),
             ("kappa", pattern(|p| p.kappa)),
             ("wavelength", pattern(|p| p.wavelength)),
+            ("wavelength_error", pattern(|p| p.wavelength_error)),
             ("crest_angle", pattern(|p| p.crest_angle)),
-            ("coherence", pattern(|p| p.coherence)),
-            ("amplitude", pattern(|p| p.amplitude)),
-            ("defects", pattern(|p| p.defects as f64)),
+            ("crest_angle_error", pattern(|p| p.crest_angle_error)),
+            ("coherence", pattern(|p| Some(p.coherence))),
+            ("coherence_error", pattern(|p| p.coherence_error)),
+            ("amplitude", pattern(|p| Some(p.amplitude))),
+            ("defects", pattern(|p| Some(p.defects as f64))),
             ("stuck_lines", of(|point| point.stuck_lines.map(|lines| lines as f64))),
         ]
     }

@@ -5,17 +5,19 @@ use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
+use std::f64::consts::{PI, TAU};
 use stickslip_documents::{
     ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
     PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterParameters,
     RasterSurfaceDocument, ScaleName, StyleName,
 };
-use stickslip_raster::Plan;
 
-/// Crests are marked on a strip, of the length and of the lines, with no more marks than leave the surface to be seen.
-const MARKED: (f64, f64) = (0.4, 0.6);
-const MARKED_LINES: f64 = 0.5;
-const MOST_MARKS: usize = 400;
+/// Crests are marked on a patch: between these parts of the length, around this part of the lines and over no more than
+/// that of them, and no more crests than leave the surface to be seen.
+const MARKED: (f64, f64) = (0.4, 0.65);
+const MARKED_LINES: f64 = 0.72;
+const MARKED_PART: f64 = 0.4;
+const MOST_CRESTS: i64 = 24;
 /// Colours are those of the heights between these parts of the length: pits at the ends are deeper.
 const COLOURED: (f64, f64) = (0.2, 0.85);
 
@@ -26,8 +28,10 @@ impl Drawn for RasterDocument {
         let mut figure = FigureDocument::new("raster", &title, vec![parameters.model.clone()]);
         let map = self.height_map()?;
         let mut surface = PanelDocument::new(&heading(self), ("x (σ)", "y (σ)"));
-        if self.pattern.is_some() {
-            surface.curves.push(crests(&map, &parameters.plan()?));
+        let wave = self.pattern.as_ref().and_then(|p| p.q.zip(p.kappa));
+        if let Some(wave) = wave {
+            let is_lines = parameters.plan()?.area.pitch(parameters.path.into()).is_some();
+            surface.curves.extend(is_lines.then(|| crests(&map, wave)).flatten());
         }
         let x = map.x.clone();
         let z_range = heights_within(&map);
@@ -116,20 +120,21 @@ fn path_name(parameters: &RasterParameters) -> String {
     format!("{path}{pitch}{shape}")
 }
 
-/// Such as "ripples: 6.12 σ at 46.0°, coherence 0.998".
+/// Such as "ripples: 6.12 ± 0.21 σ at 46.0 ± 2.2°, coherence 0.998".
 fn heading(document: &RasterDocument) -> String {
     let regime = document.regime;
-    match &document.pattern {
-        None => regime.to_string(),
-        Some(p) => {
-            format!(
-                "{regime}: {:.2} σ at {:.1}°, coherence {:.3}",
-                p.wavelength,
-                p.crest_angle,
-                p.coherence_same_way.unwrap_or(p.coherence)
-            )
-        }
-    }
+    let Some(p) = &document.pattern else { return regime.to_string() };
+    let [length, angle] = p.in_words();
+    let coherence = format!("coherence {:.3}", p.coherence_same_way.unwrap_or(p.coherence));
+    let wave = match (length, angle) {
+        (Some(length), Some(angle)) => Some(format!("{length} at {angle}")),
+        (Some(length), None) => Some(length),
+        (None, Some(angle)) => Some(format!("crests at {angle}")),
+        (None, None) => None,
+    };
+    let parts: Vec<String> = wave.into_iter().chain([coherence]).collect();
+    // A number and its error stay on one line.
+    format!("{regime}: {}", parts.join(", ")).replace(" ± ", "\u{a0}±\u{a0}")
 }
 
 fn heights(map: HeightMap) -> MapDocument {
@@ -155,27 +160,76 @@ fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
     (low < high).then_some([low, high])
 }
 
-/// Maxima along the lines, on as many lines as leave the surface to be seen: none where rows of the map are no lines.
-fn crests(map: &HeightMap, plan: &Plan) -> CurveDocument {
-    let tops = |n: usize| -> Vec<f64> {
-        let (track, row) = (plan.track(n), &map.u[n]);
-        let part = |i: &usize| track.along(map.x[*i]) / track.length;
-        let inside = |i: &usize| (MARKED.0..=MARKED.1).contains(&part(i));
-        let is_top = |i: &usize| row[*i] > row[i - 1] && row[*i] >= row[i + 1];
-        (1..map.x.len() - 1).filter(inside).filter(is_top).map(|i| map.x[i]).collect()
-    };
-    let is_lines = plan.area.pitch(plan.path).is_some();
-    let lines = if is_lines { map.u.len() } else { 0 };
-    let first = (MARKED_LINES * lines as f64) as usize;
-    let rows: Vec<Vec<f64>> = (first..lines).map(tops).collect();
-    let all: usize = rows.iter().map(Vec::len).sum();
-    let every = all.div_ceil(MOST_MARKS).max(1);
-    let marked = rows.iter().zip(&map.y[first..]).step_by(every);
-    let (x, y): (Vec<f64>, Vec<f64>) =
-        marked.flat_map(|(row, y)| row.iter().map(move |x| (*x, *y))).unzip();
-    let mut curve = CurveDocument::new(StyleName::Points, "", &x, &y);
+/// Crests of the wave whose length and angle are reported, in phase with the surface on a patch of it: straight lines
+/// qx + κy + φ = 2πm.
+fn crests(map: &HeightMap, (q, kappa): (f64, f64)) -> Option<CurveDocument> {
+    let (x, y) = patch(map)?;
+    let phase = phase(map, (&x, &y), (q, kappa))?;
+    let turns = |x: f64, y: f64| (q * x + kappa * y + phase) / TAU;
+    let corners = [(x[0], y[0]), (x[0], y[1]), (x[1], y[0]), (x[1], y[1])];
+    let all = corners.map(|(x, y)| turns(x, y));
+    let first = all.iter().copied().fold(f64::INFINITY, f64::min).ceil() as i64;
+    let last = all.iter().copied().fold(f64::NEG_INFINITY, f64::max).floor() as i64;
+    let every = ((last - first) / MOST_CRESTS + 1) as usize;
+    let mut points: (Vec<f64>, Vec<f64>) = (vec![], vec![]);
+    for m in (first..=last).step_by(every) {
+        for end in ends(TAU * m as f64 - phase, (q, kappa), (&x, &y)).into_iter().flatten() {
+            points.0.push(end.0);
+            points.1.push(end.1);
+        }
+        // The next begins elsewhere.
+        points.0.push(points.0.last().copied().unwrap_or(0.0));
+        points.1.push(f64::NAN);
+    }
+    let mut curve = CurveDocument::new(StyleName::Line, "", &points.0, &points.1);
     curve.colour = Some(ColourName::Vermillion);
-    curve
+    Some(curve)
+}
+
+/// From and to in x and y: the middle of the lines, and as much or less of the last half of them.
+fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
+    let ([left, .., right], [low, .., high]) = (&*map.x, &*map.y) else { return None };
+    let (length, across) = (right - left, high - low);
+    let x = [left + MARKED.0 * length, left + MARKED.1 * length];
+    let middle = low + MARKED_LINES * across;
+    let half = 0.5 * (x[1] - x[0]).min(MARKED_PART * across);
+    Some((x, [middle - half, middle + half]))
+}
+
+/// φ of the heights on the patch, each less the mean of its row there: Σ w u e^{-i(qx + κy)} has the phase φ.
+fn phase(map: &HeightMap, (x, y): (&[f64; 2], &[f64; 2]), (q, kappa): (f64, f64)) -> Option<f64> {
+    let part = |at: f64, ends: &[f64; 2]| (at - ends[0]) / (ends[1] - ends[0]);
+    let window = |part: f64| {
+        if (0.0..=1.0).contains(&part) { (PI * part).sin().powi(2) } else { 0.0 }
+    };
+    let across: Vec<f64> = map.x.iter().map(|at| window(part(*at, x))).collect();
+    let total: f64 = across.iter().sum();
+    let (mut cos, mut sin) = (0.0, 0.0);
+    for (row, at) in map.u.iter().zip(&map.y) {
+        let mean = row.iter().zip(&across).map(|(u, w)| u * w).sum::<f64>() / total;
+        let weight = window(part(*at, y));
+        for ((u, w), along) in row.iter().zip(&across).zip(&map.x) {
+            let turn = q * along + kappa * at;
+            cos += weight * w * (u - mean) * turn.cos();
+            sin -= weight * w * (u - mean) * turn.sin();
+        }
+    }
+    (cos.hypot(sin) > 0.0).then(|| sin.atan2(cos))
+}
+
+/// Where the line qx + κy = c enters and leaves a rectangle.
+fn ends(c: f64, (q, kappa): (f64, f64), (x, y): (&[f64; 2], &[f64; 2])) -> Option<[(f64, f64); 2]> {
+    let inside = |at: f64, ends: &[f64; 2]| {
+        let slack = 1e-9 * (ends[1] - ends[0]);
+        (ends[0] - slack..=ends[1] + slack).contains(&at)
+    };
+    let sides = x.iter().map(|x| (*x, (c - q * x) / kappa)).filter(|(_, at)| inside(*at, y));
+    let levels = y.iter().map(|y| ((c - kappa * y) / q, *y)).filter(|(at, _)| inside(*at, x));
+    let found: Vec<(f64, f64)> = sides.chain(levels).collect();
+    let apart = |a: &(f64, f64), b: &(f64, f64)| (a.0 - b.0).hypot(a.1 - b.1);
+    let first = *found.first()?;
+    let last = *found.iter().max_by(|a, b| apart(a, &first).total_cmp(&apart(b, &first)))?;
+    Some([first, last])
 }
 
 /// The lag along each line, where the support is above x.
@@ -211,4 +265,41 @@ fn lags(document: &RasterDocument, x: Vec<f64>) -> Result<PanelDocument, FigureE
     let (z_label, colours) = ("lag (σ)".into(), ColoursName::Grey);
     panel.map = Some(MapDocument { x, y, z, z_label, colours, z_range: None });
     Ok(panel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every mark runs along a crest of the surface, in the direction of the wave vector that it is drawn from: the heights are
+    /// those of a wave that is put in, under a slope and a harmonic.
+    #[test]
+    fn marks_run_along_crests() {
+        for (q, kappa) in [(0.99, -0.96), (0.8, 0.4), (0.5, 1.1), (0.9, 0.0)] {
+            let x: Vec<f64> = (0..=400).map(|i| 0.25 * f64::from(i)).collect();
+            let y: Vec<f64> = (0..200).map(|n| 0.5 * f64::from(n)).collect();
+            let wave = |x: f64, y: f64| {
+                let turn = q * x + kappa * y + 0.7;
+                turn.cos() + 0.2 * (2.0 * turn).cos()
+            };
+            let row = |y: &f64| x.iter().map(|x| wave(*x, *y) + 0.01 * x - 3.0).collect();
+            let u = y.iter().map(row).collect();
+            let marks = crests(&HeightMap { x, y, u }, (q, kappa)).unwrap();
+            let (mut count, mut from): (usize, Option<(f64, f64)>) = (0, None);
+            for (x, y) in marks.x.iter().zip(&marks.y) {
+                let Some(y) = y.filter(|y| y.is_finite()) else {
+                    from = None;
+                    continue;
+                };
+                assert!(wave(*x, y) > 1.15, "{q} {kappa}: {}", wave(*x, y));
+                if let Some((x0, y0)) = from {
+                    let along = q * (x - x0) + kappa * (y - y0);
+                    assert!(along.abs() < 1e-9 * (1.0 + (x - x0).hypot(y - y0)), "{along}");
+                    count += 1;
+                }
+                from = Some((*x, y));
+            }
+            assert!(count >= 3, "{q} {kappa}: {count}");
+        }
+    }
 }

@@ -99,7 +99,7 @@ fn angle(point: &RasterSweepPoint) -> Option<NoteDocument> {
     let is_ordered =
         matches!(point.regime, Some(RasterRegimeName::Ripples | RasterRegimeName::Pits));
     let found = point.pattern.as_ref().filter(|_| is_ordered)?;
-    let text = format!("{:.0}°", found.crest_angle);
+    let text = format!("{:.0}°", found.crest_angle?);
     Some(NoteDocument::new(&text, (point.pitch, point.alpha)))
 }
 
@@ -121,15 +121,15 @@ fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
 
 /// Wavelength, angle and coherence of ripples over what varies.
 fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<PanelDocument> {
-    type Measure = fn(&PatternDocument) -> f64;
+    type Measure = fn(&PatternDocument) -> Option<f64>;
     let measures: [(&str, Measure); 3] = [
         ("wavelength (σ)", |p| p.wavelength),
         ("crests to scan axis (°)", |p| p.crest_angle),
-        ("coherence", |p| p.coherence),
+        ("coherence", |p| Some(p.coherence)),
     ];
     let curve = |measure: Measure, (regime, colour): (RasterRegimeName, ColourName)| {
         let value = |point: &RasterSweepPoint| match &point.pattern {
-            Some(pattern) if point.regime == Some(regime) => measure(pattern),
+            Some(pattern) if point.regime == Some(regime) => measure(pattern).unwrap_or(f64::NAN),
             _ => f64::NAN,
         };
         // Points of other parts are not here.

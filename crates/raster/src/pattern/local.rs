@@ -1,12 +1,26 @@
 //! The ripple as it is from place to place.
 
-use super::wave::{Sheet, Wave};
-use ndarray::Array2;
+use super::estimate::Estimate;
+use super::sheet::{Sheet, cut, participating, quarters};
+use super::wave::Wave;
+use ndarray::{Array2, ArrayView2};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
 /// ψ(x, n): u e^{-i(qx + κy)} averaged over a wavelength or so along the line.
-pub(super) struct Local(Array2<Complex64>);
+pub(super) struct Local {
+    psi: Array2<Complex64>,
+    wave: Wave,
+    spacing: f64,
+    pitch: f64,
+}
+
+/// How far a wave reaches, as seen through the windows of a sheet: along the lines, and across them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    pub(super) along: f64,
+    pub(super) across: f64,
+}
 
 /// Standard deviation of the average, in wavelengths along the line, and at most such that the average takes half of the line; it ends at so
 /// many of them.
@@ -31,35 +45,87 @@ impl Local {
             sheet.u[(n, i)] * Complex64::from_polar(1.0, -(wave.q * x + wave.kappa * y))
         });
         let inside = columns.saturating_sub(2 * reach);
-        Self(Array2::from_shape_fn((rows, inside), |(n, i)| {
+        let total: f64 = weights.iter().sum();
+        let psi = Array2::from_shape_fn((rows, inside), |(n, i)| {
             let values = (0..weights.len()).map(|j| demodulated[(n, i + j)] * weights[j]);
-            values.sum::<Complex64>() / weights.iter().sum::<f64>()
-        }))
+            values.sum::<Complex64>() / total
+        });
+        Self { psi, wave: *wave, spacing: sheet.spacing, pitch: sheet.pitch }
     }
 
-    /// |Σ ψ_n* ψ_{n+m}| / √(Σ|ψ_n|² Σ|ψ_{n+m}|²), of every line with that m after it.
-    pub(super) fn coherence(&self, after: usize) -> f64 {
-        let (rows, columns) = self.0.dim();
-        let mut product = Complex64::default();
-        let mut squares = [0.0, 0.0];
-        for n in after..rows {
-            for i in 0..columns {
-                let (before, after) = (self.0[(n - after, i)], self.0[(n, i)]);
-                product += before.conj() * after;
-                squares[0] += before.norm_sqr();
-                squares[1] += after.norm_sqr();
+    /// |Σ ψ_n* ψ_{n+m}| / √(Σ|ψ_n|² Σ|ψ_{n+m}|²), of every line with that m after it, and its error.
+    pub(super) fn coherence(&self, after: usize) -> Estimate {
+        let of = |(value, _): (f64, f64)| value;
+        let quarters = self.quarters().map(|quarter| coherence(&quarter, after));
+        Estimate::of_quarters(of(coherence(&self.psi.view(), after)), &quarters)
+    }
+
+    fn quarters(&self) -> [ArrayView2<'_, Complex64>; 4] {
+        let (rows, columns) = self.psi.dim();
+        quarters(rows, columns).map(|(rows, columns)| cut(self.psi.view(), rows, columns))
+    }
+
+    /// The wave as it is in each quarter, by how fast its phase turns there, with the power that it has there.
+    pub(super) fn waves(&self) -> [Wave; 4] {
+        let turn = |pairs: (ArrayView2<Complex64>, ArrayView2<Complex64>)| -> f64 {
+            pairs.0.iter().zip(pairs.1).map(|(a, b)| a.conj() * b).sum::<Complex64>().arg()
+        };
+        self.quarters().map(|quarter| {
+            let (rows, columns) = quarter.dim();
+            let (row, column) = (rows.saturating_sub(1), columns.saturating_sub(1));
+            let along = (
+                cut(quarter, 0..rows, 0..column),
+                cut(quarter, 0..rows, columns - column..columns),
+            );
+            let across =
+                (cut(quarter, 0..row, 0..columns), cut(quarter, rows - row..rows, 0..columns));
+            Wave {
+                q: self.wave.q + turn(along) / self.spacing,
+                kappa: self.wave.kappa + turn(across) / self.pitch,
+                power: quarter.iter().map(Complex64::norm_sqr).sum(),
             }
+        })
+    }
+
+    /// Of a wave that is as strong everywhere the extent of the sheet.
+    pub(super) fn extent(&self, sheet: &Sheet) -> Extent {
+        let (rows, columns) = self.psi.dim();
+        let trimmed = (sheet.u.ncols() - columns) / 2;
+        let mut powers = (vec![0.0; columns], vec![0.0; rows]);
+        for ((n, i), psi) in self.psi.indexed_iter() {
+            powers.0[i] += psi.norm_sqr();
+            powers.1[n] += psi.norm_sqr();
         }
-        let all = (squares[0] * squares[1]).sqrt();
-        if all > 0.0 { product.norm() / all } else { 0.0 }
+        let part = |powers: &[f64], window: &[f64]| {
+            let even: Vec<f64> = window.iter().map(|w| w * w).collect();
+            let seen: Vec<f64> = powers.iter().zip(&even).map(|(power, w)| power * w).collect();
+            (participating(&seen) / participating(&even)).clamp(f64::MIN_POSITIVE, 1.0)
+        };
+        let (along, across) = (&sheet.windows.0[trimmed..trimmed + columns], &sheet.windows.1);
+        Extent {
+            along: sheet.spacing * sheet.u.ncols() as f64 * part(&powers.0, along),
+            across: sheet.pitch * rows as f64 * part(&powers.1, across),
+        }
+    }
+
+    /// Root mean square of ψ in the first, the middle and the last third of the lines.
+    pub(super) fn thirds(&self) -> [f64; 3] {
+        let (rows, columns) = self.psi.dim();
+        let third = columns / 3;
+        [0..third, third..columns - third, columns - third..columns].map(|part| {
+            let count = (rows * part.len()).max(1) as f64;
+            let psi = cut(self.psi.view(), 0..rows, part);
+            (psi.iter().map(Complex64::norm_sqr).sum::<f64>() / count).sqrt()
+        })
     }
 
     /// Meshes around which the phase turns.
     pub(super) fn defects(&self) -> usize {
-        let (rows, columns) = self.0.dim();
-        let mean = self.0.iter().map(|psi| psi.norm()).sum::<f64>() / self.0.len().max(1) as f64;
+        let (rows, columns) = self.psi.dim();
+        let mean =
+            self.psi.iter().map(|psi| psi.norm()).sum::<f64>() / self.psi.len().max(1) as f64;
         let turns = |n: usize, i: usize| {
-            let corners = [(n, i), (n, i + 1), (n + 1, i + 1), (n + 1, i)].map(|at| self.0[at]);
+            let corners = [(n, i), (n, i + 1), (n + 1, i + 1), (n + 1, i)].map(|at| self.psi[at]);
             // In a flat stretch the phase is that of round-off.
             if corners.iter().all(|psi| psi.norm() < WEAK * mean) {
                 return false;
@@ -70,6 +136,18 @@ impl Local {
         let meshes = (1..rows).flat_map(|n| (1..columns).map(move |i| (n - 1, i - 1)));
         meshes.filter(|(n, i)| turns(*n, *i)).count()
     }
+}
+
+/// That of these lines, and their power.
+fn coherence(psi: &ArrayView2<Complex64>, after: usize) -> (f64, f64) {
+    let (rows, columns) = psi.dim();
+    let pairs = rows.saturating_sub(after);
+    let (before, after) =
+        (cut(*psi, 0..pairs, 0..columns), cut(*psi, rows - pairs..rows, 0..columns));
+    let product: Complex64 = before.iter().zip(&after).map(|(a, b)| a.conj() * b).sum();
+    let squares = [before, after].map(|half| half.iter().map(Complex64::norm_sqr).sum::<f64>());
+    let all = (squares[0] * squares[1]).sqrt();
+    if all > 0.0 { (product.norm() / all, all) } else { (0.0, 0.0) }
 }
 
 #[cfg(test)]
@@ -89,10 +167,10 @@ mod tests {
         let sheet = sheet(|x, y| {
             0.7 * phase(x, y).cos() + 0.2 * (2.0 * phase(x, y)).cos() - 3.0 + 0.01 * x
         });
-        let wave = Wave::of_ripples(&sheet).unwrap();
+        let wave = Wave::strongest(&sheet, 2.0)[0];
         assert!((wave.q - q).abs() < 2e-4 && (wave.kappa - kappa).abs() < 4e-4, "{wave:?}");
         let local = Local::of(&sheet, &wave);
-        assert!(local.coherence(1) > 0.999, "{}", local.coherence(1));
+        assert!(local.coherence(1).value > 0.999, "{:?}", local.coherence(1));
         assert_eq!(local.defects(), 0);
         assert!(sheet.straightness() > 0.99, "{}", sheet.straightness());
     }
@@ -103,8 +181,8 @@ mod tests {
         let pits = sheet(|x, y| (0.9 * x + 0.9 * y).cos() + 0.9 * (0.9 * x - 0.9 * y).cos());
         assert!(pits.straightness() < 0.3, "{}", pits.straightness());
         let chaos = sheet(|x, y| (0.9 * x + 40.0 * (7.3 * y).sin()).cos());
-        let wave = Wave::of_ripples(&chaos).unwrap();
-        let coherence = Local::of(&chaos, &wave).coherence(1);
+        let wave = Wave::strongest(&chaos, 2.0)[0];
+        let coherence = Local::of(&chaos, &wave).coherence(1).value;
         assert!(coherence < 0.7, "{coherence}");
     }
 

@@ -1,56 +1,71 @@
 //! What the lines have written: ripples and their wave vector, pits, or no order.
 
+mod depth;
+mod doubt;
+mod estimate;
 #[cfg(test)]
 mod judged;
 mod local;
+mod regime;
+mod sheet;
+mod vector;
 mod wave;
 mod window;
+
+pub use doubt::Doubt;
+pub use regime::Regime;
 
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
 use crate::surface::Scanned;
+use estimate::Estimate;
 use local::Local;
-use wave::{Sheet, Wave};
-use window::{ALONG, Window};
+use regime::{FLAT, Measures, PITTED};
+use sheet::{Sheet, halves_of};
+use vector::Vector;
+use wave::Wave;
+use window::{ALONG, FEWEST_ROWS, Window};
 
-/// A ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a.
+/// What is to be seen after some lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The kind of surface.
+    pub regime: Regime,
+    /// The ripple; `None` where there is none.
+    pub pattern: Option<Pattern>,
+    /// Why something is not reported, or may be different after more lines.
+    pub doubts: Vec<Doubt>,
+}
+
+/// The strongest ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a. Errors are halves of 95 % intervals:
+/// of half of what the window resolves, and of the scatter among its quarters. What is `None` cannot be told from these
+/// lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
-    /// Wave number along the lines, above 0.
-    pub q: f64,
-    /// Wave number across them, between -π/d and π/d.
-    pub kappa: f64,
+    /// Wave number along the lines, above 0; `None` where several waves are as strong.
+    pub q: Option<f64>,
+    /// Wave number across them, between -π/d and π/d; `None` as q, and next to ±π/d, where its sign is undefined.
+    pub kappa: Option<f64>,
     /// 2π/√(q² + κ²)
-    pub wavelength: f64,
+    pub wavelength: Option<f64>,
+    /// Of the wavelength.
+    pub wavelength_error: Option<f64>,
     /// Between crests and scan axis, in degrees: atan(q/|κ|).
-    pub crest_angle: f64,
+    pub crest_angle: Option<f64>,
+    /// Of the crest angle, in degrees.
+    pub crest_angle_error: Option<f64>,
     /// How far each line is the one before, shifted: 1 where all shifts are the same. |Σ ψ_n* ψ_{n+1}| over
     /// √(Σ|ψ_n|² Σ|ψ_{n+1}|²), ψ the local complex amplitude of what each line alone has carved.
     pub coherence: f64,
+    /// Of the coherence.
+    pub coherence_error: f64,
     /// The same of a line and the one two after it, on a zigzag: lines that go the same way.
     pub coherence_same_way: Option<f64>,
     /// Half peak-to-peak.
     pub amplitude: f64,
     /// Places where a crest begins or ends: around them the phase of ψ turns once.
     pub defects: usize,
-}
-
-/// The kinds of surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Regime {
-    /// No ripples: the surface is as deep everywhere, but for what fades from the edge at which lines begin.
-    Steady,
-    /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
-    Ripples,
-    /// Crests broken into pits, lines still following each other.
-    Pits,
-    /// Neither.
-    Disordered,
-    /// Most lines did not leave the pit at their beginning.
-    StuckAtTheEdge,
-    /// Too few or too short lines to tell.
-    Unknown,
 }
 
 /// What one line did.
@@ -60,67 +75,56 @@ pub enum LineRegime {
     Steady,
     /// It does.
     StickSlip,
-    /// The tip stayed in the pit at the beginning.
+    /// The tip stayed in the pit at an end of it.
     StuckAtTheEdge,
 }
 
 /// Points in a width of the footprint.
 const POINTS: f64 = 4.0;
-/// Ripples below this part of the depth are none.
-const FLAT: f64 = 0.01;
-/// Columns of which less than this is left along the lines fade.
-const FADED: f64 = 0.5;
-/// Coherence of ripples, and of a lattice of pits.
-const ORDERED: f64 = 0.95;
-const LATTICE: f64 = 0.4;
-/// Crests are broken into pits where slopes point one way less than this, and the surface is that rough, in its depth.
-/// (One-way lines of a round Gaussian half a width apart: 0.99 at 1.1 αc, 0.95 at 1.2, 0.91 at 1.3, 0.81 at 1.5.)
-const STRAIGHT: f64 = 0.93;
-const PITTED: f64 = 0.3;
+/// Fewer waves than these along the window are no ripples.
+const FEWEST_WAVES: f64 = 2.0;
+/// Lines are alike where this part of their relief, or more, is the same on all.
+const ALIKE: f64 = 0.5;
+/// Half peak-to-peak is known to this part.
+const AMPLITUDE_ERROR: f64 = 0.2;
+/// What is left of a wave away from the edges is known to this.
+const KEPT_ERROR: f64 = 0.1;
+/// Relief whose logarithm changes by more than this from one half of the lines to the other still changes.
+const SETTLED: f64 = 0.1;
+/// Differences between lines grow if they do by more than this, and are more than so many times the tolerance.
+const GROWS: f64 = 1.02;
+const SEEN: f64 = 10.0;
 /// A lag that changes by less than this part of itself is steady.
 const SAME_LAG: f64 = 0.02;
 
-/// What is to be seen after these lines, and the pattern if there is one.
+/// What is to be seen after these lines: the regime, the pattern if there is one, and what is doubtful in them.
+///
+/// Looked at are the last half of the lines (at most 256, without those that later lines would still have gone over), from
+/// 20 % to 85 % of their length. The pattern is the strongest maximum of the power spectrum of this window (Hann).
 #[must_use]
-pub fn pattern(plan: &Plan, lines: &[Line]) -> (Regime, Option<Pattern>) {
-    let stuck = lines.iter().filter(|line| is_stuck(line)).count();
-    if 2 * stuck > lines.len() {
-        return (Regime::StuckAtTheEdge, None);
+pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
+    let mut doubts = vec![];
+    let all = lines.iter().filter(|line| is_stuck(line)).count();
+    if all > 0 {
+        doubts.push(Doubt::Stuck { lines: all, of: lines.len() });
     }
-    let Some(sheets) = sheets(plan, lines) else { return (Regime::Unknown, None) };
-    let sheet = &sheets.surface;
-    let amplitude = sheet.amplitude();
-    if amplitude < FLAT * sheets.depth.abs() {
-        return (Regime::Steady, None);
+    let last = &lines[lines.len() / 2..];
+    if 2 * last.iter().filter(|line| is_stuck(line)).count() > last.len() {
+        return Written { regime: Regime::StuckAtTheEdge, pattern: None, doubts };
     }
-    let Some(wave) = Wave::of_ripples(sheet) else { return (Regime::Unknown, None) };
-    let local = Local::of(sheet, &wave);
-    // What begins at the edge from which all lines start, and fades from there, is its mark and no ripple.
-    if wave.is_upright(sheet) && sheet.kept_along() < FADED {
-        return (Regime::Steady, None);
-    }
-    let own = Local::of(&sheets.own, &wave);
-    let coherence = own.coherence(1);
-    let same_way = (plan.path == Path::Zigzag).then(|| own.coherence(2));
-    let followed = same_way.unwrap_or(coherence);
-    let is_pitted = sheet.straightness() < STRAIGHT && amplitude > PITTED * sheets.depth.abs();
-    let regime = match is_pitted {
-        true if followed >= LATTICE => Regime::Pits,
-        false if followed >= ORDERED => Regime::Ripples,
-        _ => Regime::Disordered,
+    let unknown = |mut doubts: Vec<Doubt>, why: Doubt| {
+        doubts.push(why);
+        Written { regime: Regime::Unknown, pattern: None, doubts }
     };
-    let Wave { q, kappa, .. } = wave;
-    let pattern = Pattern {
-        q,
-        kappa,
-        wavelength: std::f64::consts::TAU / q.hypot(kappa),
-        crest_angle: q.atan2(kappa.abs()).to_degrees(),
-        coherence,
-        coherence_same_way: same_way,
-        amplitude,
-        defects: local.defects(),
+    let sheets = match sheets(plan, lines) {
+        Ok(sheets) => sheets,
+        Err(why) => return unknown(doubts, why),
     };
-    (regime, Some(pattern))
+    let seen = Seen::of(plan, &sheets, lines.len());
+    match seen {
+        Ok(seen) => seen.written(doubts),
+        Err(why) => unknown(doubts, why),
+    }
 }
 
 /// What one line did.
@@ -140,10 +144,11 @@ pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
     if high - low < SAME_LAG * high { LineRegime::Steady } else { LineRegime::StickSlip }
 }
 
-/// Whether the tip ended its line nearer to its beginning than to its end.
+/// Whether the tip went less than half of its line.
 fn is_stuck(line: &Line) -> bool {
-    let track = line.track();
-    track.along(line.x0(line.trajectory().end())) < 0.5 * track.length
+    let (track, start) = (line.track(), line.x0(0.0));
+    let end = line.x0(line.trajectory().end());
+    track.along(end) - track.along(start) < 0.5 * track.length
 }
 
 /// The part of lines and surface that is looked at.
@@ -152,11 +157,13 @@ struct Sheets {
     surface: Sheet,
     /// What each line alone has carved.
     own: Sheet,
-    /// Mean height of the surface.
+    /// How deep it was carved, on average.
     depth: f64,
+    /// What is left of the relief of the first half of the lines as the second half has been scanned.
+    healed: f64,
 }
 
-fn sheets(plan: &Plan, lines: &[Line]) -> Option<Sheets> {
+fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     let Window { first, end, from, to, pitch } = Window::of(plan, lines.len())?;
     let width = 8.7 / plan.band();
     let points = (POINTS * (to - from) / width) as usize;
@@ -166,10 +173,134 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Option<Sheets> {
     // Lines out of reach of these rows need not be read; between them none may be left out, as surfaces heal.
     let (low, high) = (y[0] - plan.reach_across(), y[y.len() - 1] + plan.reach_across());
     let is_felt = |line: &Line| (low..=high).contains(&line.track().y);
-    let felt = (lines.iter().position(is_felt)?, lines.iter().rposition(is_felt)?);
-    let heights = Scanned::new(plan, &lines[felt.0..=felt.1]).heights(&x, &y);
+    let ends = (lines.iter().position(is_felt), lines.iter().rposition(is_felt));
+    let felt = ends.0.unwrap_or(0)..ends.1.map_or(0, |last| last + 1);
+    let heights = Scanned::new(plan, &lines[felt]).heights(&x, &y);
     let own = Scanned::new(plan, &lines[first..end]).own_grooves(&x);
-    let depth = heights.mean()?;
     let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
-    Some(Sheets { surface: sheet(heights), own: sheet(own), depth })
+    let depth = depth::carved(plan, &lines[first..end], pitch);
+    let left = plan.law.model.wider().left_after(plan.duration(first));
+    let healed = left.powf(0.5 * (end - first) as f64);
+    let sheets = Sheets { surface: sheet(heights), own: sheet(own), depth, healed };
+    let visible = sheets.surface.visible_rows();
+    if visible < FEWEST_ROWS as f64 && sheets.surface.amplitude() > FLAT * depth {
+        let healed = plan.law.model.wider().healing_time.is_some();
+        return Err(Doubt::FewVisible { lines: visible.round() as usize, healed });
+    }
+    Ok(sheets)
+}
+
+/// What was measured.
+struct Seen {
+    measures: Measures,
+    pattern: Option<Pattern>,
+    doubts: Vec<Doubt>,
+}
+
+impl Seen {
+    fn of(plan: &Plan, sheets: &Sheets, lines: usize) -> Result<Self, Doubt> {
+        let sheet = &sheets.surface;
+        let amplitude = sheet.amplitude() / sheets.depth;
+        let amplitude = Estimate { value: amplitude, error: AMPLITUDE_ERROR * amplitude };
+        let certain = Estimate { value: 1.0, error: 0.0 };
+        let growing = growing(plan, sheets, lines);
+        let flat = Measures { amplitude, kept: certain, straightness: certain, followed: certain };
+        if amplitude.value + amplitude.error < FLAT {
+            return Ok(Self {
+                measures: flat,
+                pattern: None,
+                doubts: growing.into_iter().collect(),
+            });
+        }
+        let length = sheet.spacing * sheet.u.ncols() as f64 / (ALONG.1 - ALONG.0);
+        let waves = Wave::strongest(sheet, FEWEST_WAVES);
+        let Some(wave) = waves.first() else { return Err(Doubt::NoWave(2.0 * length)) };
+        let local = Local::of(sheet, wave);
+        let vector = Vector::of(sheet, &local, &waves, lines);
+        let is_upright = wave.kappa.abs() <= sheet.resolution().1;
+        let kept = if is_upright { sheets.kept(plan.path, &local) } else { certain };
+        let is_alike = is_upright && unlike(sheet) < ALIKE;
+        let is_wave = !is_alike || vector.is_wave();
+        let own = Local::of(&sheets.own, wave);
+        let coherence = own.coherence(1);
+        let same_way = (plan.path == Path::Zigzag).then(|| own.coherence(2));
+        let quarters = sheet.quarters().map(|part| (part.straightness(), part.amplitude().powi(2)));
+        let straightness = Estimate::of_quarters(sheet.straightness(), &quarters);
+        let followed = same_way.unwrap_or(coherence);
+        let measures = Measures { amplitude, kept, straightness, followed };
+        if !is_wave && measures.regime() != Regime::Steady {
+            return Err(Doubt::NoWave(2.0 * length));
+        }
+        let mut doubts = vec![];
+        let changes = vector.changes(sheet).map(|factor| factor * sheets.healed);
+        if changes.iter().any(|factor| factor.ln().abs() > SETTLED) {
+            let most = changes.into_iter().max_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()));
+            doubts.extend(most.map(Doubt::Changing));
+        }
+        if measures.regime() == Regime::Steady {
+            doubts.extend(growing);
+            return Ok(Self { measures, pattern: None, doubts });
+        }
+        let is_settled = changes[1].ln().abs() <= SETTLED;
+        let angle = vector.crest_angle(&mut doubts);
+        let wavelength = vector.wavelength(is_settled, &mut doubts);
+        let pattern = Pattern {
+            q: wavelength.map(|_| wave.q),
+            kappa: wavelength.and(angle).map(|_| wave.kappa),
+            wavelength: wavelength.map(|of| of.value),
+            wavelength_error: wavelength.map(|of| of.error),
+            crest_angle: angle.map(|of| of.value),
+            crest_angle_error: angle.map(|of| of.error),
+            coherence: coherence.value,
+            coherence_error: coherence.error,
+            coherence_same_way: same_way.map(|of| of.value),
+            amplitude: sheet.amplitude(),
+            defects: local.defects(),
+        };
+        Ok(Self { measures, pattern: Some(pattern), doubts })
+    }
+
+    fn written(self, mut doubts: Vec<Doubt>) -> Written {
+        let regime = self.measures.regime();
+        doubts.extend(self.doubts);
+        doubts.extend(self.measures.beside().map(|other| Doubt::Between(regime, other)));
+        Written { regime, pattern: self.pattern, doubts }
+    }
+}
+
+/// The part of the relief, root mean square, that lines do not have alike.
+fn unlike(sheet: &Sheet) -> f64 {
+    let square = |u: &ndarray::Array2<f64>| u.iter().map(|u| u * u).sum::<f64>();
+    (square(&sheet.unlike()) / square(&sheet.u)).sqrt()
+}
+
+impl Sheets {
+    /// What is left of a wave away from the edges from which lines begin, of what it has next to them: all of it where the
+    /// surface is still rough there.
+    fn kept(&self, path: Path, local: &Local) -> Estimate {
+        let ends = |[first, middle, last]: [f64; 3]| {
+            if path == Path::Zigzag { (first.max(last), middle) } else { (first, last) }
+        };
+        let (near, far) = ends(local.thirds());
+        let rough = ends(self.surface.thirds()).1 / (PITTED * self.depth);
+        if rough > 1.0 + AMPLITUDE_ERROR {
+            return Estimate { value: 1.0, error: 0.0 };
+        }
+        let error = if rough > 1.0 - AMPLITUDE_ERROR { 1.0 } else { KEPT_ERROR };
+        Estimate { value: far / near.max(f64::MIN_POSITIVE), error }
+    }
+}
+
+/// Whether what differs from line to line grows, and when it would be seen as ripples.
+fn growing(plan: &Plan, sheets: &Sheets, lines: usize) -> Option<Doubt> {
+    let unlike = sheets.surface.unlike();
+    let [before, after] = halves_of(&unlike);
+    let ratio = after / before * sheets.healed;
+    let is_seen = after > SEEN * plan.law.tolerance * sheets.depth;
+    (is_seen && ratio > GROWS).then(|| {
+        let factor = ratio.powf(2.0 / unlike.nrows() as f64);
+        let more = (FLAT * sheets.depth / after).ln() / factor.ln();
+        let more = more.clamp(lines as f64, 1e9);
+        Doubt::Growing { factor, lines: lines + more as usize }
+    })
 }

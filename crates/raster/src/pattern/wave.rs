@@ -1,20 +1,7 @@
-//! The wave vector of a sheet of heights.
+//! The wave vectors of a sheet of heights.
 
-use ndarray::{Array1, Array2};
-use num_complex::Complex64;
-use std::f64::consts::{PI, TAU};
-
-/// Heights on evenly spaced points of evenly spaced lines, less the mean and slope of each line.
-pub(super) struct Sheet {
-    pub(super) u: Array2<f64>,
-    pub(super) from: f64,
-    pub(super) spacing: f64,
-    pub(super) pitch: f64,
-    /// Beyond this wave number there is nothing.
-    band: f64,
-    /// sin² that fades both ends, of the points of a line and of the lines.
-    windows: (Vec<f64>, Vec<f64>),
-}
+use super::sheet::Sheet;
+use std::f64::consts::PI;
 
 /// Where the power |Σ window u e^{-i(qx + κy)}|² has a maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,132 +11,52 @@ pub(super) struct Wave {
     pub(super) power: f64,
 }
 
-/// Fewer waves on a sheet than these are no ripples but its shape.
-const FEWEST_WAVES: f64 = 2.0;
+/// What is looked through begins with so many waves along a line: less is the mean and slope that was taken off.
+const FEWEST_SEEN: f64 = 1.0;
 /// Samples in the width of a peak.
 const PER_PEAK: f64 = 2.0;
 /// Of the band: what is looked through. The groove of a sharp pit has less than e^{-6} of its power beyond.
 const LOOKED_AT: f64 = 0.4;
-/// Within so many widths of a peak of κ = 0 all lines do alike, by the edge from which they all start.
-const ALIKE: f64 = 3.0;
-/// What is oblique is no ripple where it has less than this part of the power of the strongest wave.
-const FAR_WEAKER: f64 = 0.1;
 /// Waves of this part of the power of the strongest are as strong.
-const AS_STRONG: f64 = 0.5;
-
-fn window(count: usize) -> Vec<f64> {
-    (0..count).map(|i| (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect()
-}
-
-impl Sheet {
-    pub(super) fn new(
-        mut u: Array2<f64>,
-        (from, spacing): (f64, f64),
-        pitch: f64,
-        band: f64,
-    ) -> Self {
-        let middle = 0.5 * (u.ncols() as f64 - 1.0);
-        let moment: f64 = (0..u.ncols()).map(|i| (i as f64 - middle).powi(2)).sum();
-        for mut row in u.rows_mut() {
-            let mean = row.sum() / row.len() as f64;
-            let tilt = row.iter().enumerate().map(|(i, u)| u * (i as f64 - middle)).sum::<f64>();
-            let tilt = tilt / moment;
-            row.iter_mut().enumerate().for_each(|(i, u)| *u -= mean + tilt * (i as f64 - middle));
-        }
-        let windows = (window(u.ncols()), window(u.nrows()));
-        Self { u, from, spacing, pitch, band, windows }
-    }
-
-    /// Half peak-to-peak.
-    pub(super) fn amplitude(&self) -> f64 {
-        let ends = |(low, high): (f64, f64), u: &f64| (low.min(*u), high.max(*u));
-        let (low, high) = self.u.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
-        0.5 * (high - low)
-    }
-
-    /// What is left in the last third of the lines of what is in the first, root mean square, line means and slopes taken out.
-    pub(super) fn kept_along(&self) -> f64 {
-        let third = self.u.ncols() / 3;
-        let part = |from: usize| -> f64 {
-            let rows = self.u.rows().into_iter();
-            let part: Vec<f64> =
-                rows.flat_map(|row| row.to_vec()[from..from + third].to_vec()).collect();
-            let mean = part.iter().sum::<f64>() / part.len() as f64;
-            part.iter().map(|u| (u - mean).powi(2)).sum::<f64>().sqrt()
-        };
-        part(self.u.ncols() - third) / part(0)
-    }
-
-    /// How far slopes all point one way, whichever: 1 where u is made of straight crests, 0 where it is the same in all
-    /// directions. (λ1 - λ2)/(λ1 + λ2) of the mean of ∇u ∇uᵀ.
-    pub(super) fn straightness(&self) -> f64 {
-        let (rows, columns) = self.u.dim();
-        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-        for n in 1..rows - 1 {
-            for i in 1..columns - 1 {
-                let x = (self.u[(n, i + 1)] - self.u[(n, i - 1)]) / (2.0 * self.spacing);
-                let y = (self.u[(n + 1, i)] - self.u[(n - 1, i)]) / (2.0 * self.pitch);
-                (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
-            }
-        }
-        (xx - yy).hypot(2.0 * xy) / (xx + yy)
-    }
-
-    /// Wave numbers that differ by less than these are the same to it.
-    fn resolution(&self) -> (f64, f64) {
-        let (rows, columns) = self.u.dim();
-        (TAU / (self.spacing * columns as f64), TAU / (self.pitch * rows as f64))
-    }
-
-    /// Σ_i window u_n(x_i) e^{-iqx_i} of every line.
-    fn along(&self, q: f64) -> Array1<Complex64> {
-        let factor = |(i, window): (usize, &f64)| {
-            Complex64::from_polar(*window, -q * self.spacing * i as f64)
-        };
-        let factors: Vec<Complex64> = self.windows.0.iter().enumerate().map(factor).collect();
-        let line =
-            |row: ndarray::ArrayView1<f64>| row.iter().zip(&factors).map(|(u, f)| f * u).sum();
-        self.u.rows().into_iter().map(line).collect()
-    }
-
-    /// The same over the lines.
-    fn across(&self, along: &Array1<Complex64>, kappa: f64) -> f64 {
-        let turn = Complex64::from_polar(1.0, -kappa * self.pitch);
-        let (mut phase, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());
-        for (value, window) in along.iter().zip(&self.windows.1) {
-            sum += value * phase * window;
-            phase *= turn;
-        }
-        sum.norm_sqr()
-    }
-
-    fn power(&self, q: f64, kappa: f64) -> f64 {
-        self.across(&self.along(q), kappa)
-    }
-}
+const RIVAL: f64 = 0.5;
 
 impl Wave {
-    /// Whether all lines do alike.
-    pub(super) fn is_upright(&self, sheet: &Sheet) -> bool {
-        self.kappa.abs() <= ALIKE * sheet.resolution().1
+    /// Crests to the lines, in degrees.
+    pub(super) fn angle(&self) -> f64 {
+        self.q.atan2(self.kappa.abs()).to_degrees()
     }
 
-    /// The wave vector of the ripples: that of the oblique ones, unless what all lines do alike is far stronger; and of
-    /// those that are as strong the longest, the others being it and what it is modulated by.
-    pub(super) fn of_ripples(sheet: &Sheet) -> Option<Self> {
-        let peaks = Self::peaks(sheet);
+    pub(super) fn length(&self) -> f64 {
+        std::f64::consts::TAU / self.q.hypot(self.kappa)
+    }
+
+    /// The strongest wave of which at least so many lie along the lines, and after it its rivals, be they longer: all that
+    /// have at least half of its power, or more power of slopes.
+    pub(super) fn strongest(sheet: &Sheet, fewest: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
-        let power = |wave: &&Self| wave.power;
-        let strongest = |waves: &[&Self]| waves.iter().map(power).fold(0.0, f64::max);
-        let all: Vec<&Self> = peaks.iter().collect();
-        let oblique: Vec<&Self> =
-            peaks.iter().filter(|wave| wave.kappa.abs() > ALIKE * dk).collect();
-        let is_oblique = strongest(&oblique) > FAR_WEAKER * strongest(&all);
-        let candidates = if is_oblique { oblique } else { all };
-        let least = AS_STRONG * strongest(&candidates);
-        let strong = candidates.into_iter().filter(|wave| wave.power >= least);
-        let longest = strong.min_by(|a, b| a.q.hypot(a.kappa).total_cmp(&b.q.hypot(b.kappa)))?;
-        Some(longest.refined(sheet, (dq / PER_PEAK, dk / PER_PEAK)))
+        let peaks = Self::peaks(sheet);
+        let is_whole = |wave: &&Self| wave.q >= (fewest - 0.5 / PER_PEAK) * dq;
+        let highest = peaks.iter().filter(is_whole).max_by(|a, b| a.power.total_cmp(&b.power));
+        let Some(highest) = highest else { return vec![] };
+        // Between samples a peak is up to a seventh higher than on them.
+        let is_near = |wave: &&Self| wave.rivals(highest, 0.8);
+        let refined = peaks.iter().filter(is_near);
+        let refined =
+            refined.map(|wave| (wave, wave.refined(sheet, (dq / PER_PEAK, dk / PER_PEAK))));
+        let refined: Vec<(&Self, Self)> = refined.collect();
+        let whole = refined.iter().filter(|(peak, _)| is_whole(peak)).map(|(_, wave)| *wave);
+        let Some(first) = whole.max_by(|a, b| a.power.total_cmp(&b.power)) else { return vec![] };
+        let mut others: Vec<Self> = refined.into_iter().map(|(_, wave)| wave).collect();
+        others.retain(|wave| *wave != first && wave.q > 0.0 && wave.rivals(&first, 1.0));
+        others.sort_by(|a, b| b.power.total_cmp(&a.power));
+        others.insert(0, first);
+        others
+    }
+
+    /// Whether it has half of the power of another, or more power of slopes, all times a factor.
+    fn rivals(&self, other: &Self, factor: f64) -> bool {
+        let slopes = |wave: &Self| (wave.q.powi(2) + wave.kappa.powi(2)) * wave.power;
+        self.power >= factor * RIVAL * other.power || slopes(self) >= factor * slopes(other)
     }
 
     /// Where the power is larger than all around, q > 0.
@@ -157,22 +64,24 @@ impl Wave {
         let (dq, dk) = sheet.resolution();
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
         let half = (PI / sheet.pitch / step_k).round() as i64;
-        let first = (FEWEST_WAVES * PER_PEAK) as i64;
+        let first = (FEWEST_SEEN * PER_PEAK) as i64;
         let last = (LOOKED_AT * sheet.band / step_q) as i64;
+        // One more at either end, which is looked at and not taken.
         let row = |i: i64| -> Vec<f64> {
             let along = sheet.along(step_q * i as f64);
             (-half..half).map(|j| sheet.across(&along, step_k * j as f64)).collect()
         };
-        let power: Vec<Vec<f64>> = (first..=last).map(row).collect();
+        let power: Vec<Vec<f64>> = (first - 1..=last + 1).map(row).collect();
         let columns = 2 * half as usize;
         let mut peaks = vec![];
-        for (n, row) in power.iter().enumerate() {
-            let rows = &power[n.saturating_sub(1)..power.len().min(n + 2)];
-            for (j, here) in row.iter().enumerate() {
+        for n in 1..power.len().saturating_sub(1) {
+            for (j, here) in power[n].iter().enumerate() {
                 // Beyond ±π/d phases begin again.
                 let near = [j + columns - 1, j, j + 1].map(|j| j % columns);
-                if rows.iter().all(|row| near.iter().all(|j| row[*j] <= *here)) {
-                    let q = step_q * (first + n as i64) as f64;
+                let is_top =
+                    power[n - 1..n + 2].iter().all(|row| near.iter().all(|j| row[*j] <= *here));
+                if is_top && *here > 0.0 {
+                    let q = step_q * (first - 1 + n as i64) as f64;
                     let kappa = step_k * (j as i64 - half) as f64;
                     peaks.push(Self { q, kappa, power: *here });
                 }
@@ -183,6 +92,8 @@ impl Wave {
 
     /// The top of the peak, by parabolas through the logarithm of the power.
     fn refined(mut self, sheet: &Sheet, (mut step_q, mut step_k): (f64, f64)) -> Self {
+        let within = [step_q, step_k];
+        let start = self;
         for _ in 0..8 {
             let top = |left: f64, right: f64, here: f64| {
                 let (left, right, here) = (left.ln(), right.ln(), here.ln());
@@ -192,11 +103,17 @@ impl Wave {
             let here = sheet.power(self.q, self.kappa);
             let sides = [-1.0, 1.0].map(|s| sheet.power(self.q + s * step_q, self.kappa));
             self.q += step_q * top(sides[0], sides[1], here);
+            self.q = self.q.clamp(start.q - within[0], start.q + within[0]);
             let along = sheet.along(self.q);
             let at = |kappa: f64| sheet.across(&along, kappa);
             let sides = [-1.0, 1.0].map(|s| at(self.kappa + s * step_k));
             self.kappa += step_k * top(sides[0], sides[1], at(self.kappa));
+            self.kappa = self.kappa.clamp(start.kappa - within[1], start.kappa + within[1]);
             (step_q, step_k) = (0.4 * step_q, 0.4 * step_k);
+        }
+        let edge = PI / sheet.pitch;
+        if self.kappa.abs() > edge {
+            self.kappa -= 2.0 * edge * self.kappa.signum();
         }
         self.power = sheet.power(self.q, self.kappa);
         self

@@ -1,7 +1,8 @@
 //! The part of an area that is looked at: the largest rectangle of lines that lie evenly.
 
+use super::doubt::Doubt;
 use crate::area::pitch_of;
-use crate::path::AreaLine;
+use crate::path::{AreaLine, Path};
 use crate::plan::{Plan, WIDTHS};
 
 /// The part of the length that is looked at: neither the pit at the beginning nor the end.
@@ -14,7 +15,7 @@ const MOST_TRIED: usize = 2048;
 /// The last lines have not yet been gone over by those that would follow within so many widths.
 const UNFINISHED: f64 = 3.5;
 /// Fewer rows, or a shorter stretch in wavelengths of the footprint, show no wave vector.
-const FEWEST_ROWS: usize = 8;
+pub(super) const FEWEST_ROWS: usize = 8;
 const SHORTEST: f64 = 12.0;
 
 /// Lines first..end, from x to x.
@@ -28,24 +29,32 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Of the first `scanned` lines of a plan; `None` if there is none in which a wave vector could be seen.
-    pub(super) fn of(plan: &Plan, scanned: usize) -> Option<Self> {
+    /// Of the first `scanned` lines of a plan.
+    ///
+    /// # Errors
+    /// There is none in which a wave vector could be seen.
+    pub(super) fn of(plan: &Plan, scanned: usize) -> Result<Self, Doubt> {
         let width = 8.7 / plan.band();
         let across = plan.reach_across() / WIDTHS;
         let lines: Vec<AreaLine> = (0..scanned).map(|n| line(plan, n)).collect();
         let gaps = lines.windows(2).map(|pair| pair[1].y - pair[0].y).filter(|gap| *gap > 0.0);
-        // One line over and over has none.
         let closest = gaps.fold(f64::INFINITY, f64::min);
+        if plan.path == Path::Repeat || !closest.is_finite() {
+            return Err(Doubt::OneLine);
+        }
         let unfinished = (UNFINISHED * across / closest).ceil() as usize;
-        let last = scanned.checked_sub(unfinished)?;
+        let fewest = ((SHORTEST * across / closest).ceil() as usize).max(FEWEST_ROWS);
+        let few = Doubt::FewLines((fewest as f64 / LAST).ceil() as usize + unfinished);
+        let last = scanned.checked_sub(unfinished).ok_or(few.clone())?;
         let begin = (last - (LAST * last as f64) as usize).max(last.saturating_sub(MOST_TRIED));
-        let window = largest(&lines[begin..last])?;
+        let window = largest(&lines[begin..last]).ok_or(few.clone())?;
         let window = Self { first: window.first + begin, end: window.end + begin, ..window };
+        if window.to - window.from <= SHORTEST * width {
+            return Err(Doubt::ShortLines(SHORTEST * width / (ALONG.1 - ALONG.0) + 1.0));
+        }
         let rows = window.end - window.first;
-        let is_enough = window.to - window.from > SHORTEST * width
-            && rows >= FEWEST_ROWS
-            && window.pitch * rows as f64 >= SHORTEST * across;
-        is_enough.then_some(window)
+        let is_enough = rows >= FEWEST_ROWS && window.pitch * rows as f64 >= SHORTEST * across;
+        if is_enough { Ok(window) } else { Err(few) }
     }
 }
 

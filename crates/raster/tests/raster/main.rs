@@ -4,4 +4,5 @@ mod against_linear_theory;
 mod by_definition;
 mod definition;
 mod patterns;
+mod resolved;
 mod wider_linear_theory;

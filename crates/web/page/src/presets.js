@@ -17,7 +17,7 @@ export const PRESETS = [
   { name: 'A depth limit', run: { ...plain, alpha: 2, depth_limit: 5, kick: 0.2, until: 200 } },
   {
     name: 'Oblique ripples (raster)',
-    run: { ...plain, alpha: 0.5, beta: 0, kick: 0.1, until: 200 },
-    scan: { pitch: 0.5, lines: 80, length: 60, path: 'one-way' },
+    run: { ...plain, alpha: 0.9, beta: 0, kick: 0.1, until: 200 },
+    scan: { pitch: 1, lines: 80, length: 60, path: 'one-way' },
   },
 ];

@@ -60,10 +60,15 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
     },
     scanned({ found, why }) {
       if (why) return stop(why);
-      const { regime, pattern: p, command } = found;
-      const words = p
-        ? `${regime}: wavelength ${p.wavelength.toPrecision(4)} σ, crests at ${p.crest_angle.toPrecision(3)}° to the lines, coherence ${p.coherence.toPrecision(3)}`
-        : regime;
+      const { regime, pattern: p, remarks, command } = found;
+      const of = (name, unit) => p?.[name] == null ? [] : [`${p[name].toPrecision(3)} ± ${p[`${name}_error`].toPrecision(2)}${unit}`];
+      const parts = [
+        regime,
+        ...of('wavelength', ' σ').map((words) => `wavelength ${words}`),
+        ...of('crest_angle', '°').map((words) => `crests at ${words} to the lines`),
+        ...(p ? [`coherence ${p.coherence.toPrecision(3)}`] : []),
+      ];
+      const words = [parts.join(', '), ...remarks].join('; ');
       told.dataset.found = JSON.stringify(found);
       stop(`${total} lines. ${words}. `);
       const code = document.createElement('code');

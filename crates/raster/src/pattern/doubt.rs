@@ -1,0 +1,120 @@
+//! Reasons to doubt what is reported of a surface, and what would settle them.
+
+use super::regime::Regime;
+use std::fmt;
+
+/// A reason why something is not reported, or may be different after more lines.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Doubt {
+    /// On so many of the lines the tip did not leave the pit at an end of them.
+    Stuck {
+        /// These.
+        lines: usize,
+        /// All.
+        of: usize,
+    },
+    /// Lines across too small a distance for a wave vector; about this many would do.
+    FewLines(usize),
+    /// Lines too short for a wave vector; about this length would do, in σ.
+    ShortLines(f64),
+    /// One line, scanned again and again.
+    OneLine,
+    /// No more than so many lines hold the relief.
+    FewVisible {
+        /// About how many.
+        lines: usize,
+        /// Whether the others have healed.
+        healed: bool,
+    },
+    /// What is on the lines is no wave: fewer than two of it fit. Lines about this long would show more.
+    NoWave(f64),
+    /// The relief of the second half of the lines looked at over that of the first.
+    Changing(f64),
+    /// The surface is steady so far, but what differs from line to line grows by this factor from line to line.
+    Growing {
+        /// A factor above 1.
+        factor: f64,
+        /// Ripples would be seen after about so many lines in all.
+        lines: usize,
+    },
+    /// A measure of the regime lies within its error of the boundary to this other regime.
+    Between(Regime, Regime),
+    /// Waves at least half as strong as the strongest, wavelength in σ and crest angle in degrees.
+    Rivals(Vec<(f64, f64)>),
+    /// Neighbouring lines are in antiphase, κ = ±π/pitch: the sign of κ is not defined.
+    Antiphase,
+    /// The error of the angle, in degrees, is too large to tell it; about so many lines would do.
+    Unresolved {
+        /// 95 %, in degrees.
+        error: f64,
+        /// In all.
+        lines: usize,
+    },
+    /// The error of the wavelength, in parts of it, is too large to tell it.
+    Unmeasured(f64),
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stuck { lines, of } => {
+                write!(out, "on {lines} of {of} lines the tip did not leave the pit at an end of them")
+            }
+            Self::FewLines(lines) => {
+                write!(out, "too few lines for a pattern: {lines} would be enough")
+            }
+            Self::ShortLines(length) => {
+                write!(out, "the lines are too short for a pattern: {length:.0} σ would be enough")
+            }
+            Self::OneLine => out.write_str("a single line, or one scanned again and again, has no pattern"),
+            Self::FewVisible { lines, healed } => {
+                let others = if *healed { "the others have healed" } else { "others are flat" };
+                write!(
+                    out,
+                    "only about {lines} lines hold the relief ({others}): too few for a pattern"
+                )
+            }
+            Self::NoWave(length) => write!(
+                out,
+                "the relief along the lines is no wave: fewer than two fit between the edges; lines of about \
+                 {length:.0} σ would show whether it fades"
+            ),
+            Self::Changing(factor) => write!(
+                out,
+                "the surface still changes from line to line (relief of the second half of the examined lines over \
+                 that of the first: {factor:.2}): regime and wavelength may differ after more lines"
+            ),
+            Self::Growing { factor, lines } => write!(
+                out,
+                "the differences between lines still grow, by a factor of {factor:.3} from line to line: ripples may \
+                 appear after about {lines} lines"
+            ),
+            Self::Between(here, other) => {
+                write!(out, "the surface lies on the boundary between {here} and {other}")
+            }
+            Self::Rivals(waves) => {
+                let wave = |(length, angle): &(f64, f64)| format!("{length:.2} σ at {angle:.0}°");
+                let waves: Vec<String> = waves.iter().take(4).map(wave).collect();
+                write!(
+                    out,
+                    "several waves are about as strong as each other: {}",
+                    waves.join(", ")
+                )
+            }
+            Self::Antiphase => out.write_str(
+                "neighbouring lines are in antiphase (κ = ±π/pitch): the sign of κ, and with it the crest angle, is undefined",
+            ),
+            Self::Unresolved { error, lines } => write!(
+                out,
+                "the crest angle is uncertain by ±{:.0}°: about {lines} lines would resolve it if the crests are straight",
+                error.min(90.0)
+            ),
+            Self::Unmeasured(part) if *part < 1.0 => write!(
+                out,
+                "the wavelength is uncertain by ±{:.0} %: longer or more lines would resolve it if it is the same everywhere",
+                100.0 * part
+            ),
+            Self::Unmeasured(_) => out.write_str("the wavelength differs from place to place"),
+        }
+    }
+}

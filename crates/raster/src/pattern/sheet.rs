@@ -1,0 +1,175 @@
+//! Heights on a rectangle of evenly spaced lines.
+
+use ndarray::{Array1, Array2, ArrayView2, Axis, Slice};
+use num_complex::Complex64;
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+/// Heights on evenly spaced points of evenly spaced lines, less the mean and slope of each line.
+pub(super) struct Sheet {
+    pub(super) u: Array2<f64>,
+    pub(super) from: f64,
+    pub(super) spacing: f64,
+    pub(super) pitch: f64,
+    /// Beyond this wave number there is nothing.
+    pub(super) band: f64,
+    /// sin² that fades both ends (Hann), of the points of a line and of the lines.
+    pub(super) windows: (Vec<f64>, Vec<f64>),
+}
+
+fn window(count: usize) -> Vec<f64> {
+    (0..count).map(|i| (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect()
+}
+
+fn root_mean_square<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), u| (sum + u * u, count + 1));
+    (sum / count.max(1) as f64).sqrt()
+}
+
+/// (Σe)²/Σe²: how many of these hold what there is.
+pub(super) fn participating(e: &[f64]) -> f64 {
+    let squares: f64 = e.iter().map(|e| e * e).sum();
+    if squares > 0.0 { e.iter().sum::<f64>().powi(2) / squares } else { 0.0 }
+}
+
+impl Sheet {
+    pub(super) fn new(
+        mut u: Array2<f64>,
+        (from, spacing): (f64, f64),
+        pitch: f64,
+        band: f64,
+    ) -> Self {
+        let middle = 0.5 * (u.ncols() as f64 - 1.0);
+        let moment: f64 = (0..u.ncols()).map(|i| (i as f64 - middle).powi(2)).sum();
+        for mut row in u.rows_mut() {
+            let mean = row.sum() / row.len() as f64;
+            let tilt = row.iter().enumerate().map(|(i, u)| u * (i as f64 - middle)).sum::<f64>();
+            let tilt = tilt / moment;
+            row.iter_mut().enumerate().for_each(|(i, u)| *u -= mean + tilt * (i as f64 - middle));
+        }
+        Self::of(u, (from, spacing), pitch, band)
+    }
+
+    fn of(u: Array2<f64>, (from, spacing): (f64, f64), pitch: f64, band: f64) -> Self {
+        let windows = (window(u.ncols()), window(u.nrows()));
+        Self { u, from, spacing, pitch, band, windows }
+    }
+
+    /// A part of it, as it is.
+    pub(super) fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
+        let from = self.from + self.spacing * columns.start as f64;
+        let u = cut(self.u.view(), rows, columns).to_owned();
+        Self::of(u, (from, self.spacing), self.pitch, self.band)
+    }
+
+    /// The first and the last half of its lines.
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let (rows, columns) = self.u.dim();
+        [0..rows / 2, rows / 2..rows].map(|half| self.part(half, 0..columns))
+    }
+
+    pub(super) fn quarters(&self) -> [Self; 4] {
+        let (rows, columns) = self.u.dim();
+        quarters(rows, columns).map(|(rows, columns)| self.part(rows, columns))
+    }
+
+    /// Less what all lines have alike, the mean over them.
+    pub(super) fn unlike(&self) -> Array2<f64> {
+        let rows = self.u.nrows() as f64;
+        &self.u - &(self.u.sum_axis(Axis(0)) / rows)
+    }
+
+    /// Half peak-to-peak.
+    pub(super) fn amplitude(&self) -> f64 {
+        let ends = |(low, high): (f64, f64), u: &f64| (low.min(*u), high.max(*u));
+        let (low, high) = self.u.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        0.5 * (high - low)
+    }
+
+    /// Root mean square in the first, the middle and the last third of the lines.
+    pub(super) fn thirds(&self) -> [f64; 3] {
+        let (rows, columns) = self.u.dim();
+        let third = columns / 3;
+        [0..third, third..columns - third, columns - third..columns]
+            .map(|part| root_mean_square(cut(self.u.view(), 0..rows, part).iter()))
+    }
+
+    /// How many lines hold its relief.
+    pub(super) fn visible_rows(&self) -> f64 {
+        let rows = self.u.rows().into_iter();
+        participating(&rows.map(|row| row.iter().map(|u| u * u).sum()).collect::<Vec<_>>())
+    }
+
+    /// How far slopes all point one way, whichever: 1 where u is made of straight crests, 0 where it is the same in all
+    /// directions. (λ1 - λ2)/(λ1 + λ2) of the mean of ∇u ∇uᵀ, the structure tensor, under the squares of the windows.
+    pub(super) fn straightness(&self) -> f64 {
+        let (rows, columns) = self.u.dim();
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for n in 1..rows - 1 {
+            for i in 1..columns - 1 {
+                let weight = (self.windows.0[i] * self.windows.1[n]).powi(2);
+                let x = (self.u[(n, i + 1)] - self.u[(n, i - 1)]) / (2.0 * self.spacing);
+                let y = (self.u[(n + 1, i)] - self.u[(n - 1, i)]) / (2.0 * self.pitch);
+                (xx, xy, yy) = (xx + weight * x * x, xy + weight * x * y, yy + weight * y * y);
+            }
+        }
+        (xx - yy).hypot(2.0 * xy) / (xx + yy)
+    }
+
+    /// Wave numbers that differ by less than these are the same to it.
+    pub(super) fn resolution(&self) -> (f64, f64) {
+        let (rows, columns) = self.u.dim();
+        (TAU / (self.spacing * columns as f64), TAU / (self.pitch * rows as f64))
+    }
+
+    /// Σ_i window u_n(x_i) e^{-iqx_i} of every line.
+    pub(super) fn along(&self, q: f64) -> Array1<Complex64> {
+        let factor = |(i, window): (usize, &f64)| {
+            Complex64::from_polar(*window, -q * (self.from + self.spacing * i as f64))
+        };
+        let factors: Vec<Complex64> = self.windows.0.iter().enumerate().map(factor).collect();
+        let line =
+            |row: ndarray::ArrayView1<f64>| row.iter().zip(&factors).map(|(u, f)| f * u).sum();
+        self.u.rows().into_iter().map(line).collect()
+    }
+
+    /// The same over the lines, its square.
+    pub(super) fn across(&self, along: &Array1<Complex64>, kappa: f64) -> f64 {
+        let turn = Complex64::from_polar(1.0, -kappa * self.pitch);
+        let (mut phase, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());
+        for (value, window) in along.iter().zip(&self.windows.1) {
+            sum += value * phase * window;
+            phase *= turn;
+        }
+        sum.norm_sqr()
+    }
+
+    /// |Σ window u e^{-i(qx + κy)}|²
+    pub(super) fn power(&self, q: f64, kappa: f64) -> f64 {
+        self.across(&self.along(q), kappa)
+    }
+}
+
+/// Root mean square of the first and of the last half of the rows.
+pub(super) fn halves_of(u: &Array2<f64>) -> [f64; 2] {
+    let (rows, columns) = u.dim();
+    [0..rows / 2, rows / 2..rows]
+        .map(|half| root_mean_square(cut(u.view(), half, 0..columns).iter()))
+}
+
+/// These rows and columns.
+pub(super) fn cut<T>(
+    mut of: ArrayView2<'_, T>,
+    rows: Range<usize>,
+    columns: Range<usize>,
+) -> ArrayView2<'_, T> {
+    of.slice_axis_inplace(Axis(0), Slice::from(rows));
+    of.slice_axis_inplace(Axis(1), Slice::from(columns));
+    of
+}
+
+/// Rows and columns of the four quarters.
+pub(super) fn quarters(rows: usize, columns: usize) -> [(Range<usize>, Range<usize>); 4] {
+    let (r, c) = (rows / 2, columns / 2);
+    [(0..r, 0..c), (0..r, c..columns), (r..rows, 0..c), (r..rows, c..columns)]
+}

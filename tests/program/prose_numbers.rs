@@ -12,7 +12,7 @@ use std::path::Path;
 use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
 use stickslip_stability::{Raster, RasterPath, creep, critical, critical_r, onset, trapping_alpha};
 use stickslip_tip::memory::Fit;
-use stickslip_tip::{Footprint, Model, TipFunction};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 /// Text of a file of the project.
 fn text(path: &str) -> String {

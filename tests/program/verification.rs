@@ -118,7 +118,7 @@ fn every_value_that_does_not_follow_is_named() {
         folder.write("claims.json", document.to_string());
         let output = folder.stickslip("verify claims.json --format json");
         assert_eq!(output.status.code(), Some(1), "{name} {field}: {}", said(&output));
-        let is_named = |line: &str| line.contains(&format!("{field}")) && line.contains("computed");
+        let is_named = |line: &str| line.contains(field) && line.contains("computed");
         assert!(said(&output).lines().any(is_named), "{field}: {}", said(&output));
         let found: Value = serde_json::from_slice(&output.stdout).unwrap();
         validate(&folder, "verify", &found);
@@ -128,6 +128,9 @@ fn every_value_that_does_not_follow_is_named() {
         assert!(all.len() <= 2, "{name} {field}: {all:?}");
     }
 }
+
+/// A change to a document.
+type Damage = fn(&mut Value);
 
 /// The same of lines: of the head, of a sample, and of the end.
 #[test]
@@ -139,7 +142,7 @@ fn every_value_of_lines_that_does_not_follow_is_named() {
     let text = String::from_utf8(folder.read("run.jsonl")).unwrap();
     let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let last = lines.len() - 1;
-    let changes: [(usize, &str, fn(&mut Value)); 6] = [
+    let changes: [(usize, &str, Damage); 6] = [
         (0, "steady_state.lag", |d| add(&mut d["steady_state"]["lag"], 1e-6)),
         (30, "samples.lag", |d| add(&mut d["lag"], 2e-5)),
         (30, "samples.velocity", |d| add(&mut d["velocity"], 0.1)),

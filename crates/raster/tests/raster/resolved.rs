@@ -70,7 +70,10 @@ impl Case {
             Path::Zigzag => RasterPath::Zigzag,
             _ => RasterPath::OneWay,
         };
-        let critical = Raster::new(&footprint(beta), Wider::default(), (r, pitch), 1.0).unwrap().critical(way).unwrap();
+        let critical = Raster::new(&footprint(beta), Wider::default(), (r, pitch), 1.0)
+            .unwrap()
+            .critical(way)
+            .unwrap();
         let near = random.next() < 0.5;
         let over = if near { random.scaled(0.95, 1.4) } else { random.scaled(0.5, 2.0) };
         let alpha = critical.alpha * over;

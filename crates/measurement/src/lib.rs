@@ -28,7 +28,8 @@ mod projection;
 mod tip;
 
 pub use fit::{
-    Data, DataError, Fit, FitError, FitRequest, FittedNumber, Name, Part, Shape, Track, Values, fit,
+    Alternative, Data, DataError, Fit, FitError, FitRequest, FittedNumber, Judged, Name, Part,
+    Scan, Shape, Track, Values, fit,
 };
 pub use image::{Across, Image, ImageError};
 pub use interval::Estimate;

@@ -3,9 +3,11 @@
 
 use super::parameters::Name;
 use super::problem::Problem;
+use super::verdict::Verdict;
 use crate::Estimate;
 use crate::least_squares::{Minimum, minimum, squares};
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A number as fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +18,16 @@ pub struct Fitted {
     pub estimate: Estimate,
     /// Its profile: values, and the root of what each leaves over the best, less 1, times the degrees of freedom.
     pub profile: Vec<(f64, f64)>,
+}
+
+/// A minimum that the data hardly exclude.
+pub(super) struct Rival {
+    /// By how much more it leaves, in units of the variance of the noise.
+    pub(super) behind: f64,
+    /// Logarithms of the numbers.
+    pub(super) at: Vec<f64>,
+    /// Their deviations, if rows are independent.
+    pub(super) deviations: Vec<f64>,
 }
 
 /// A number is followed to this many times, or part of, its best value.
@@ -31,17 +43,27 @@ const MET: f64 = 0.02;
 pub(super) struct Around<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) best: &'a Minimum,
-    /// Of what is searched, in units of the variance of the residuals.
+    /// Derivatives of the residuals by what is searched.
+    pub(super) slopes: Vec<Vec<f64>>,
+    /// Of what is searched, if rows are independent and the variance is that of the residuals.
+    independent: DMatrix<f64>,
+    /// The same with the noise as it was judged.
     pub(super) covariance: DMatrix<f64>,
     /// Rows less numbers.
     pub(super) freedom: f64,
+    /// Half of a 95 % interval is so many standard deviations.
+    quantile: f64,
+    /// Mean squares by which other footprints that may be the tip's move each logarithm.
+    moved: Vec<f64>,
+    /// Other minima that the data hardly exclude.
+    rivals: Vec<Rival>,
 }
 
 impl<'a> Around<'a> {
     /// `None` where the derivatives have no end.
     pub(super) fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
-        let columns = problem.slopes(&best.residuals, &best.parameters)?;
-        let columns: Vec<DVector<f64>> = columns.into_iter().map(DVector::from_vec).collect();
+        let slopes = problem.slopes(&best.residuals, &best.parameters)?;
+        let columns: Vec<DVector<f64>> = slopes.iter().cloned().map(DVector::from_vec).collect();
         let jacobian = DMatrix::from_columns(&columns);
         let mut normal = jacobian.tr_mul(&jacobian);
         // What no datum feels has no variance to speak of, and a huge one in numbers.
@@ -50,8 +72,62 @@ impl<'a> Around<'a> {
             normal[(i, i)] += 1e-14 * largest;
         }
         let freedom = (problem.rows() as f64 - problem.parameters() as f64).max(1.0);
-        let covariance = normal.try_inverse()? * (best.sum / freedom);
-        Some(Self { problem, best, covariance, freedom })
+        let independent = normal.try_inverse()? * (best.sum / freedom);
+        Some(Self {
+            problem,
+            best,
+            slopes,
+            covariance: independent.clone(),
+            independent,
+            freedom,
+            quantile: quantile(freedom),
+            moved: vec![0.0; problem.free.len()],
+            rivals: vec![],
+        })
+    }
+
+    /// With the noise as it was judged: (J'J)⁻¹ J'ΣJ (J'J)⁻¹, as of least squares that take no account of correlations.
+    pub(super) fn judged(mut self, verdict: &Verdict) -> Self {
+        let square = self.best.sum / self.freedom;
+        let inverse = &self.independent / square.max(f64::MIN_POSITIVE);
+        self.covariance = &inverse * verdict.between(&self.slopes) * &inverse;
+        self.quantile = quantile(verdict.freedom.min(self.freedom));
+        self
+    }
+
+    /// With the error of a measured footprint: the logarithms fitted with others that may be the tip's.
+    pub(super) fn with_footprints(mut self, fitted: &[Minimum]) -> Self {
+        if fitted.is_empty() {
+            return self;
+        }
+        for (i, moved) in self.moved.iter_mut().enumerate() {
+            let off = |found: &Minimum| (found.parameters[i] - self.best.parameters[i]).powi(2);
+            *moved = fitted.iter().map(off).sum::<f64>() / fitted.len() as f64;
+        }
+        self
+    }
+
+    /// By how much noise is larger for this combination of rows than if they were independent.
+    fn factor(&self, i: usize) -> f64 {
+        let ratio = self.covariance[(i, i)] / self.independent[(i, i)];
+        if ratio.is_finite() && ratio > 0.0 { ratio.sqrt() } else { 1.0 }
+    }
+
+    /// By how much more another minimum leaves than the best, in units of the variance of the noise.
+    pub(super) fn behind(&self, other: &Minimum) -> f64 {
+        let count = self.problem.free.len();
+        let square = (0..count).map(|i| self.factor(i).powi(2)).sum::<f64>() / count.max(1) as f64;
+        (other.sum / self.best.sum - 1.0) * self.freedom / square
+    }
+
+    /// With the minima that the data hardly exclude: intervals reach over theirs.
+    pub(super) fn with_rivals(self, rivals: Vec<Rival>) -> Self {
+        Self { rivals, ..self }
+    }
+
+    /// Of each number if rows are independent.
+    pub(super) fn deviations(&self) -> Vec<f64> {
+        (0..self.problem.free.len()).map(|i| self.independent[(i, i)].max(0.0).sqrt()).collect()
     }
 
     /// Standard deviation of the logarithm of one that is searched.
@@ -84,6 +160,7 @@ impl<'a> Around<'a> {
             end
         };
         let (low, high) = (end(-1.0), end(1.0));
+        let (low, high) = (self.farther(i, low, -1.0), self.farther(i, high, 1.0));
         profile.sort_by(|a, b| a.0.total_cmp(&b.0));
         let estimate = Estimate {
             value,
@@ -93,12 +170,34 @@ impl<'a> Around<'a> {
         Fitted { name, estimate, profile }
     }
 
+    /// An end with the error of the footprint, in quadrature, and over what other minima reach.
+    fn farther(&self, i: usize, end: Option<f64>, side: f64) -> Option<f64> {
+        let footprint = quantile(FOOTPRINTS) * self.moved[i].sqrt();
+        let mut length = f64::hypot(end?, footprint);
+        for Rival { behind, at, deviations } in &self.rivals {
+            let left = self.quantile.powi(2) - behind;
+            if left > 0.0 {
+                let own = left.sqrt() * deviations[i] * self.factor(i);
+                let reach = f64::hypot(own, footprint);
+                length = length.max(side * (at[i] - self.best.parameters[i]) + reach);
+            }
+        }
+        Some(side * length)
+    }
+
+    /// A number of which no interval is given.
+    pub(super) fn without_interval(&self, i: usize) -> Fitted {
+        let value = self.best.parameters[i].exp();
+        let estimate = Estimate { value, low: 0.0, high: f64::INFINITY };
+        Fitted { name: self.problem.free[i], estimate, profile: vec![(value, 0.0)] }
+    }
+
     /// The offset at which too much is left, and the points on the way there.
     fn end(&self, i: usize, side: f64) -> (Option<f64>, Vec<(f64, f64)>) {
-        let wanted = quantile_of_student(self.freedom);
+        let wanted = self.quantile;
         let most =
             if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln();
-        let deviation = self.deviation(i);
+        let deviation = self.independent[(i, i)].max(0.0).sqrt() * self.factor(i);
         let mut offset = side * (wanted * deviation).clamp(1e-9, most);
         // Below it too little is left, above it too much.
         let (mut inside, mut outside): ((f64, f64), Option<(f64, f64)>) = ((0.0, 0.0), None);
@@ -134,14 +233,14 @@ impl<'a> Around<'a> {
         (outside.map(|_| offset), points)
     }
 
-    /// √((S/S0 - 1)(n - p)) with one number held at an offset of its logarithm.
+    /// √((S/S0 - 1)(n - p)) with one number held at an offset of its logarithm, over what correlations make of it.
     fn root(&self, i: usize, offset: f64) -> Option<f64> {
         let problem = self.problem;
         let others = problem.holding(i, (self.best.parameters[i] + offset).exp());
         // Where the others go if all is linear.
-        let variance = self.covariance[(i, i)].max(f64::MIN_POSITIVE);
+        let variance = self.independent[(i, i)].max(f64::MIN_POSITIVE);
         let moved = |(j, at): (usize, &f64)| {
-            let along = self.covariance[(i, j)] / variance * offset;
+            let along = self.independent[(i, j)] / variance * offset;
             at + along.clamp(-1.0, 1.0)
         };
         let all: Vec<f64> = self.best.parameters.iter().enumerate().map(moved).collect();
@@ -153,15 +252,16 @@ impl<'a> Around<'a> {
         let found = minimum(&others, &without(&all))
             .or_else(|| minimum(&others, &without(&self.best.parameters)))?;
         let more = (found.sum / self.best.sum - 1.0).max(0.0);
-        Some((more * self.freedom).sqrt())
+        Some((more * self.freedom).sqrt() / self.factor(i))
     }
 }
 
-/// 97.5 % of Student's distribution lie below, by Cornish and Fisher's expansion.
-pub(super) fn quantile_of_student(freedom: f64) -> f64 {
-    const Z: f64 = 1.959_963_985;
-    let (z3, z5) = (Z.powi(3), Z.powi(5));
-    Z + (z3 + Z) / (4.0 * freedom) + (5.0 * z5 + 16.0 * z3 + 3.0 * Z) / (96.0 * freedom * freedom)
+/// Degrees of freedom of the mean squares over a few dozen footprints.
+const FOOTPRINTS: f64 = 23.0;
+
+/// 97.5 % of Student's distribution lie below.
+fn quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
 }
 
 /// The combination of logarithms that the data feel least: its powers, the largest 1, and its deviation.
@@ -188,8 +288,8 @@ mod tests {
     /// Abramowitz and Stegun, table 26.10.
     #[test]
     fn quantiles_of_student_are_those_of_tables() {
-        for (freedom, quantile) in [(10.0, 2.228), (30.0, 2.042), (1e9, 1.960)] {
-            assert!((quantile_of_student(freedom) - quantile).abs() < 3e-3, "{freedom}");
+        for (freedom, value) in [(1.0, 12.706), (2.0, 4.303), (10.0, 2.228), (1e9, 1.960)] {
+            assert!((quantile(freedom) - value).abs() < 1e-3, "{freedom}: {}", quantile(freedom));
         }
     }
 }

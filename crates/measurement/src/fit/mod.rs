@@ -3,24 +3,36 @@
 //! What is compared is the settled motion: the limit cycle at α and r, what it leaves and what it feels. Offsets,
 //! slopes and unknown gains are projected out; numbers are searched by their logarithms, phases in turns.
 
+mod comb;
 mod data;
+mod found;
 mod likelihood;
-mod misfit;
+mod noise;
 mod parameters;
 mod problem;
+mod remarks;
 mod retreat;
+mod rivals;
 mod start;
+mod subspace;
+mod verdict;
 mod wave;
 
-pub use data::{Data, DataError, Track};
+pub use data::{Data, DataError, Scan, Track};
+pub use found::{Fit, Part};
 pub use likelihood::Fitted as FittedNumber;
 pub use parameters::{Name, Shape, Values};
+pub use rivals::Alternative;
+pub use verdict::Judged;
 
 use crate::least_squares::{Minimum, minimum};
-use likelihood::{Around, least_felt, plain};
+use comb::{Rows, by_chance};
+use likelihood::{Around, plain};
 use problem::Problem;
-use stickslip_tip::stop;
+use start::Start;
+use stickslip_tip::{TipFunction, stop};
 use thiserror::Error;
+use verdict::Evidence;
 use wave::Cycles;
 
 /// What is to be fitted.
@@ -34,42 +46,10 @@ pub struct FitRequest {
     pub free: Vec<Name>,
     /// Whether rows far off count less (Huber 1964).
     pub robust: bool,
-}
-
-/// The best fit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
-    /// Each number fitted.
-    pub numbers: Vec<FittedNumber>,
-    /// All numbers, the known ones too.
-    pub values: Values,
-    /// Correlations of the logarithms of those fitted.
-    pub correlations: Vec<Vec<f64>>,
-    /// What was fitted to each of the data.
-    pub parts: Vec<Part>,
-    /// Rows in all, and numbers fitted, offsets, slopes, gains and phases among them.
-    pub rows: usize,
-    /// The latter.
-    pub parameters: usize,
-    /// What should be known before it is believed.
-    pub remarks: Vec<String>,
-}
-
-/// Of one of the data, in its units.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Part {
-    /// The model at every row; of a loop forwards, then backwards. Loads at onset, or wavelengths, of a series.
-    pub model: Vec<f64>,
-    /// Standard deviation of what is left; of a series relative.
-    pub residual: f64,
-    /// Offset at position 0, slope, and gain, as far as there are such.
-    pub offset: Option<f64>,
-    /// Per length.
-    pub slope: Option<f64>,
-    /// Of an unknown one, over σ² for heights and over σ for forces.
-    pub gain: Option<f64>,
-    /// By how many standard deviations what is left repeats itself with the wavelength.
-    pub misfit: Option<f64>,
+    /// In which direction the tip moved over the positions; both are tried where it is not known.
+    pub scan: Option<Scan>,
+    /// Footprints, each in its own σ, that the measurement of the shape leaves possible, drawn; none where it is exact.
+    pub footprints: Vec<TipFunction>,
 }
 
 /// Why there is no fit.
@@ -81,6 +61,16 @@ pub enum FitError {
     /// No number is free.
     #[error("nothing is to be fitted: leave one of the known numbers out")]
     Nothing,
+    /// Nothing that noise alone would not have.
+    #[error(
+        "no ripple stands out of the noise: noise alone has a wave as strong as the strongest one in {:.2} % of such data, and 0.01 % is \
+         the limit: give a longer track, or one with less noise",
+        100.0 * probability
+    )]
+    Noise {
+        /// Of a wave as strong in noise alone.
+        probability: f64,
+    },
     /// No motion like it anywhere that was tried.
     #[error(
         "no motion of this footprint is like the data anywhere that was tried (r from 0.15 to 3, α from 1.01 to 1.6 αc): is it a settled ripple, by the tip that made it?"
@@ -105,62 +95,151 @@ pub fn fit(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     if stop::is_asked() { Err(FitError::Stopped) } else { found }
 }
 
+/// Noise alone has a wave as strong as this seldom enough.
+const NOISE: f64 = 1e-4;
+
 fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
-    data.iter().try_for_each(Data::judge)?;
+    let data: Vec<Data> = data.iter().cloned().map(Data::reduced).collect::<Result<_, _>>()?;
     let cycles = Cycles::default();
-    let free = free(data, request);
+    let free = free(&data, request);
     if free.is_empty() {
         return Err(FitError::Nothing);
     }
-    let weights: Vec<Vec<f64>> = data.iter().map(|data| vec![1.0; data.rows()]).collect();
-    let mut problem = Problem {
+    let problem = Problem {
         shape: &request.shape,
-        data,
+        data: &data,
         held: request.known,
         free,
         noise: data.iter().map(first_noise).collect(),
-        weights,
+        weights: data.iter().map(|data| vec![1.0; data.rows()]).collect(),
         cycles: &cycles,
         by_excess: true,
+        scans: vec![request.scan.unwrap_or(Scan::Right); data.len()],
     };
-    let (rows, parameters) = (problem.rows(), problem.parameters());
-    if rows <= parameters {
-        return Err(DataError::Rows { rows, parameters }.into());
-    }
-    let ends = start::starts(&problem).into_iter().filter_map(|start| minimum(&problem, &start));
-    let mut best = ends.min_by(|a, b| a.sum.total_cmp(&b.sum)).ok_or(FitError::NoStart)?;
+    judge_counts(&problem)?;
+    judge_noise(&data)?;
+    let starts = start::starts(&problem, request.scan, start::measured(&data));
+    let end = |Start { scans, searched }| {
+        let end = minimum(&Problem { scans: Vec::clone(&scans), ..problem.clone() }, &searched)?;
+        Some((scans, end))
+    };
+    let mut ends: Vec<(Vec<Scan>, Minimum)> = starts.into_iter().filter_map(end).collect();
+    ends.sort_by(|a, b| a.1.sum.total_cmp(&b.1.sum));
+    let (scans, mut best) = ends.first().cloned().ok_or(FitError::NoStart)?;
+    let mut problem = Problem { scans, ..problem.clone() };
     let rounds = if request.robust { ROUNDS } else { usize::from(data.len() > 1) };
     for _ in 0..rounds {
         reweigh(&mut problem, &best, request.robust);
         best = minimum(&problem, &best.parameters).ok_or(FitError::NoStart)?;
     }
-    let (problem, best) = by_logarithms(problem, &best).ok_or(FitError::NoStart)?;
-    let best = retreat::retreated(&problem, best);
-    let around = Around::of(&problem, &best).ok_or(FitError::NoStart)?;
-    let numbers: Vec<FittedNumber> = (0..problem.free.len()).map(|i| around.fitted(i)).collect();
-    let parts = parts(&problem, &best);
-    let remarks = remarks(&problem, &around, &numbers, &parts);
-    Ok(Fit {
-        correlations: around.correlations(),
-        values: problem.values(&best.parameters).unwrap_or(request.known),
-        numbers,
-        parts,
-        rows,
-        parameters,
-        remarks,
-    })
+    let others: Vec<Start> = ends
+        .into_iter()
+        .skip(1)
+        .map(|(scans, end)| Start { scans, searched: end.parameters })
+        .collect();
+    settled(&problem, best, others, request)
 }
 
-/// The best fit with all numbers by their logarithms, as intervals are told.
-fn by_logarithms<'a>(problem: Problem<'a>, best: &Minimum) -> Option<(Problem<'a>, Minimum)> {
-    let values = problem.values(&best.parameters)?;
-    let numbers = problem.free.len();
-    let problem = Problem { by_excess: false, ..problem };
-    let mut at = problem.searched_for(&values)?;
-    at.extend(&best.parameters[numbers..]);
-    // A last step, by the same derivatives as the intervals.
-    let best = minimum(&problem, &at)?;
-    Some((problem, best))
+/// Rows enough, and at places enough.
+fn judge_counts(problem: &Problem) -> Result<(), DataError> {
+    let (rows, parameters) = (problem.rows(), problem.parameters());
+    if rows <= parameters {
+        return Err(DataError::Rows { rows, parameters });
+    }
+    let places: Option<Vec<usize>> = problem.data.iter().map(Data::places).collect();
+    match places.map(|places| places.iter().sum::<usize>()) {
+        Some(places) if places < parameters => Err(DataError::Places { rows, places, parameters }),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses tracks none of which has a ripple that noise alone would not have.
+fn judge_noise(data: &[Data]) -> Result<(), FitError> {
+    let mut least: Option<f64> = None;
+    let mut tracks = 0.0;
+    for data in data {
+        let (Some(rows), Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _)) =
+            (Rows::of(data), data)
+        else {
+            return Ok(());
+        };
+        let Some(length) = start::wavelength(track) else { return Ok(()) };
+        let Some(chance) = by_chance(&rows, length, start::trials(track)) else { return Ok(()) };
+        least = Some(least.map_or(chance, |least| least.min(chance)));
+        tracks += 1.0;
+    }
+    match least.map(|least| (least * tracks).min(1.0)) {
+        Some(probability) if probability > NOISE => Err(FitError::Noise { probability }),
+        _ => Ok(()),
+    }
+}
+
+/// The best fit made sure of, and judged.
+fn settled(
+    problem: &Problem,
+    best: Minimum,
+    others: Vec<Start>,
+    request: &FitRequest,
+) -> Result<Fit, FitError> {
+    let (mut problem, mut best) = problem.by_logarithms(&best).ok_or(FitError::NoStart)?;
+    let mut rivals = rivals::found(&problem, &best, others);
+    // Weights and the last step may have turned two minima round.
+    if let Some(i) = (0..rivals.len()).min_by(|a, b| rivals[*a].1.sum.total_cmp(&rivals[*b].1.sum))
+    {
+        if rivals[i].1.sum < best.sum {
+            std::mem::swap(&mut rivals[i].1, &mut best);
+            std::mem::swap(&mut rivals[i].0, &mut problem.scans);
+        }
+    }
+    let best = retreat::retreated(&problem, best);
+    let around = Around::of(&problem, &best).ok_or(FitError::NoStart)?;
+    let footprints = rivals::with_footprints(&problem, &best, &request.footprints);
+    let shifts: Vec<Vec<f64>> = footprints
+        .iter()
+        .map(|found| found.residuals.iter().zip(&best.residuals).map(|(a, b)| a - b).collect())
+        .collect();
+    let values = problem.values(&best.parameters).ok_or(FitError::NoStart)?;
+    let evidence = Evidence {
+        problem: &problem,
+        best: &best,
+        slopes: &around.slopes,
+        length: length(&problem, &values),
+        shifts: &shifts,
+    };
+    let verdict = evidence.verdict().ok_or(FitError::NoStart)?;
+    let around = around.judged(&verdict).with_footprints(&footprints);
+    let (rivals, alternatives) = rivals::judged(&problem, &around, rivals);
+    let around = around.with_rivals(rivals);
+    let scattered = verdict.each.iter().all(|judged| judged.noise.is_some())
+        || best.sum / problem.rows() as f64 > EXACT * EXACT;
+    let explained = verdict.is_explained() && scattered;
+    let number = |i| if explained { around.fitted(i) } else { around.without_interval(i) };
+    let numbers: Vec<FittedNumber> = (0..problem.free.len()).map(number).collect();
+    let parts = parts(&problem, &best, &verdict.each);
+    let mut fit = Fit {
+        correlations: around.correlations(),
+        values,
+        numbers,
+        parts,
+        rows: problem.rows(),
+        parameters: problem.parameters(),
+        alternatives,
+        explained,
+        joint: verdict.joint,
+        remarks: vec![],
+    };
+    fit.remarks = remarks::remarks(&problem, &around, &fit, scattered);
+    Ok(fit)
+}
+
+/// Less scatter than this, over the values of a series, is round-off: it says nothing of their errors.
+const EXACT: f64 = 1e-7;
+
+/// The wavelength of the ripples, in the unit of the data.
+fn length(problem: &Problem, values: &Values) -> Option<f64> {
+    let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
+    let waves = problem.cycles.waves(&values.model(problem.shape, alpha, r)?)?;
+    Some(waves.ripple.wavelength * values.get(Name::Width)?)
 }
 
 /// Those asked for, or those that the data are about.
@@ -225,13 +304,11 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// What was fitted to each of the data.
-fn parts(problem: &Problem, best: &Minimum) -> Vec<Part> {
-    let found = problem.parts(&best.parameters).zip(problem.values(&best.parameters));
-    let Some((found, values)) = found else { return vec![] };
+fn parts(problem: &Problem, best: &Minimum, judged: &[Judged]) -> Vec<Part> {
+    let Some(found) = problem.parts(&best.parameters) else { return vec![] };
     let share = problem.data.len() as f64;
-    let each = problem.data.iter().zip(found).zip(problem.noise.iter().zip(&problem.weights));
-    let part = |((data, found), (noise, weights)): ((&Data, crate::projection::Projected), _)| {
-        let weights: &Vec<f64> = weights;
+    let part = |(i, found): (usize, crate::projection::Projected)| {
+        let (data, noise, weights) = (&problem.data[i], problem.noise[i], &problem.weights[i]);
         let left: Vec<f64> =
             found.residuals.iter().zip(weights).map(|(r, w)| r / w.max(1e-6) * noise).collect();
         let numbers = data.linear() as f64 + problem.searched() as f64 / share;
@@ -248,74 +325,16 @@ fn parts(problem: &Problem, best: &Minimum) -> Vec<Part> {
                 wavelength.iter().zip(&left).map(|(w, r)| w / r.exp()).collect()
             }
         };
-        let length = || {
-            let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
-            let waves = problem.cycles.waves(&values.model(problem.shape, alpha, r)?)?;
-            Some(waves.ripple.wavelength * values.get(Name::Width)?)
-        };
-        let (mut offset, mut slope, mut gain, mut misfit) = (None, None, None, None);
+        let (mut offset, mut slope, mut gain) = (None, None, None);
         if let Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) = data {
             let (first, last) = problem::ends(&track.x);
             let per_length = 2.0 * found.coefficients[1] / (last - first);
             slope = Some(per_length);
             offset = Some(found.coefficients[0] - 0.5 * (first + last) * per_length);
             gain = found.coefficients.get(2).copied();
-            misfit = length().map(|length| misfit::of_track(track, &left, length));
         }
-        Part { model, residual, offset, slope, gain, misfit }
+        let scan = (!data.is_series()).then_some(problem.scans[i]);
+        Part { model, residual, offset, slope, gain, scan, judged: judged[i] }
     };
-    each.map(part).collect()
-}
-
-/// What is left that repeats itself by so many standard deviations is not noise.
-const MISFIT: f64 = 4.0;
-/// An interval whose ends are this many times apart says little.
-const WIDE: f64 = 3.0;
-/// Powers below this are left out of a combination.
-const NO_POWER: f64 = 0.15;
-
-fn remarks(
-    problem: &Problem,
-    around: &Around,
-    numbers: &[FittedNumber],
-    parts: &[Part],
-) -> Vec<String> {
-    let mut remarks = vec![];
-    for (i, part) in parts.iter().enumerate() {
-        if part.misfit.is_some_and(|misfit| misfit > MISFIT) {
-            remarks.push(format!(
-                "what the fit leaves of data {} repeats itself with the wavelength, {:.0} standard deviations above noise: the \
-                 footprint is another, or the law a wider one (a depth limit, healing, inertia)",
-                i + 1,
-                part.misfit.unwrap_or(0.0)
-            ));
-        }
-        if part.gain.is_some_and(|gain| gain < 0.0) {
-            remarks.push(format!(
-                "data {} are upside down beside the model: heights go up, forces hold the tip back",
-                i + 1
-            ));
-        }
-    }
-    let open = |n: &&FittedNumber| n.estimate.high / n.estimate.low > WIDE;
-    let wide: Vec<&str> = numbers.iter().filter(open).map(|n| n.name.word()).collect();
-    if wide.is_empty() {
-        return remarks;
-    }
-    let combination = least_felt(around)
-        .filter(|(powers, _)| powers.iter().filter(|p| p.abs() > NO_POWER).count() > 1);
-    remarks.push(match combination {
-        Some((powers, _)) => {
-            let each = problem.free.iter().zip(powers).filter(|(_, p)| p.abs() > NO_POWER);
-            let words = each.map(|(name, p)| format!("{}^{p:.2}", name.word()));
-            format!(
-                "{} cannot be told well by these data: they hardly feel a change along {}; hold one of them, or give data of \
-                 another kind",
-                wide.join(" and "),
-                words.collect::<Vec<String>>().join(" · ")
-            )
-        }
-        None => format!("{} cannot be told well by these data", wide.join(" and ")),
-    });
-    remarks
+    found.into_iter().enumerate().map(part).collect()
 }

@@ -1,13 +1,14 @@
 //! The residuals of all data together, as a function of what is searched.
 
-use super::data::{Data, Track};
+use super::data::{Data, Scan, Track};
 use super::parameters::{Name, Shape, Values};
 use super::wave::{Cycles, Wave};
-use crate::least_squares::{Residuals, differences, forward};
+use crate::least_squares::{Minimum, Residuals, differences, forward, minimum};
 use crate::projection::{Projected, project};
 use stickslip_stability::{critical, critical_under};
 
 /// What is fitted to what.
+#[derive(Clone)]
 pub(super) struct Problem<'a> {
     pub(super) shape: &'a Shape,
     pub(super) data: &'a [Data],
@@ -23,7 +24,12 @@ pub(super) struct Problem<'a> {
     /// Whether α is searched by α/αc(r) - 1: there are no ripples below onset, and a search would run against that
     /// wall at every other step.
     pub(super) by_excess: bool,
+    /// Of each of the data.
+    pub(super) scans: Vec<Scan>,
 }
+
+/// Columns, and what of the data they are to make up.
+type Columns = (Vec<Vec<f64>>, Vec<f64>);
 
 /// Where motions are looked for.
 const EXCESSES: std::ops::RangeInclusive<f64> = 1e-4..=5.0;
@@ -62,8 +68,7 @@ impl Problem<'_> {
         let held = self.held.with(self.free[i], value);
         let mut free = self.free.clone();
         free.remove(i);
-        let (noise, weights) = (self.noise.clone(), self.weights.clone());
-        Self { held, free, noise, weights, ..*self }
+        Self { held, free, ..self.clone() }
     }
 
     /// In σ.
@@ -107,31 +112,42 @@ impl Problem<'_> {
     pub(super) fn parts(&self, searched: &[f64]) -> Option<Vec<Projected>> {
         let values = self.values(searched)?;
         let mut phases = searched[self.free.len()..].iter().copied();
-        let each = self.data.iter().zip(&self.noise).zip(&self.weights);
-        let part = |((data, noise), weights): ((&Data, &f64), &Vec<f64>)| {
+        let part = |(i, data): (usize, &Data)| {
             let mine: Vec<f64> = phases.by_ref().take(data.phases()).collect();
-            let (columns, rest) = self.columns(data, &values, &mine)?;
-            let scaled = |column: Vec<f64>| -> Vec<f64> {
-                column.into_iter().zip(weights).map(|(v, w)| v * w / noise).collect()
-            };
-            let columns: Vec<Vec<f64>> = columns.into_iter().map(scaled).collect();
-            let rest = scaled(rest);
+            let (columns, rest) = self.weighted(i, &values, &mine)?;
             if columns.is_empty() {
                 Some(Projected::nothing(rest))
             } else {
                 project(&columns, &rest)
             }
         };
-        each.map(part).collect()
+        self.data.iter().enumerate().map(part).collect()
+    }
+
+    /// The columns of the i-th of the data that are projected out, in units of its noise, and weighted.
+    pub(super) fn linear(&self, searched: &[f64], i: usize) -> Option<Vec<Vec<f64>>> {
+        let values = self.values(searched)?;
+        let before: usize = self.data[..i].iter().map(Data::phases).sum();
+        let phases = &searched[self.free.len() + before..][..self.data[i].phases()];
+        Some(self.weighted(i, &values, phases)?.0)
+    }
+
+    /// Columns and the rest, in units of the noise, and weighted.
+    fn weighted(&self, i: usize, values: &Values, phases: &[f64]) -> Option<Columns> {
+        let (columns, rest) = self.columns((&self.data[i], self.scans[i]), values, phases)?;
+        let scaled = |column: Vec<f64>| -> Vec<f64> {
+            column.into_iter().zip(&self.weights[i]).map(|(v, w)| v * w / self.noise[i]).collect()
+        };
+        Some((columns.into_iter().map(scaled).collect(), scaled(rest)))
     }
 
     /// The columns that data are a sum of, and what of the data is to be made up by them.
     fn columns(
         &self,
-        data: &Data,
+        (data, scan): (&Data, Scan),
         values: &Values,
         phases: &[f64],
-    ) -> Option<(Vec<Vec<f64>>, Vec<f64>)> {
+    ) -> Option<Columns> {
         let waves = || {
             let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
             self.cycles.waves(&values.model(self.shape, alpha, r)?)
@@ -140,25 +156,25 @@ impl Problem<'_> {
         match data {
             Data::Ripple(track) => {
                 let (wave, width) = (waves()?.ripple, width?);
-                let model = along(&wave, &track.x, width, phases[0], 1.0);
+                let model = along(&wave, track, width, (phases[0], scan.sign()));
                 Some(track_columns(track, model, width * width))
             }
             Data::Friction(track) => {
                 let (wave, width) = (waves()?.lag, width?);
-                let model = along(&wave, &track.x, width, phases[0], 1.0);
+                let model = along(&wave, track, width, (phases[0], scan.sign()));
                 let model = model.into_iter().map(|v| v + wave.mean).collect();
                 Some(track_columns(track, model, width))
             }
             Data::Loop(track, back) => {
                 let (wave, width) = (waves()?.lag, width?);
-                let there = along(&wave, &track.x, width, phases[0], 1.0);
-                let here = along(&wave, &track.x, width, phases[1], -1.0);
+                let there = along(&wave, track, width, (phases[0], scan.sign()));
+                let here = along(&wave, track, width, (phases[1], -scan.sign()));
                 let there = there.into_iter().map(|v| v + wave.mean);
                 let model = there.chain(here.into_iter().map(|v| -v - wave.mean)).collect();
                 let both = Track {
                     x: [&*track.x, &track.x].concat(),
                     y: [&*track.y, back].concat(),
-                    gain: track.gain,
+                    ..*track
                 };
                 Some(track_columns(&both, model, width))
             }
@@ -200,13 +216,14 @@ impl Problem<'_> {
     }
 }
 
-/// The wave, less its mean, along positions; `phase` is where the crest of its first harmonic is, in turns from the
-/// middle, where it depends least on the wavelength.
-fn along(wave: &Wave, x: &[f64], width: f64, phase: f64, direction: f64) -> Vec<f64> {
-    let (first, last) = ends(x);
+/// The wave, less its mean, along positions; the phase is where the crest of its first harmonic is, in turns from the
+/// middle, where it depends least on the wavelength; the direction is 1 or -1.
+fn along(wave: &Wave, track: &Track, width: f64, (phase, direction): (f64, f64)) -> Vec<f64> {
+    let (first, last) = ends(&track.x);
     let middle = 0.5 * (first + last);
     let moved = phase * wave.wavelength - wave.crest();
-    x.iter().map(|x| wave.at(direction * (x - middle) / width - moved)).collect()
+    let wave = wave.clone().averaged(track.averaged, track.spacing() / width);
+    track.x.iter().map(|x| wave.at(direction * (x - middle) / width - moved)).collect()
 }
 
 /// Offset, slope and, unless the gain is known, the model.
@@ -231,6 +248,17 @@ pub(super) fn ends(x: &[f64]) -> (f64, f64) {
 }
 
 impl Problem<'_> {
+    /// The best fit with all numbers by their logarithms, as intervals are given.
+    pub(super) fn by_logarithms(&self, best: &Minimum) -> Option<(Self, Minimum)> {
+        let values = self.values(&best.parameters)?;
+        let problem = Self { by_excess: false, ..self.clone() };
+        let mut at = problem.searched_for(&values)?;
+        at.extend(&best.parameters[self.free.len()..]);
+        // A last step, by the same derivatives as the intervals.
+        let best = minimum(&problem, &at)?;
+        Some((problem, best))
+    }
+
     /// Derivatives at the best place, better than those on the way.
     pub(super) fn slopes(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
         differences(self, (here, searched), STEP)

@@ -1,6 +1,6 @@
 //! Where a search begins, found from the data: a wavelength, and a lattice of motions.
 
-use super::data::{Data, Track};
+use super::data::{Data, Scan, Track};
 use super::parameters::{Name, Values};
 use super::problem::{Problem, ends};
 use crate::least_squares::{Residuals, squares};
@@ -18,21 +18,36 @@ const PHASES: [f64; 3] = [0.0, -0.06, 0.06];
 const FOLLOWED: usize = 3;
 const FOLLOWED_UNDER_A_LAW: usize = 6;
 
-/// Points from which to search, the most promising first.
-pub(super) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
-    let tracks = problem.data.iter().find(|data| !data.is_series());
-    let measured = tracks.and_then(|data| match data {
-        Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => wavelength(track),
-        _ => None,
-    });
-    let mut judged: Vec<(f64, Vec<f64>)> = lattice(problem, measured)
+/// A point from which to search, and the directions of the scans there.
+pub(super) struct Start {
+    pub(super) scans: Vec<Scan>,
+    pub(super) searched: Vec<f64>,
+}
+
+/// Points from which to search, for every combination of the directions in which the tip may have moved.
+pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>) -> Vec<Start> {
+    let ways: Vec<Problem> = ways(problem.data, asked)
         .into_iter()
-        .filter_map(|values| {
-            let start = with_phases(problem, &values)?;
-            let left = squares(&problem.at(&start)?);
-            left.is_finite().then_some((left, start))
-        })
+        .map(|scans| Problem { scans, ..problem.clone() })
         .collect();
+    let mut judged: Vec<Vec<(f64, Vec<f64>)>> = ways.iter().map(|_| vec![]).collect();
+    for values in lattice(problem, length) {
+        for (way, judged) in ways.iter().zip(&mut judged) {
+            let Some(start) = with_phases(way, &values) else { continue };
+            let Some(left) = way.at(&start).map(|found| squares(&found)) else { continue };
+            if left.is_finite() {
+                judged.push((left, start));
+            }
+        }
+    }
+    let chosen = ways.iter().zip(judged).flat_map(|(way, judged)| {
+        chosen(way, judged).into_iter().map(|searched| Start { scans: way.scans.clone(), searched })
+    });
+    chosen.collect()
+}
+
+/// The most promising ones, each of another r.
+fn chosen(problem: &Problem, mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_of_a_law = problem.free.iter().any(|name| name.is_of_a_law());
     let most = if is_of_a_law { FOLLOWED_UNDER_A_LAW } else { FOLLOWED };
@@ -48,6 +63,36 @@ pub(super) fn starts(problem: &Problem) -> Vec<Vec<f64>> {
         }
     }
     chosen
+}
+
+/// Tracks whose directions are tried one by one; of more all are taken to be the same.
+const ONE_BY_ONE: usize = 3;
+
+/// Every combination of directions.
+fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
+    if let Some(scan) = asked {
+        return vec![vec![scan; data.len()]];
+    }
+    let tracks = data.iter().filter(|data| !data.is_series()).count();
+    if tracks > ONE_BY_ONE {
+        return vec![vec![Scan::Right; data.len()], vec![Scan::Left; data.len()]];
+    }
+    let mut found: Vec<Vec<Scan>> = vec![vec![]];
+    for data in data {
+        let tried: &[Scan] =
+            if data.is_series() { &[Scan::Right] } else { &[Scan::Right, Scan::Left] };
+        let with = |before: &Vec<Scan>, scan: &Scan| [&**before, &[*scan]].concat();
+        found = found.iter().flat_map(|b| tried.iter().map(move |scan| with(b, scan))).collect();
+    }
+    found
+}
+
+/// The wavelength of the first track, and among how many it is the strongest.
+pub(super) fn measured(data: &[Data]) -> Option<f64> {
+    data.iter().find_map(|data| match data {
+        Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => wavelength(track),
+        _ => None,
+    })
 }
 
 /// Values of the free numbers.
@@ -145,7 +190,8 @@ fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
     let waves = problem.cycles.waves(&values.model(problem.shape, alpha, r)?)?;
     let width = values.get(Name::Width)?;
     let numbers = start.len();
-    for data in problem.data {
+    for (data, scan) in problem.data.iter().zip(&problem.scans) {
+        let sign = scan.sign();
         let (track, wave, back) = match data {
             Data::Ripple(track) => (track, &waves.ripple, None),
             Data::Friction(track) => (track, &waves.lag, None),
@@ -156,10 +202,10 @@ fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
         let phase = |direction: f64, y: &[f64]| {
             harmonic(&track.x, y, direction / length).map(|(_, crest)| crest)
         };
-        start.push(phase(1.0, &track.y)?);
+        start.push(phase(sign, &track.y)?);
         if let Some(back) = back {
             let upside_down: Vec<f64> = back.iter().map(|y| -y).collect();
-            start.push(phase(-1.0, &upside_down)?);
+            start.push(phase(-sign, &upside_down)?);
         }
     }
     // The first harmonic is moved by the higher ones that are cut off at the ends.
@@ -186,14 +232,19 @@ fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
 }
 
 /// Turns over the extent that are tried, and steps of them.
-const FEWEST_TURNS: f64 = 1.0;
+const FEWEST_TURNS: f64 = 1.25;
 const STEPS_A_TURN: f64 = 6.0;
 const MOST_TURNS: f64 = 300.0;
 /// Rows that are enough for a wavelength.
 const ENOUGH: usize = 1500;
 
+/// How many different wavelengths are looked at in a track.
+pub(super) fn trials(track: &Track) -> f64 {
+    (0.25 * track.x.len() as f64).min(MOST_TURNS) * 2.0
+}
+
 /// The wavelength whose first harmonic leaves least of a track.
-fn wavelength(track: &Track) -> Option<f64> {
+pub(super) fn wavelength(track: &Track) -> Option<f64> {
     let every = track.x.len().div_ceil(ENOUGH).max(1);
     let thin = |v: &[f64]| v.iter().step_by(every).copied().collect::<Vec<f64>>();
     let (x, y) = (thin(&track.x), thin(&track.y));

@@ -43,6 +43,21 @@ impl Wave {
         Self { wavelength, mean, coefficients }
     }
 
+    /// The means of `count` values of it at this distance, in σ, about every place.
+    pub(super) fn averaged(mut self, count: usize, distance: f64) -> Self {
+        if count < 2 {
+            return self;
+        }
+        let half = 0.5 * TAU * distance / self.wavelength;
+        for (k, (c, s)) in self.coefficients.iter_mut().enumerate() {
+            let angle = half * (k as f64 + 1.0);
+            let part = (count as f64 * angle).sin() / (count as f64 * angle.sin());
+            let part = if part.is_finite() { part } else { 1.0 };
+            (*c, *s) = (*c * part, *s * part);
+        }
+        self
+    }
+
     /// Less the mean.
     pub(super) fn at(&self, x: f64) -> f64 {
         let (sin, cos) = (TAU * x / self.wavelength).sin_cos();
@@ -130,5 +145,20 @@ impl Cycles {
             last.push((new, waves.clone()));
         }
         Some(waves)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_of_neighbours_is_that_of_the_values() {
+        let value = |x: f64| (x + 0.3).cos() + 0.4 * (2.0 * x).sin() - 0.2 * (5.0 * x).cos();
+        let samples: Vec<f64> = (0..64).map(|i| value(TAU * f64::from(i) / 64.0)).collect();
+        let wave = Wave::of(TAU, &samples);
+        assert!((wave.at(1.1) - value(1.1)).abs() < 1e-12);
+        let mean = (-2..=2).map(|i| value(1.1 + 0.07 * f64::from(i))).sum::<f64>() / 5.0;
+        assert!((wave.averaged(5, 0.07).at(1.1) - mean).abs() < 1e-12);
     }
 }

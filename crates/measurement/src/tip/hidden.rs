@@ -6,6 +6,8 @@ use super::shape::{Shape, pair};
 use crate::Profile;
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 
 /// Where such a Gaussian is tried, in widths of the first, and how wide it is.
 const PLACES: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
@@ -28,7 +30,7 @@ pub(super) fn factors(
     effective: f64,
 ) -> [f64; 4] {
     let mut factors = [1.0; 4];
-    let shape = Shape::of(profile, centre, (found.terms, found.finest));
+    let shape = Shape::of(profile, centre, (found.terms, found.finest), found.order());
     let searched = shape.searched(&found.places);
     let Some(derivatives) = shape.derivatives(&found.residuals, &searched) else { return factors };
     let Some(before) = Answers::of(found, sigma, r) else { return factors };
@@ -58,6 +60,34 @@ pub(super) fn factors(
     factors
 }
 
+/// The same sum with one such Gaussian somewhere, as strong as chance may have left unseen.
+pub(super) fn drawn(
+    profile: &Profile,
+    centre: Option<f64>,
+    found: &Candidate,
+    effective: f64,
+    random: &mut ChaCha8Rng,
+) -> Option<Candidate> {
+    let shape = Shape::of(profile, centre, (found.terms, found.finest), found.order());
+    let searched = shape.searched(&found.places);
+    let derivatives = shape.derivatives(&found.residuals, &searched)?;
+    let width = found.places.terms[0].1;
+    let place = PLACES[random.random_range(0..PLACES.len())] * width;
+    let wide = WIDTHS[random.random_range(0..WIDTHS.len())] * width;
+    let size = normal(random);
+    let hidden = Hidden::at(&shape, (found, &searched, &derivatives), (place, wide))?;
+    let rows = profile.x().len() as f64;
+    let most = TOO_FAR / hidden.farthest;
+    let amount = (size * found.residual * (rows / effective).sqrt()).clamp(-most, most);
+    Some(hidden.with(&shape, (found, &searched), amount))
+}
+
+/// A normal deviate, by Box and Muller.
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random());
+    (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+}
+
 /// A Gaussian of unit length beside all that the fit can make up, and what makes way for it.
 struct Hidden {
     place: (f64, f64),
@@ -81,8 +111,7 @@ impl Hidden {
         let column =
             |d: f64, w: f64| x.iter().map(|x| pair(x - centre, d, w)).collect::<Vec<f64>>();
         let new = column(d, w);
-        let slope = x.iter().map(|x| (x - shape.middle) / shape.half).collect();
-        let mut columns = vec![vec![1.0; x.len()], slope];
+        let mut columns = shape.ground();
         columns.extend(found.places.terms.iter().map(|(d, w)| column(*d, *w)));
         let linear = columns.len();
         // The residuals fall where the fit rises.
@@ -98,7 +127,7 @@ impl Hidden {
         Some(Self {
             place: (d, w),
             amplitude: 1.0 / size,
-            linear: left.coefficients[2..linear].iter().map(over).collect(),
+            linear: left.coefficients[shape.order + 1..linear].iter().map(over).collect(),
             farthest: moves.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs())),
             searched: moves,
         })

@@ -49,8 +49,8 @@ pub struct MeasuredTip {
     pub apex: f64,
     /// Where f is even about.
     pub centre: f64,
-    /// Of the ground at x = 0, and per length.
-    pub ground: (f64, f64),
+    /// Of 1, x and, where the ground is curved, x² and x³ in the ground.
+    pub ground: Vec<f64>,
     /// Standard deviation of what is not smooth from row to row.
     pub noise: f64,
     /// Standard deviation of what the fit leaves.
@@ -69,6 +69,9 @@ pub struct MeasuredTip {
     pub trapping_alpha: Estimate,
     /// The r that these are for.
     pub r: f64,
+    /// Footprints like `gaussians` that may as well be what was measured, drawn: their spread is the error of the
+    /// shape.
+    pub draws: Vec<Vec<Gaussian>>,
     /// Draws that had no footprint or no onset, over all.
     pub lost: f64,
     /// Rows of the profile, the fit and what it leaves.
@@ -131,7 +134,10 @@ pub enum TipError {
 /// So far behind the best by the criterion a sum may still be what was measured: it is e^-2 times as likely.
 const PLAUSIBLE: f64 = 4.0;
 
-/// A footprint: the sum of Gaussians, on a sloping ground, that Schwarz' criterion chooses.
+/// Footprints that are drawn to carry the error of the shape.
+const MOST_DRAWS: usize = 24;
+
+/// A footprint: the sum of Gaussians, on a sloping or curved ground, that Schwarz' criterion chooses.
 ///
 /// # Errors
 /// Too few rows, nothing above the noise, a sum that is no footprint, or [`TipError::Stopped`].
@@ -193,7 +199,7 @@ fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipErro
         sigma,
         apex,
         centre,
-        ground: (found.offset, found.slope),
+        ground: found.ground.clone(),
         noise: profile.noise(),
         residual: found.residual,
         correlation,
@@ -201,6 +207,7 @@ fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipErro
         critical_omega,
         trapping_alpha,
         r: request.r,
+        draws: resampling.footprints(request.resamples.min(MOST_DRAWS)),
         lost: lost(&draws),
         fitted: Fitted {
             x: profile.x().to_vec(),
@@ -291,9 +298,15 @@ impl MeasuredTip {
                 100.0 * self.residual / self.apex.abs()
             ));
         }
+        if self.ground.len() > 2 {
+            remarks.push(format!(
+                "the ground is curved: a polynomial of order {} is fitted to it; a wide lobe may look like that",
+                self.ground.len() - 1
+            ));
+        }
         if self.residual > ABOVE_NOISE * self.noise {
             remarks.push(format!(
-                "what the fit leaves, {:.2e}, is more than the noise from row to row, {:.2e}: the ground is not straight, f not even, or \
+                "what the fit leaves, {:.2e}, is more than the noise from row to row, {:.2e}: the ground is rough, f not even, or \
                  a sum of Gaussians does not follow it",
                 self.residual, self.noise
             ));

@@ -1,14 +1,18 @@
 //! What the noise of a profile leaves open: fits to profiles made of a fitted one and of its residuals, drawn anew
 //! (Efron's bootstrap), of sums of as many Gaussians as the data may have.
 
-use super::answers::Answers;
+use super::answers::{Answers, normalised};
+use super::hidden;
 use super::search::Candidate;
 use crate::Profile;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
-use stickslip_tip::stop;
+use stickslip_tip::{Gaussian, stop};
+
+/// The first stream of random numbers for footprints: beyond those for answers.
+const FOOTPRINTS: u64 = 1 << 32;
 
 /// What profiles are drawn from.
 #[derive(Debug)]
@@ -37,12 +41,34 @@ impl Resampling<'_> {
         self.makers.iter().enumerate().map(of).collect()
     }
 
+    /// So many footprints that may be what was measured, each with what the noise may hide.
+    pub(super) fn footprints(&self, count: usize) -> Vec<Vec<Gaussian>> {
+        let flag = stop::flag().unwrap_or_default();
+        let one = |i: usize| {
+            let maker = self.makers[i % self.makers.len()];
+            let (profile, fitted, mut random) = self.fitted(FOOTPRINTS + i as u64, maker)?;
+            let more = hidden::drawn(&profile, self.centre, &fitted, self.effective, &mut random);
+            let of = |candidate: &Candidate| {
+                let gaussians = normalised(candidate, self.sigma)?.0;
+                Answers::of(candidate, self.sigma, self.r).map(|_| gaussians)
+            };
+            more.as_ref().and_then(of).or_else(|| of(&fitted))
+        };
+        let draws = (0..count).into_par_iter().map(|i| stop::where_asked_by(&flag, || one(i)));
+        draws.collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
     fn one(&self, stream: u64, maker: &Candidate) -> Option<Answers> {
+        Answers::of(&self.fitted(stream, maker)?.1, self.sigma, self.r)
+    }
+
+    /// A profile drawn, the fit to it, and what further numbers come from.
+    fn fitted(&self, stream: u64, maker: &Candidate) -> Option<(Profile, Candidate, ChaCha8Rng)> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(stream);
         let profile = self.drawn(maker, &mut random);
         let fitted = maker.again(&profile, self.centre, self.effective)?;
-        Answers::of(&fitted, self.sigma, self.r)
+        Some((profile, fitted, random))
     }
 
     /// A profile with residuals in blocks as long as they hang together.

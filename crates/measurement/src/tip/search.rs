@@ -22,8 +22,8 @@ pub struct Candidate {
     /// No Gaussian is narrower.
     pub(super) finest: f64,
     pub(super) places: Places,
-    pub(super) offset: f64,
-    pub(super) slope: f64,
+    /// Coefficients of 1, x, x², … of the ground.
+    pub(super) ground: Vec<f64>,
     pub(super) amplitudes: Vec<f64>,
     pub(super) residuals: Vec<f64>,
 }
@@ -74,9 +74,8 @@ impl Candidate {
             criterion: effective * mean.ln() + parameters as f64 * effective.ln(),
             critical_alpha: f64::NAN,
             finest: shape.widths.least,
-            offset: found.coefficients[0] - found.coefficients[1] * shape.middle / shape.half,
-            slope: found.coefficients[1] / shape.half,
-            amplitudes: found.coefficients[2..].to_vec(),
+            ground: shape.in_powers_of_x(&found.coefficients[..=shape.order]),
+            amplitudes: found.coefficients[shape.order + 1..].to_vec(),
             residuals: found.residuals,
             places,
         })
@@ -91,7 +90,16 @@ impl Candidate {
     pub(super) fn height(&self, x: f64) -> f64 {
         let terms = self.places.terms.iter().zip(&self.amplitudes);
         let sum = terms.map(|((d, w), a)| a * pair(x - self.places.centre, *d, *w)).sum::<f64>();
-        self.offset + self.slope * x + sum
+        self.ground_at(x) + sum
+    }
+
+    fn ground_at(&self, x: f64) -> f64 {
+        self.ground.iter().rev().fold(0.0, |sum, c| sum * x + c)
+    }
+
+    /// Highest power of x in the ground.
+    pub(super) fn order(&self) -> usize {
+        self.ground.len() - 1
     }
 
     /// The criterion as if so many rows were independent.
@@ -111,7 +119,7 @@ impl Candidate {
         centre: Option<f64>,
         effective: f64,
     ) -> Option<Self> {
-        let shape = Shape::of(profile, centre, (self.terms, self.finest));
+        let shape = Shape::of(profile, centre, (self.terms, self.finest), self.order());
         let start = shape.searched(&self.places);
         Self::at(&shape, &minimum(&shape, &start)?.parameters, effective)
     }
@@ -131,9 +139,33 @@ const FINEST: f64 = 0.4;
 /// A residual of so many times the noise from row to row is more than that.
 const ABOVE_NOISE: f64 = 1.2;
 
-/// The best sums of one, two … Gaussians, as many as `asked`, or as there are rows for and as the data may ask for.
+/// A ground that is straight, curved, or an S.
+const ORDERS: std::ops::RangeInclusive<usize> = 1..=3;
+
+/// The best sums of one, two … Gaussians, as many as `asked`, or as there are rows for and as the data may ask for, on
+/// the ground that they ask for; sums on other grounds are among the others.
 pub(super) fn candidates(profile: &Profile, centre: Option<f64>, asked: Option<usize>) -> Found {
-    let coarse = ever_more(profile, centre, asked, FINEST);
+    let mut chosen = on_ground(profile, (centre, 1), asked);
+    for order in ORDERS.skip(1) {
+        let mut found = on_ground(profile, (centre, order), asked);
+        if found.best.is_empty() {
+            break;
+        }
+        if least(&found.best) < least(&chosen.best) {
+            std::mem::swap(&mut chosen, &mut found);
+        }
+        chosen.others.extend(found.best.into_iter().chain(found.others));
+    }
+    chosen
+}
+
+/// Those on a ground of one order.
+fn on_ground(
+    profile: &Profile,
+    (centre, order): (Option<f64>, usize),
+    asked: Option<usize>,
+) -> Found {
+    let coarse = ever_more(profile, (centre, order), asked, FINEST);
     let left = |found: &[Candidate]| {
         let best = found.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion));
         best.map_or(f64::INFINITY, |best| best.residual)
@@ -141,18 +173,23 @@ pub(super) fn candidates(profile: &Profile, centre: Option<f64>, asked: Option<u
     if left(&coarse.best) <= ABOVE_NOISE * profile.noise() {
         return coarse;
     }
-    let fine = ever_more(profile, centre, asked, 0.0);
+    let fine = ever_more(profile, (centre, order), asked, 0.0);
     if least(&fine.best) < least(&coarse.best) { fine } else { coarse }
 }
 
 /// The same with further Gaussians no narrower than this part of the first.
-fn ever_more(profile: &Profile, centre: Option<f64>, asked: Option<usize>, finest: f64) -> Found {
+fn ever_more(
+    profile: &Profile,
+    (centre, order): (Option<f64>, usize),
+    asked: Option<usize>,
+    finest: f64,
+) -> Found {
     let rows = profile.x().len();
     let most = asked.unwrap_or(MOST_TERMS);
     let (mut found, mut others): (Vec<Candidate>, Vec<Candidate>) = (vec![], vec![]);
     for terms in 1..=most {
         let width = found.first().map_or(0.0, |first| first.places.terms[0].1);
-        let shape = Shape::of(profile, centre, (terms, finest * width));
+        let shape = Shape::of(profile, centre, (terms, finest * width), order);
         if shape.count() + 4 > rows {
             break;
         }
@@ -210,8 +247,7 @@ fn first(shape: &Shape) -> Vec<Places> {
 fn further(shape: &Shape, before: &Candidate) -> Vec<Places> {
     let x = shape.profile.x();
     let centre = before.places.centre;
-    let slope = x.iter().map(|x| (x - shape.middle) / shape.half).collect();
-    let mut columns: Vec<Vec<f64>> = vec![vec![1.0; x.len()], slope];
+    let mut columns = shape.ground();
     let column = |d: f64, w: f64| x.iter().map(|x| pair(x - centre, d, w)).collect::<Vec<f64>>();
     columns.extend(before.places.terms.iter().map(|(d, w)| column(*d, *w)));
     let reach = x.iter().map(|x| (x - centre).abs()).fold(0.0, f64::max);

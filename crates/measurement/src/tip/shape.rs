@@ -1,10 +1,10 @@
-//! An even sum of Gaussians on a sloping ground, as a function of what is to be fitted.
+//! An even sum of Gaussians on a sloping or curved ground, as a function of what is to be fitted.
 //!
 //! ```text
-//!     y(x) = o + s(x - x̄) + Σ_k a_k G_k(x - c),   G_k(x) = (e^{-(x-d_k)²/2w_k²} + e^{-(x+d_k)²/2w_k²})/2
+//!     y(x) = Σ_j g_j z^j + Σ_k a_k G_k(x - c),   z = (x - x̄)/h,   G_k(x) = (e^{-(x-d_k)²/2w_k²} + e^{-(x+d_k)²/2w_k²})/2
 //! ```
 //!
-//! o, s and the `a_k` are linear and projected out; c, ln w and d are searched. The first term stands at d = 0.
+//! x̄ and h are the middle and half of the extent; the `g_j` and the `a_k` are linear and projected out; c, ln w and d are searched. The first term stands at d = 0.
 
 use crate::Profile;
 use crate::least_squares::Residuals;
@@ -29,6 +29,8 @@ pub(super) struct Shape<'a> {
     pub(super) middle: f64,
     pub(super) half: f64,
     pub(super) terms: usize,
+    /// Highest power of the position in the ground: 1 to 3.
+    pub(super) order: usize,
 }
 
 /// c, and of each term d and w.
@@ -50,6 +52,7 @@ impl<'a> Shape<'a> {
         profile: &'a Profile,
         centre: Option<f64>,
         (terms, finest): (usize, f64),
+        order: usize,
     ) -> Self {
         let (first, last) = profile.ends();
         let extent = last - first;
@@ -58,12 +61,12 @@ impl<'a> Shape<'a> {
         let most = (MOST_WIDTH * way).max(2.0 * least);
         let widths = Widths { least, most };
         let (middle, half) = (0.5 * (first + last), 0.5 * extent);
-        Self { profile, centre, widths, middle, half, terms }
+        Self { profile, centre, widths, middle, half, terms, order }
     }
 
     /// How many numbers are fitted, the linear ones among them.
     pub(super) fn count(&self) -> usize {
-        2 + usize::from(self.centre.is_none()) + 3 * self.terms - 1
+        self.order + usize::from(self.centre.is_none()) + 3 * self.terms
     }
 
     /// What the search sees, of order 1: c and d over half of the extent, widths by how far they are between their
@@ -98,11 +101,32 @@ impl<'a> Shape<'a> {
         Places { centre, terms: terms.collect() }
     }
 
+    /// Powers of the position.
+    pub(super) fn ground(&self) -> Vec<Vec<f64>> {
+        let x = self.profile.x();
+        let power = |k| x.iter().map(|x| ((x - self.middle) / self.half).powi(k)).collect();
+        (0..).take(self.order + 1).map(power).collect()
+    }
+
+    /// Coefficients of 1, x, x², … of a ground with these.
+    pub(super) fn in_powers_of_x(&self, coefficients: &[f64]) -> Vec<f64> {
+        // Horner's rule for polynomials: times (x - middle)/half, plus the next.
+        coefficients.iter().rev().fold(vec![], |sum: Vec<f64>, c| {
+            let mut next = vec![0.0; sum.len() + 1];
+            for (k, v) in sum.iter().enumerate() {
+                next[k + 1] += v / self.half;
+                next[k] -= v * self.middle / self.half;
+            }
+            next[0] += c;
+            next.truncate(coefficients.len());
+            next
+        })
+    }
+
     /// The linear part there.
     pub(super) fn projected(&self, places: &Places) -> Option<Projected> {
         let x = self.profile.x();
-        let slope = x.iter().map(|x| (x - self.middle) / self.half).collect();
-        let mut columns = vec![vec![1.0; x.len()], slope];
+        let mut columns = self.ground();
         columns.extend(
             places.terms.iter().map(|(d, w)| {
                 x.iter().map(|x| pair(x - places.centre, *d, *w)).collect::<Vec<f64>>()
@@ -137,7 +161,9 @@ impl Residuals for Shape<'_> {
         let Widths { least, most } = self.widths;
         let mut by_centre = vec![0.0; x.len()];
         let mut columns = vec![];
-        for (k, ((d, w), a)) in places.terms.iter().zip(&found.coefficients[2..]).enumerate() {
+        for (k, ((d, w), a)) in
+            places.terms.iter().zip(&found.coefficients[self.order + 1..]).enumerate()
+        {
             let share = (w / least).ln() / (most / least).ln();
             let by_share = a * (most / least).ln() * share * (1.0 - share);
             // Searched is d with a sign, of which nothing depends.
@@ -194,10 +220,10 @@ mod tests {
             3.0 + 0.1 * x + 2.0 * g(0) - 0.8 * g(1) + 0.3 * g(2)
         };
         let profile = Profile::new(x.clone(), x.iter().map(height).collect()).unwrap();
-        for centre in [None, Some(0.8)] {
-            let shape = Shape::of(&profile, centre, (3, 0.0));
+        for (centre, order) in [(None, 1), (Some(0.8), 1), (None, 3)] {
+            let shape = Shape::of(&profile, centre, (3, 0.0), order);
             let mut searched = shape.searched(&places);
-            assert_eq!(searched.len() + 5, shape.count());
+            assert_eq!(searched.len() + 4 + order, shape.count());
             let second = searched.len() - 2;
             searched[second] = -searched[second];
             assert_eq!(shape.places(&searched).terms.len(), 3);
@@ -212,6 +238,21 @@ mod tests {
                     assert!((told - seen).abs() < 1e-6 * size.max(1e-3), "{told} {seen}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_ground_is_the_same_in_powers_of_x() {
+        let x: Vec<f64> = (0..20).map(|i| 3.0 + f64::from(i)).collect();
+        let profile = Profile::new(x.clone(), x).unwrap();
+        let shape = Shape::of(&profile, None, (1, 0.0), 3);
+        let coefficients = [0.5, -1.0, 2.0, 0.3];
+        let powers = shape.in_powers_of_x(&coefficients);
+        for x in [3.0, 7.7, 22.0] {
+            let z: f64 = (x - shape.middle) / shape.half;
+            let value: f64 = coefficients.iter().rev().fold(0.0, |s, c| s * z + c);
+            let found: f64 = powers.iter().rev().fold(0.0, |s, c| s * x + c);
+            assert!((value - found).abs() < 1e-11, "{value} {found}");
         }
     }
 }

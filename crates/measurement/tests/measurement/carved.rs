@@ -21,11 +21,11 @@ pub(crate) struct Truth {
 }
 
 /// What the grid makes of it: heights over positions, lags over the way of the support, in σ.
-struct Made {
-    x: Vec<f64>,
-    u: Vec<f64>,
-    way: Vec<f64>,
-    lag: Vec<f64>,
+pub(crate) struct Made {
+    pub(crate) x: Vec<f64>,
+    pub(crate) u: Vec<f64>,
+    pub(crate) way: Vec<f64>,
+    pub(crate) lag: Vec<f64>,
 }
 
 /// Settled after so many σ of the way.
@@ -58,7 +58,7 @@ impl Truth {
         self.over * onset
     }
 
-    fn made(&self, points: usize) -> Made {
+    pub(crate) fn made(&self, points: usize) -> Made {
         let (bell, beta) = (|x: f64| (-0.5 * x * x).exp(), self.beta);
         let f = move |x: f64| bell(x) - 0.5 * beta * (bell(x - 2.0) + bell(x + 2.0));
         let footprint = grid::Footprint::new(&f, 11.0).unwrap();
@@ -113,7 +113,7 @@ fn track(
         .zip(y)
         .map(|(x, y)| size * (y + ground(x - first) + amplitude * noise * normal(random)));
     let told = told.collect();
-    Track { x: x.iter().map(|x| width * (x - first)).collect(), y: told, gain: Some(gain) }
+    Track::new(x.iter().map(|x| width * (x - first)).collect(), told, Some(gain))
 }
 
 pub(crate) fn ripple(truth: &Truth, noise: f64, random: &mut ChaCha8Rng) -> Data {
@@ -137,5 +137,5 @@ pub(crate) fn friction_loop(truth: &Truth, noise: f64, random: &mut ChaCha8Rng) 
     let way: Vec<f64> = [&made.way[..300], &made.way[..300]].concat();
     let told = track((&way, &both), scale, noise, random);
     let (x, y) = (told.x[..300].to_vec(), told.y[..300].to_vec());
-    Data::Loop(Track { x, y, gain: told.gain }, told.y[300..].to_vec())
+    Data::Loop(Track::new(x, y, told.gain), told.y[300..].to_vec())
 }

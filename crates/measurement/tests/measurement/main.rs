@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod carved;
+mod explained;
 mod fitted_ripples;
 mod freed_numbers;
 mod judged_tables;

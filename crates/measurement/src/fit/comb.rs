@@ -1,0 +1,281 @@
+//! What a track itself says of its ripples and its noise, whatever the model: a wave of any shape that repeats itself,
+//! and the scatter from one wavelength to the next.
+
+use super::data::{Data, Track};
+use super::noise::Noise;
+use super::problem::ends;
+use super::subspace::{beyond, dot, probability};
+use crate::projection::project;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Rows of a track; a loop has two lines of them.
+#[derive(Debug, Clone)]
+pub(super) struct Rows {
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) lines: Vec<Range<usize>>,
+}
+
+impl Rows {
+    /// `None` for a series.
+    pub(super) fn of(data: &Data) -> Option<Self> {
+        let one = |track: &Track| {
+            let rows = track.x.len();
+            Self { x: track.x.clone(), y: track.y.clone(), lines: vec![0..rows] }
+        };
+        match data {
+            Data::Ripple(track) | Data::Friction(track) => Some(one(track)),
+            Data::Loop(track, back) => {
+                let rows = track.x.len();
+                let x = [&*track.x, &track.x].concat();
+                let y = [&*track.y, back].concat();
+                Some(Self { x, y, lines: vec![0..rows, rows..2 * rows] })
+            }
+            Data::Onsets { .. } | Data::Wavelengths { .. } => None,
+        }
+    }
+
+    fn extent(&self) -> f64 {
+        let (first, last) = ends(&self.x);
+        last - first
+    }
+
+    /// From -1 to 1.
+    fn part(&self, x: f64) -> f64 {
+        let (first, last) = ends(&self.x);
+        (2.0 * x - first - last) / (last - first)
+    }
+
+    /// A column for each line, 0 on the others.
+    fn columns(&self, value: impl Fn(f64) -> f64) -> Vec<Vec<f64>> {
+        let on = |line: &Range<usize>| {
+            let mut column = vec![0.0; self.x.len()];
+            line.clone().for_each(|i| column[i] = value(self.x[i]));
+            column
+        };
+        self.lines.iter().map(on).collect()
+    }
+
+    /// Offset and slope of every line.
+    pub(super) fn ground(&self) -> Vec<Vec<f64>> {
+        [self.columns(|_| 1.0), self.columns(|x| self.part(x))].concat()
+    }
+
+    /// cos and sin of so many turns per length, times a power of the position.
+    fn wave(&self, turns: f64, power: i32) -> Vec<Vec<f64>> {
+        let (first, last) = ends(&self.x);
+        let middle = 0.5 * (first + last);
+        let angle = move |x: f64| TAU * turns * (x - middle);
+        [
+            self.columns(|x| angle(x).cos() * self.part(x).powi(power)),
+            self.columns(|x| angle(x).sin() * self.part(x).powi(power)),
+        ]
+        .concat()
+    }
+}
+
+/// A wave of any shape fitted to a track.
+#[derive(Debug, Clone)]
+pub(super) struct Comb {
+    /// In the unit of the positions.
+    pub(super) length: f64,
+    /// Wavelengths along a line.
+    pub(super) count: f64,
+    harmonics: usize,
+    /// Cosine and sine of each harmonic, and what the wave changes by with its length.
+    pub(super) wave: Vec<Vec<f64>>,
+    residuals: Vec<f64>,
+}
+
+/// Most harmonics; rows of a wavelength that each needs, and rows in all.
+const HARMONICS: f64 = 12.0;
+const ROWS_OF_A_WAVE: f64 = 4.0;
+const ROWS_IN_ALL: f64 = 6.0;
+/// By how much of a turn at the ends the wavelength is improved.
+const OFF: f64 = 0.4;
+
+impl Comb {
+    /// Near this wavelength; `None` where there are too few rows for one.
+    pub(super) fn near(rows: &Rows, length: f64) -> Option<Self> {
+        let longest = rows.lines.iter().map(Range::len).max()? as f64;
+        let count = rows.extent() / length;
+        let most = HARMONICS.min(longest / count / ROWS_OF_A_WAVE).min(longest / ROWS_IN_ALL);
+        if !(most >= 1.0) {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let harmonics = most as usize;
+        let left = |turns: f64| {
+            Self::fitted(rows, turns, harmonics)
+                .map_or(f64::INFINITY, |(_, left)| dot(&left, &left))
+        };
+        let extent = rows.extent();
+        let (mut low, mut high) = ((count - OFF) / extent, (count + OFF) / extent);
+        for _ in 0..24 {
+            let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
+            if left(a) < left(b) { high = b } else { low = a }
+        }
+        let turns = 0.5 * (low + high);
+        let (coefficients, residuals) = Self::fitted(rows, turns, harmonics)?;
+        let mut wave = Self::columns(rows, turns, harmonics);
+        wave.push(slope(rows, turns, &coefficients));
+        let length = 1.0 / turns;
+        Some(Self { length, count: extent / length, harmonics, wave, residuals })
+    }
+
+    fn columns(rows: &Rows, turns: f64, harmonics: usize) -> Vec<Vec<f64>> {
+        (1..=harmonics).flat_map(|k| rows.wave(k as f64 * turns, 0)).collect()
+    }
+
+    /// Coefficients of the wave, and what it leaves.
+    fn fitted(rows: &Rows, turns: f64, harmonics: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut columns = Self::columns(rows, turns, harmonics);
+        let count = columns.len();
+        columns.extend(rows.ground());
+        let found = project(&columns, &rows.y)?;
+        Some((found.coefficients[..count].to_vec(), found.residuals))
+    }
+
+    /// Columns of the first harmonics, and of every ground.
+    pub(super) fn first(&self, rows: &Rows, harmonics: usize) -> Vec<Vec<f64>> {
+        let most = (2 * harmonics * rows.lines.len()).min(self.wave.len() - 1);
+        let mut found = rows.ground();
+        found.extend_from_slice(&self.wave[..most]);
+        found
+    }
+
+    /// Columns of the whole wave, and of every ground.
+    pub(super) fn all(&self, rows: &Rows) -> Vec<Vec<f64>> {
+        [rows.ground(), self.wave.clone()].concat()
+    }
+
+    /// Waves of twice the length: what is the same in every other ripple only.
+    pub(super) fn doubled(&self, rows: &Rows) -> Vec<Vec<f64>> {
+        if self.count < FEWEST {
+            return vec![];
+        }
+        let waves = (0..self.harmonics.min(DOUBLED)).map(|k| k as f64 + 0.5);
+        waves.flat_map(|k| rows.wave(k / self.length, 0)).collect()
+    }
+
+    /// First harmonics that grow, shrink or shift along the track.
+    pub(super) fn drifting(&self, rows: &Rows) -> Vec<Vec<f64>> {
+        if self.count < FEWEST {
+            return vec![];
+        }
+        let mut found = vec![];
+        for k in 1..=self.harmonics.min(2) {
+            found.extend(rows.wave(k as f64 / self.length, 1));
+        }
+        found.extend(rows.wave(1.0 / self.length, 2));
+        found
+    }
+
+    /// The noise that is left when these columns are fitted too.
+    pub(super) fn noise(&self, rows: &Rows, besides: &[Vec<f64>]) -> Noise {
+        let columns = [self.all(rows), besides.to_vec()].concat();
+        let found = project(&columns, &rows.y);
+        let residuals = found.map_or_else(|| self.residuals.clone(), |found| found.residuals);
+        let band = 2.0 * self.count * (self.harmonics as f64 + 0.5) * rows.lines.len() as f64;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let within = band as usize + 2 * rows.lines.len();
+        Noise::of(&residuals, &rows.lines, (columns.len(), within.min(rows.y.len())))
+    }
+
+    /// Columns of all that is periodic, doubled or drifting.
+    pub(super) fn besides(&self, rows: &Rows) -> Vec<Vec<f64>> {
+        let found = [self.doubled(rows), self.drifting(rows)].concat();
+        if 2 * (found.len() + self.wave.len()) > rows.y.len() { vec![] } else { found }
+    }
+
+    /// Rows that are left to judge the noise by.
+    pub(super) fn freedom(&self, noise: &Noise, besides: usize) -> f64 {
+        let taken = (self.wave.len() + besides) as f64;
+        (noise.effective() - 0.5 * taken).max(4.0)
+    }
+}
+
+/// Wavelengths that it takes to see what changes from one to the next.
+const FEWEST: f64 = 3.0;
+/// Harmonics of twice the wavelength that are looked at.
+const DOUBLED: usize = 5;
+
+/// The change of a wave with its turns.
+fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
+    let mut found = vec![0.0; rows.x.len()];
+    let lines = rows.lines.len();
+    for (k, pair) in coefficients.chunks(2 * lines).enumerate() {
+        let k = k as f64 + 1.0;
+        let waves = rows.wave(k * turns, 1);
+        for line in 0..lines {
+            let (cos, sin) = (&waves[line], &waves[lines + line]);
+            let (a, b) = (pair[line], pair[lines + line]);
+            for (sum, (cos, sin)) in found.iter_mut().zip(cos.iter().zip(sin)) {
+                *sum += k * (b * cos - a * sin);
+            }
+        }
+    }
+    found
+}
+
+/// The probability that noise alone has a wave as strong as the strongest of the track, whose length was looked for
+/// among `trials`; 1 where the rows are too few to say.
+pub(super) fn by_chance(rows: &Rows, length: f64, trials: f64) -> Option<f64> {
+    let comb = Comb::near(rows, length)?;
+    let besides = comb.besides(rows);
+    let noise = comb.noise(rows, &besides);
+    let directions = beyond(&rows.ground(), &rows.wave(1.0 / comb.length, 0));
+    let freedom = comb.freedom(&noise, besides.len());
+    let one = probability(&directions, &rows.y, &|v| noise.times(v), &[], freedom)?;
+    Some(-f64::exp_m1(trials * f64::ln_1p(-one.min(1.0 - f64::EPSILON))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn track(wave: impl Fn(f64) -> f64) -> Rows {
+        let mut state = 7_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24) - 0.5
+        };
+        let x: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
+        let y = x.iter().map(|x| wave(*x) + 0.1 * random()).collect();
+        Rows { x, y, lines: vec![0..400] }
+    }
+
+    #[test]
+    fn a_wave_is_told_from_noise_and_its_noise_from_it() {
+        let wave = |x: f64| (TAU * x / 6.3).sin() + 0.4 * (2.0 * TAU * x / 6.3).cos();
+        let rows = track(wave);
+        let comb = Comb::near(&rows, 6.4).unwrap();
+        assert!((comb.length - 6.3).abs() < 0.01, "{}", comb.length);
+        let noise = comb.noise(&rows, &[]).deviation();
+        assert!((noise / 0.1 * 12_f64.sqrt() - 1.0).abs() < 0.1, "{noise}");
+        assert!(by_chance(&rows, 6.3, 200.0).unwrap() < 1e-12);
+        assert!(by_chance(&track(|_| 0.0), 6.3, 200.0).unwrap() > 1e-2);
+    }
+
+    #[test]
+    fn every_other_ripple_and_a_growing_one_are_seen() {
+        let judged = |rows: &Rows| {
+            let comb = Comb::near(rows, 6.3).unwrap();
+            let besides = comb.besides(rows);
+            let noise = comb.noise(rows, &besides);
+            let of = |more: Vec<Vec<f64>>| {
+                let directions = beyond(&comb.all(rows), &more);
+                probability(&directions, &rows.y, &|v| noise.times(v), &[], 300.0).unwrap()
+            };
+            (of(comb.doubled(rows)), of(comb.drifting(rows)))
+        };
+        let wave = |x: f64| (TAU * x / 6.3).sin();
+        let (doubling, drift) = judged(&track(wave));
+        assert!(doubling > 0.01 && drift > 0.01, "{doubling} {drift}");
+        let (doubling, _) = judged(&track(|x| wave(x) + 0.05 * (0.5 * TAU * x / 6.3).cos()));
+        assert!(doubling < 1e-6, "{doubling}");
+        let (_, drift) = judged(&track(|x| wave(x) * (1.0 + 0.004 * (x - 20.0))));
+        assert!(drift < 1e-6, "{drift}");
+    }
+}

@@ -1,0 +1,134 @@
+//! What should be known of a fit before it is believed, in words.
+
+use super::found::{Fit, Part};
+use super::likelihood::{Around, Fitted, least_felt};
+use super::parameters::Name;
+use super::problem::Problem;
+use super::verdict::{CHANGE, MISFIT};
+
+/// An interval whose ends are this many times apart says little.
+const WIDE: f64 = 3.0;
+/// Powers below this are left out of a combination.
+const NO_POWER: f64 = 0.15;
+/// Rows that count for less than this part of them are correlated.
+const CORRELATED: f64 = 0.7;
+/// Fewer wavelengths do not show whether ripples change.
+const FEW: f64 = 3.0;
+
+pub(super) fn remarks(
+    problem: &Problem,
+    around: &Around,
+    fit: &Fit,
+    scattered: bool,
+) -> Vec<String> {
+    let mut remarks = vec![];
+    for (i, part) in fit.parts.iter().enumerate() {
+        of_part(&mut remarks, i + 1, part);
+    }
+    if let Some(joint) = fit.joint.filter(|p| *p < MISFIT) {
+        remarks.push(format!(
+            "no one set of numbers explains all data (probability {}): they are of different motions, or the model lacks something",
+            in_percent(joint)
+        ));
+    }
+    if !scattered {
+        remarks.push(
+            "the rows fit the model exactly, so their scatter gives no estimate of the errors: no intervals".into(),
+        );
+    } else if !fit.explained {
+        remarks.push(
+            "intervals are left out, because they assume that the model explains the data".into(),
+        );
+    }
+    alternatives(&mut remarks, problem, fit);
+    if fit.explained {
+        wide(&mut remarks, problem, around, fit);
+    }
+    remarks
+}
+
+fn in_percent(probability: f64) -> String {
+    if probability < 1e-5 {
+        "below 0.001 %".into()
+    } else {
+        format!("{:.2} %", 100.0 * probability)
+    }
+}
+
+fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
+    let judged = &part.judged;
+    if let Some(p) = judged.doubling.filter(|p| *p < CHANGE) {
+        remarks.push(format!(
+            "data {number} repeat with twice the wavelength (probability of this by chance: {}): beyond the first period doubling the \
+             model of one crest to a wavelength does not apply",
+            in_percent(p)
+        ));
+    }
+    if let Some(p) = judged.drift.filter(|p| *p < CHANGE) {
+        remarks.push(format!(
+            "the ripples of data {number} change along the track (probability of this by chance: {}): the motion has not settled, or the \
+             instrument drifts; cut out a part where they are uniform",
+            in_percent(p)
+        ));
+    }
+    if let Some(p) = judged.misfit.filter(|p| *p < MISFIT) {
+        remarks.push(format!(
+            "the model does not explain data {number} (probability of so large a deviation by chance: {}): another footprint, or a \
+             wider law (a depth limit, healing, inertia)",
+            in_percent(p)
+        ));
+    }
+    if part.gain.is_some_and(|gain| gain < 0.0) {
+        remarks.push(format!(
+            "data {number} are upside down beside the model: heights go up, forces hold the tip back"
+        ));
+    }
+    if judged.wavelengths.is_some_and(|count| count < FEW) {
+        remarks.push(format!(
+            "data {number} have fewer than three wavelengths: too few to show whether the ripples are uniform"
+        ));
+    }
+    let rows = part.model.len() as f64;
+    if let Some(effective) = judged.effective.filter(|e| *e < CORRELATED * rows) {
+        remarks.push(format!(
+            "the noise of data {number} is correlated from row to row: {rows} rows count as {effective:.0} independent ones, and the \
+             intervals are wider accordingly"
+        ));
+    }
+}
+
+fn alternatives(remarks: &mut Vec<String>, problem: &Problem, fit: &Fit) {
+    let Some(first) = fit.alternatives.first() else { return };
+    let number = |name: &Name| Some(format!("{} = {:.4}", name.word(), first.values.get(*name)?));
+    let numbers: Vec<String> = problem.free.iter().filter_map(number).collect();
+    let turned = first.scans != problem.scans;
+    let words = if turned { ", for a scan in the other direction," } else { "" };
+    let covered = if fit.explained { "; the intervals cover both where the data do" } else { "" };
+    remarks.push(format!(
+        "another minimum{words} is nearly as good (χ² higher by {:.1}): {}{covered}",
+        first.behind.max(0.0),
+        numbers.join(", ")
+    ));
+}
+
+fn wide(remarks: &mut Vec<String>, problem: &Problem, around: &Around, fit: &Fit) {
+    let open = |n: &&Fitted| n.estimate.high / n.estimate.low > WIDE;
+    let wide: Vec<&str> = fit.numbers.iter().filter(open).map(|n| n.name.word()).collect();
+    if wide.is_empty() {
+        return;
+    }
+    let combination = least_felt(around)
+        .filter(|(powers, _)| powers.iter().filter(|p| p.abs() > NO_POWER).count() > 1);
+    remarks.push(match combination {
+        Some((powers, _)) => {
+            let each = problem.free.iter().zip(powers).filter(|(_, p)| p.abs() > NO_POWER);
+            let words = each.map(|(name, p)| format!("{}^{p:.2}", name.word()));
+            format!(
+                "these data hardly constrain {}: they change little along {}; hold one of these numbers, or give data of another kind",
+                wide.join(" and "),
+                words.collect::<Vec<String>>().join(" · ")
+            )
+        }
+        None => format!("these data hardly constrain {}", wide.join(" and ")),
+    });
+}

@@ -1,0 +1,115 @@
+//! Other minima than the best, and those of other footprints.
+
+use super::data::Scan;
+use super::likelihood::{Around, Rival};
+use super::parameters::{Name, Shape, Values};
+use super::problem::Problem;
+use super::start::Start;
+use super::wave::Cycles;
+use crate::least_squares::{Minimum, minimum};
+use stickslip_tip::TipFunction;
+
+/// Another motion that the data do not exclude.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// All numbers, the known ones too.
+    pub values: Values,
+    /// Directions of the scans of each of the data.
+    pub scans: Vec<Scan>,
+    /// By how much more than the best it leaves, in units of the variance of the noise.
+    pub behind: f64,
+}
+
+/// By how much more a minimum may leave to be told: 99.7 % of χ² of one number are below.
+const TOLD: f64 = 9.0;
+/// The same before it is known how far rows are correlated: those that leave more are not followed.
+const FOLLOWED: f64 = 0.5;
+/// Most that are followed.
+const MOST: usize = 6;
+/// Logarithms nearer than this, in deviations or as they are, are of one minimum.
+const SAME: f64 = 0.3;
+const EQUAL: f64 = 1e-3;
+
+/// Minima that leave about as much as the best, each once; directions and place.
+pub(super) fn found(
+    problem: &Problem,
+    best: &Minimum,
+    others: Vec<Start>,
+) -> Vec<(Vec<Scan>, Minimum)> {
+    let mut found: Vec<(Vec<Scan>, Minimum)> = vec![];
+    let is_near = |other: &Minimum| other.sum < best.sum * (1.0 + FOLLOWED);
+    for Start { scans, searched } in others.into_iter().take(MOST) {
+        let there = Problem { by_excess: true, scans, ..problem.clone() };
+        let Some(end) = minimum(&there, &searched).filter(is_near) else { continue };
+        let Some((there, end)) = there.by_logarithms(&end) else { continue };
+        let is_other = |(scans, other): (&Vec<Scan>, &Minimum)| {
+            let apart = |(a, b): (&f64, &f64)| (a - b).abs() > EQUAL;
+            let numbers = problem.free.len();
+            let mut pairs = end.parameters[..numbers].iter().zip(&other.parameters[..numbers]);
+            *scans != there.scans || pairs.any(apart)
+        };
+        let known = found.iter().map(|(scans, other)| (scans, other));
+        if known.chain([(&problem.scans, best)]).all(is_other) {
+            found.push((there.scans, end));
+        }
+    }
+    found
+}
+
+/// Those that the data do not exclude, as intervals see them and as they are told.
+pub(super) fn judged<'a>(
+    problem: &'a Problem,
+    around: &Around,
+    found: Vec<(Vec<Scan>, Minimum)>,
+) -> (Vec<Rival>, Vec<Alternative>) {
+    let mut rivals: Vec<Rival> = vec![];
+    let mut told = vec![];
+    for (scans, end) in found {
+        let behind = around.behind(&end);
+        let there = Problem { scans, ..problem.clone() };
+        let Some(values) = there.values(&end.parameters).filter(|_| behind < TOLD) else {
+            continue;
+        };
+        let Some(deviations) = Around::of(&there, &end).map(|near| near.deviations()) else {
+            continue;
+        };
+        let numbers = problem.free.len();
+        let is_same = (0..numbers).all(|i| {
+            let apart = (end.parameters[i] - around.best.parameters[i]).abs();
+            apart < SAME * around.deviation(i)
+        });
+        if is_same && there.scans == problem.scans {
+            continue;
+        }
+        rivals.push(Rival { behind, at: end.parameters[..numbers].to_vec(), deviations });
+        told.push(Alternative { values, scans: there.scans, behind });
+    }
+    told.sort_by(|a, b| a.behind.total_cmp(&b.behind));
+    (rivals, told)
+}
+
+/// The fits by other footprints, each begun as far above its own onset as the best is above its.
+pub(super) fn with_footprints(
+    problem: &Problem,
+    best: &Minimum,
+    footprints: &[TipFunction],
+) -> Vec<Minimum> {
+    let of = |tip: &TipFunction| {
+        let shape = Shape::Known(tip.clone());
+        let cycles = Cycles::default();
+        let other = Problem { shape: &shape, cycles: &cycles, ..problem.clone() };
+        let near = Problem { by_excess: true, ..problem.clone() };
+        let values = problem.values(&best.parameters)?;
+        let mut searched = near.searched_for(&values)?;
+        searched.extend(&best.parameters[problem.free.len()..]);
+        let there = Problem { by_excess: true, ..other.clone() };
+        let values = there.values(&searched).or(Some(values))?;
+        let mut start = other.searched_for(&values)?;
+        start.extend(&best.parameters[problem.free.len()..]);
+        minimum(&other, &start)
+    };
+    if problem.free.contains(&Name::Beta) {
+        return vec![];
+    }
+    footprints.iter().filter_map(of).collect()
+}

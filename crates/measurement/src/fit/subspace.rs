@@ -1,0 +1,90 @@
+//! Tests of a residual against noise in the directions that some columns add to others.
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+/// A column of which less than this part is beyond the others adds no direction.
+const PART: f64 = 1e-5;
+
+/// An orthonormal basis of what `more` adds to the span of `base`, by Gram and Schmidt's method, done twice.
+pub(super) fn beyond(base: &[Vec<f64>], more: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = vec![];
+    let mut given = 0;
+    for (i, column) in base.iter().chain(more).enumerate() {
+        let before = dot(column, column).sqrt();
+        let mut left = column.clone();
+        for _ in 0..2 {
+            for unit in &basis {
+                let along = dot(unit, &left);
+                left.iter_mut().zip(unit).for_each(|(v, u)| *v -= along * u);
+            }
+        }
+        let size = dot(&left, &left).sqrt();
+        if size > PART * before && size.is_finite() {
+            left.iter_mut().for_each(|v| *v /= size);
+            basis.push(left);
+        }
+        if i + 1 == base.len() {
+            given = basis.len();
+        }
+    }
+    basis.split_off(given)
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The probability that noise alone has as much along these orthonormal directions:
+/// d'(Q'ΣQ + mean of s s')⁻¹d/m after Snedecor's F(m, `freedom`), d = Q'r. `times` is the product with the covariance Σ
+/// of the noise; the s are draws of a further error of the model.
+pub(super) fn probability(
+    directions: &[Vec<f64>],
+    residuals: &[f64],
+    times: &dyn Fn(&[f64]) -> Vec<f64>,
+    shifts: &[Vec<f64>],
+    freedom: f64,
+) -> Option<f64> {
+    let count = directions.len();
+    if count == 0 {
+        return None;
+    }
+    let onto = |v: &[f64]| DVector::from_iterator(count, directions.iter().map(|q| dot(q, v)));
+    let columns: Vec<DVector<f64>> = directions.iter().map(|q| onto(&times(q))).collect();
+    let mut covariance = DMatrix::from_columns(&columns);
+    for shift in shifts {
+        let shift = onto(shift);
+        covariance += &shift * shift.transpose() / shifts.len() as f64;
+    }
+    let found = onto(residuals);
+    let size = found.dot(&covariance.cholesky()?.solve(&found)) / count as f64;
+    let law = FisherSnedecor::new(count as f64, freedom.max(2.0)).ok()?;
+    size.is_finite().then(|| law.sf(size))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_new_and_orthonormal() {
+        let x: Vec<f64> = (0..9).map(f64::from).collect();
+        let (ones, squares) = (vec![1.0; 9], x.iter().map(|x| x * x).collect::<Vec<f64>>());
+        let found = beyond(&[ones.clone(), x.clone()], &[squares, ones.clone(), x.clone()]);
+        assert_eq!(found.len(), 1);
+        assert!((dot(&found[0], &found[0]) - 1.0).abs() < 1e-12);
+        assert!(dot(&found[0], &ones).abs() < 1e-12 && dot(&found[0], &x).abs() < 1e-11);
+    }
+
+    /// F(2, ∞): the probability of a mean square above s is e^-s.
+    #[test]
+    fn two_directions_have_the_probability_of_chi_squared() {
+        let white = |v: &[f64]| v.to_vec();
+        let directions = [vec![1.0, 0.0, 0.0], vec![0.0, 1.0, 0.0]];
+        let found = probability(&directions, &[1.0, 2.0, 9.0], &white, &[], 1e9).unwrap();
+        assert!((found - (-2.5_f64).exp()).abs() < 1e-6, "{found}");
+        let shifts = [vec![0.0, 3_f64.sqrt(), 0.0]];
+        let less = probability(&directions, &[1.0, 2.0, 9.0], &white, &shifts, 1e9).unwrap();
+        assert!((less - (-1.0_f64).exp()).abs() < 1e-6, "{less}");
+    }
+}

@@ -2,15 +2,17 @@
 
 use super::examples::examples;
 use super::{OutletArguments, TipArguments};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 /// α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals.
 ///
-/// Compares settled motion, the limit cycle at α and r, with what was measured: what it leaves and what it feels.
-/// Offsets, slopes, phases and unknown gains are fitted along; starting values are found from the data. Several data
-/// of one motion may be given at once. Intervals are those of the profile likelihood; what the data cannot tell apart
-/// is said.
+/// Compares the settled motion, the limit cycle at α and r, with measured ripples and forces. Offsets, slopes, phases
+/// and unknown gains are fitted along; both scan directions are tried; starting values are found from the data. Several
+/// data of one motion may be given at once. Intervals follow the profile likelihood, widened for noise that is correlated
+/// from row to row and for the error of a measured footprint. The noise is estimated from the scatter between
+/// wavelengths: data without a significant ripple are refused, and a model that does not explain the data gets no
+/// intervals.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct FitArguments {
@@ -48,6 +50,10 @@ pub(crate) struct FitArguments {
     #[arg(long, help_heading = "Data")]
     pub(crate) robust: bool,
 
+    /// Direction in which the tip moved over the positions of ripples and traces [default: both are tried].
+    #[arg(long, value_name = "DIRECTION", help_heading = "Data")]
+    pub(crate) scan: Option<ScanName>,
+
     /// --width is σ in the unit of the data, if it is known.
     #[command(flatten)]
     pub(crate) tip: TipArguments,
@@ -82,6 +88,15 @@ pub(crate) struct FitArguments {
     /// Draw data, model, what is left and the profiles of the likelihood to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
+}
+
+/// A direction along the positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ScanName {
+    /// Towards larger positions
+    Right,
+    /// Towards smaller positions
+    Left,
 }
 
 const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]

@@ -2,19 +2,20 @@
 
 use super::job::{Job, judge_places};
 use super::model::tip;
-use crate::arguments::{FitArguments, TipArguments};
+use crate::arguments::{FitArguments, ScanName, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::heading::Heading;
+use crate::files::input::{TipFile, read_tip};
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
 use std::path::Path;
 use stickslip_documents::TipName;
 use stickslip_documents::{FitDocument, FitParameters, NumberHeld};
 use stickslip_measurement::{
-    Data, Fit, FitError, FitRequest, Name, Shape, Track, Values, fit as fitted,
+    Data, Fit, FitError, FitRequest, Name, Scan, Shape, Track, Values, fit as fitted,
 };
 use stickslip_stability::critical;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{Gaussian, TipFunction};
 use stickslip_units::Unit;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
@@ -31,20 +32,58 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
         let message = "give what was measured: one of these at least";
         return Err(Failure::input("--ripple, --friction, --onsets, --wavelengths", message));
     }
+    let data = reduced(data)?;
     let job = Job::open::<FitDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let given: Vec<Data> = data.iter().map(|(_, data)| data.clone()).collect();
-    let found = fitted(&given, &request).map_err(|error| match error {
+    let mut found = fitted(&given, &request).map_err(|error| match error {
         FitError::NoStart | FitError::Stopped => Failure::Run(error.to_string()),
         error => Failure::input(named(&data), error),
     })?;
+    if is_assumed(&arguments.tip) && request.shape != Shape::Triple {
+        found.remarks.insert(0, ASSUMED.into());
+    }
     let tip = fitted_tip(&request, &found)?;
     let critical_alpha = found.values.get(Name::R).and_then(|r| critical(&tip, r).ok());
     let held = Name::ALL.into_iter().filter_map(|name| {
         Some(NumberHeld { name: name.word().into(), value: request.known.get(name)? })
     });
-    let parameters =
-        FitParameters { tip: (&tip).into(), known: held.collect(), robust: arguments.robust, unit };
+    let parameters = FitParameters {
+        tip: (&tip).into(),
+        known: held.collect(),
+        robust: arguments.robust,
+        unit,
+        scan: request.scan.map(|scan| scan.word().into()),
+        footprints: request.footprints.len(),
+    };
     job.finish(FitDocument::of(&found, parameters, &data, critical_alpha.map(|at| at.alpha)))
+}
+
+/// Where no footprint is given.
+const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
+
+/// Whether nothing is said of the footprint.
+fn is_assumed(tip: &TipArguments) -> bool {
+    tip.tip.is_none() && tip.beta.is_none() && tip.tip_file.is_none()
+}
+
+/// Rows by ascending position, and averages of more than a few thousand.
+fn reduced(data: Given) -> Result<Given, Failure> {
+    let one = |(source, data): (String, Data)| {
+        let data = data.reduced().map_err(|error| Failure::input(&source, error))?;
+        Ok((source, data))
+    };
+    data.into_iter().map(one).collect()
+}
+
+/// The footprints that a measured one may as well be.
+fn footprints(arguments: &TipArguments) -> Result<Vec<TipFunction>, Failure> {
+    let Some(path) = &arguments.tip_file else { return Ok(vec![]) };
+    let TipFile::Measured(measured) = read_tip(path)? else { return Ok(vec![]) };
+    let tips = measured.draws.iter().map(|draw| {
+        TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect())
+            .map_err(|error| Failure::input(format!("--tip-file {}: draws", path.display()), error))
+    });
+    tips.collect()
 }
 
 /// The files, as they were named.
@@ -111,7 +150,12 @@ fn request(arguments: &FitArguments) -> Result<FitRequest, Failure> {
     } else {
         Shape::Known(tip(&TipArguments { width: None, ..arguments.tip.clone() })?)
     };
-    Ok(FitRequest { shape, known, free, robust: arguments.robust })
+    let scan = arguments.scan.map(|scan| match scan {
+        ScanName::Right => Scan::Right,
+        ScanName::Left => Scan::Left,
+    });
+    let footprints = footprints(&arguments.tip)?;
+    Ok(FitRequest { shape, known, free, robust: arguments.robust, scan, footprints })
 }
 
 /// Data, each with the name of its file.
@@ -183,7 +227,7 @@ impl Files {
         } else if gain.is_some() {
             headings[1].unit(Unit::Length).map_err(|error| Failure::input(&named, error))?;
         }
-        Ok(Data::Ripple(Track { x, y, gain }))
+        Ok(Data::Ripple(Track::new(x, y, gain)))
     }
 
     fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
@@ -206,10 +250,10 @@ impl Files {
         }
         if columns.len() == 3 {
             let [x, y, back] = taken("--friction", path, columns)?;
-            return Ok(Data::Loop(Track { x, y, gain }, back));
+            return Ok(Data::Loop(Track::new(x, y, gain), back));
         }
         let [x, y] = taken("--friction", path, columns)?;
-        Ok(Data::Friction(Track { x, y, gain }))
+        Ok(Data::Friction(Track::new(x, y, gain)))
     }
 
     /// Velocities, loads, and with three columns wavelengths.

@@ -4,7 +4,7 @@ use crate::table::{Column, Named, Tabular};
 use crate::{EstimateDocument, FORMAT_VERSION, Software, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_measurement::{Data, Fit, FittedNumber, Part};
+use stickslip_measurement::{Alternative, Data, Fit, FittedNumber, Name, Part, Scan};
 
 /// Numbers of the law as measured data have them, with 95 % intervals by profile likelihood.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -30,8 +30,34 @@ pub struct FitDocument {
     pub rows: usize,
     /// Numbers fitted, offsets, slopes, gains and phases among them.
     pub parameters_fitted: usize,
+    /// Whether the model explains the data; where it does not, no number has an interval.
+    #[serde(default = "yes")]
+    pub explained: bool,
+    /// Of several data, the probability of as large a deviation from one common model by chance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_misfit: Option<f64>,
+    /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<AlternativeDocument>,
     /// What should be known before it is believed.
     pub remarks: Vec<String>,
+}
+
+/// Of documents written before this was judged.
+fn yes() -> bool {
+    true
+}
+
+/// Another minimum.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AlternativeDocument {
+    /// The numbers there, the held ones too.
+    pub numbers: Vec<NumberHeld>,
+    /// "right" or "left", for each of the data.
+    pub scans: Vec<String>,
+    /// By how much χ² is higher than at the best fit.
+    pub behind: f64,
 }
 
 /// What was given.
@@ -46,6 +72,12 @@ pub struct FitParameters {
     pub robust: bool,
     /// Unit of lengths, such as "nm"; null for one that is not known.
     pub unit: Option<String>,
+    /// "right" or "left" if the direction of the scan was given; null where both were tried.
+    #[serde(default)]
+    pub scan: Option<String>,
+    /// Footprints by which the error of a measured one was carried along.
+    #[serde(default)]
+    pub footprints: usize,
 }
 
 /// A number that was held.
@@ -95,15 +127,56 @@ pub struct DataFitted {
     pub slope: Option<f64>,
     /// Of an unknown one: k/a for heights, k for forces.
     pub gain: Option<f64>,
-    /// By how many standard deviations what is left repeats itself with the wavelength; above 4 the model is wrong.
+    /// Probability of so large a periodic residual by chance; below 0.005 the model does not explain the data. Null where
+    /// too few rows say.
     pub misfit: Option<f64>,
+    /// Probability by chance of the part that repeats with twice the wavelength; below 0.001 the ripples are period-doubled.
+    #[serde(default)]
+    pub doubling: Option<f64>,
+    /// Probability by chance of a change of the ripples along the track; below 0.001 the motion has not settled.
+    #[serde(default)]
+    pub drift: Option<f64>,
+    /// Standard deviation of the noise, from the scatter between wavelengths, in the unit of `y`.
+    #[serde(default)]
+    pub noise: Option<f64>,
+    /// Independent rows that contain as much as these.
+    #[serde(default)]
+    pub effective_rows: Option<f64>,
+    /// Direction of the scan over `x`: "right" or "left"; null for a series.
+    #[serde(default)]
+    pub scan: Option<String>,
+    /// Rows of the file of which each of these is the mean.
+    #[serde(default = "one")]
+    pub averaged: usize,
+}
+
+/// Of documents written before rows were averaged.
+fn one() -> usize {
+    1
+}
+
+fn words(scan: Scan) -> String {
+    scan.word().into()
+}
+
+impl From<&Alternative> for AlternativeDocument {
+    fn from(other: &Alternative) -> Self {
+        let number = |name: Name| {
+            Some(NumberHeld { name: name.word().into(), value: other.values.get(name)? })
+        };
+        Self {
+            numbers: Name::ALL.into_iter().filter_map(number).collect(),
+            scans: other.scans.iter().copied().map(words).collect(),
+            behind: other.behind,
+        }
+    }
 }
 
 impl FitDocument {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/fit";
 
-    /// Of a fit to these data, each from the file named.
+    /// Of a fit to these data, [reduced](Data::reduced), each from the file named.
     pub fn of(
         found: &Fit,
         parameters: FitParameters,
@@ -122,6 +195,9 @@ impl FitDocument {
             data: each.map(|((source, data), part)| DataFitted::of(source, data, part)).collect(),
             rows: found.rows,
             parameters_fitted: found.parameters,
+            explained: found.explained,
+            joint_misfit: found.joint,
+            alternatives: found.alternatives.iter().map(AlternativeDocument::from).collect(),
             remarks: found.remarks.clone(),
         }
     }
@@ -150,6 +226,10 @@ impl DataFitted {
                 ("wavelengths", velocity.clone(), wavelength.clone())
             }
         };
+        let averaged = match data {
+            Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => track.averaged,
+            Data::Onsets { .. } | Data::Wavelengths { .. } => 1,
+        };
         Self {
             kind: kind.into(),
             source: source.into(),
@@ -160,7 +240,13 @@ impl DataFitted {
             offset: part.offset,
             slope: part.slope,
             gain: part.gain,
-            misfit: part.misfit,
+            misfit: part.judged.misfit,
+            doubling: part.judged.doubling,
+            drift: part.judged.drift,
+            noise: part.judged.noise,
+            effective_rows: part.judged.effective,
+            scan: part.scan.map(words),
+            averaged,
         }
     }
 }

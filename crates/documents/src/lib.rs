@@ -80,7 +80,9 @@ pub use figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
-pub use fit::{DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld};
+pub use fit::{
+    AlternativeDocument, DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld,
+};
 pub use history::{FARTHEST, History};
 pub use in_units::{Dimension, InUnits, KnownScales, dimension};
 pub use measured_tip::{

@@ -32,6 +32,9 @@ pub struct MeasuredTipDocument {
     pub offset: f64,
     /// Of the ground, in units of heights over positions.
     pub tilt: f64,
+    /// Of a curved ground, the coefficients of x² and x³; empty for a straight one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bend: Vec<f64>,
     /// Standard deviation of what is not smooth from row to row, in the unit of the heights.
     pub noise: f64,
     /// Standard deviation of what the fit leaves, in the unit of the heights.
@@ -50,6 +53,9 @@ pub struct MeasuredTipDocument {
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
     pub profile: FittedDocument,
+    /// Footprints like `gaussians`, drawn from what the noise leaves possible: `fit` carries the error of the shape by them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub draws: Vec<Vec<GaussianDocument>>,
     /// What an image tells beside the profile through its middle: f(x,y).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<AcrossDocument>,
@@ -175,8 +181,9 @@ impl MeasuredTipDocument {
             sigma_metres: metres.map(|metres| found.sigma.value * metres),
             apex: found.apex,
             centre: found.centre,
-            offset: found.ground.0,
-            tilt: found.ground.1,
+            offset: found.ground[0],
+            tilt: found.ground[1],
+            bend: found.ground[2..].to_vec(),
             noise: found.noise,
             residual: found.residual,
             correlation: found.correlation,
@@ -190,6 +197,11 @@ impl MeasuredTipDocument {
                 f: found.fitted.f.clone(),
                 fit: found.fitted.fit.clone(),
             },
+            draws: found
+                .draws
+                .iter()
+                .map(|draw| draw.iter().map(GaussianDocument::from).collect())
+                .collect(),
             image: None,
             remarks: found.remarks(),
         }
@@ -212,6 +224,14 @@ impl MeasuredTipDocument {
 
 /// A residual so many times the noise is remarked on.
 const ABOVE_NOISE: f64 = 1.3;
+
+impl MeasuredTipDocument {
+    /// The ground at a position.
+    pub fn ground(&self, x: f64) -> f64 {
+        let curved = self.bend.iter().rev().fold(0.0, |sum, c| sum * x + c);
+        self.offset + (self.tilt + curved * x) * x
+    }
+}
 
 impl FittedDocument {
     /// What the fit leaves.

@@ -33,7 +33,7 @@ impl Drawn for MeasuredTipDocument {
         let x_label = unit.map_or("x".into(), |unit| format!("x ({unit})"));
         let at = |i: usize| first + (last - first) * i as f64 / POINTS as f64;
         let along: Vec<f64> = (0..=POINTS).map(at).collect();
-        let ground: Vec<f64> = along.iter().map(|x| self.offset + self.tilt * x).collect();
+        let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
         let mut data = PanelDocument::new("", (&x_label, "height"));
         let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
@@ -68,7 +68,7 @@ fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
         g.amplitude * (-0.5 * z * z).exp()
     };
     let f: f64 = tip.gaussians.iter().map(term).sum();
-    tip.offset + tip.tilt * x + tip.apex * f
+    tip.ground(x) + tip.apex * f
 }
 
 /// Such as "1.88 ± 0.02".

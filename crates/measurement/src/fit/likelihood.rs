@@ -259,9 +259,15 @@ impl<'a> Around<'a> {
 /// Degrees of freedom of the mean squares over a few dozen footprints.
 const FOOTPRINTS: f64 = 23.0;
 
-/// 97.5 % of Student's distribution lie below.
+/// 97.5 % of Student's distribution lie below, by bisection: `inverse_cdf` need not end for many degrees of freedom.
 fn quantile(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+    let Ok(law) = StudentsT::new(0.0, 1.0, freedom.clamp(1.0, 1e6)) else { return f64::INFINITY };
+    let (mut low, mut high) = (1.9, 13.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        *(if law.cdf(middle) < 0.975 { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
 }
 
 /// The combination of logarithms that the data feel least: its powers, the largest 1, and its deviation.

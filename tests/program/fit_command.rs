@@ -98,6 +98,33 @@ fn ripples_and_friction_give_back_what_they_were_made_of() {
     assert!(table.unwrap().starts_with("number,value,low,high\nalpha,"));
 }
 
+/// The same heights over the mirrored positions: the tip came from the right.
+#[test]
+fn a_scan_from_right_to_left_is_recognised() {
+    let folder = Folder::new("fit_mirrored");
+    measured(&folder);
+    let mut mirrored = "x_nm,z_nm\n".to_owned();
+    for row in rows(&folder.read("ripple.csv")) {
+        mirrored += &format!("{},{}\n", -row[0], row[1]);
+    }
+    folder.write("mirrored.csv", mirrored);
+    let line = "fit --ripple mirrored.csv --height-gain 0.02";
+    let fit = folder.prints_json(line);
+    for (name, truth) in [("alpha", 1.3), ("r", 1.0), ("width", 30.0)] {
+        holds(&fit, name, truth);
+    }
+    assert_eq!(fit["data"][0]["scan"], "left");
+    assert_eq!(fit["explained"], true);
+    let remarks = fit["remarks"].to_string();
+    assert!(remarks.contains("no footprint is given"), "{remarks}");
+    // In the wrong direction no motion of the model has this shape.
+    let wrong = folder.prints_json(&format!("{line} --scan right --tip triple-gaussian"));
+    assert_eq!(wrong["explained"], false);
+    assert!(number(&wrong, "alpha")["low"].is_null() && number(&wrong, "alpha")["high"].is_null());
+    let remarks = wrong["remarks"].to_string();
+    assert!(remarks.contains("does not explain") && !remarks.contains("is given"), "{remarks}");
+}
+
 /// αc(r) of `boundary`, as loads over velocities: α = 0.5 load, r = 2 velocity.
 #[test]
 fn onsets_give_alpha_per_load_and_r_per_velocity() {
@@ -119,6 +146,10 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
     let folder = Folder::new("fit_refusals");
     folder.write("two.csv", "0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n");
     folder.write("below.csv", "1,1\n-2,2\n3,3\n4,4\n");
+    folder.write("same.csv", "1,2\n1,2\n1,2\n");
+    let mut random = random();
+    let noise: String = (0..500).map(|i| format!("{i},{}\n", random() + random())).collect();
+    folder.write("noise.csv", noise);
     for (line, status, words) in [
         ("fit", 2, ["--ripple", "what was measured"]),
         ("fit --ripple absent.csv", 2, ["absent.csv", "cannot be read"]),
@@ -128,6 +159,9 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
         ("fit --ripple two.csv --free beta --tip gaussian", 2, ["--free beta", "--tip"]),
         ("fit --ripple two.csv --r -1", 2, ["--r -1", "above 0"]),
         ("fit --ripple two.csv", 2, ["two.csv", "too few"]),
+        ("fit --ripple noise.csv", 2, ["noise.csv", "no regular ripple"]),
+        ("fit --onsets same.csv", 2, ["same.csv", "different velocities"]),
+        ("fit --ripple noise.csv --scan up", 2, ["--scan", "right"]),
     ] {
         let output = folder.stickslip(line);
         assert_eq!(output.status.code(), Some(status), "{line}: {}", said(&output));

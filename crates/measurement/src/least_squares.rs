@@ -45,6 +45,15 @@ pub(crate) struct Minimum {
     pub(crate) sum: f64,
 }
 
+impl Minimum {
+    /// A place as it is; `None` where there are no residuals.
+    pub(crate) fn at(model: &dyn Residuals, parameters: &[f64]) -> Option<Self> {
+        let residuals = model.at(parameters)?;
+        let sum = squares(&residuals);
+        Some(Self { parameters: parameters.to_vec(), residuals, sum })
+    }
+}
+
 /// A failed trial is so many times as bad as the start: the search turns back and shortens its step.
 const FAILED: f64 = 10.0;
 /// Evaluations for each parameter.

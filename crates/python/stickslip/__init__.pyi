@@ -475,6 +475,7 @@ def fit(
     force_gain: _Number | None = None,
     unit: str | None = None,
     robust: bool = False,
+    scan: str | None = None,
     tip: str | _Columns | None = None,
     beta: _Number | None = None,
     width: _Number | None = None,

@@ -55,6 +55,9 @@ impl Product for FitDocument {
                     &data.source,
                     format!("{} rows, residual {}", data.y.len(), digits(data.residual, 3)),
                 )
+                .maybe("scan", data.scan.clone())
+                .maybe("noise", data.noise.map(|noise| digits(noise, 3)))
+                .maybe("probability of the misfit", data.misfit.map(|p| digits(p, 2)))
                 .maybe("gain", data.gain.map(|gain| digits(gain, 5)));
         }
         let at = self.critical_alpha.map(|alpha| digits(alpha, 6));

@@ -32,7 +32,9 @@ impl Drawn for FitDocument {
                 figure.panels.push(panel);
             }
         }
-        figure.panels.extend(self.numbers.iter().map(|n| profile(n, length)));
+        // A number without an interval has no profile.
+        let followed = self.numbers.iter().filter(|n| n.profile_values.len() > 1);
+        figure.panels.extend(followed.map(|n| profile(n, length)));
         figure.remarks.clone_from(&self.remarks);
         Ok(figure)
     }

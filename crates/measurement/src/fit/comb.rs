@@ -4,7 +4,7 @@
 use super::data::{Data, Track};
 use super::noise::Noise;
 use super::problem::ends;
-use super::subspace::{beyond, dot, probability};
+use super::subspace::{beyond, by_noise, dot, size};
 use crate::projection::project;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -172,6 +172,27 @@ impl Comb {
         found
     }
 
+    /// How the noise is to be judged when these columns are fitted besides: its level at low wave numbers, of which the
+    /// columns take most, is held to that between the columns.
+    pub(super) fn level(&self, rows: &Rows, besides: &[Vec<f64>], noise: &Noise) -> Level {
+        let freedom = self.freedom(noise, besides.len());
+        let sound = Level { scale: 1.0, freedom };
+        if noise.is_white() || self.count < FEWEST {
+            return sound;
+        }
+        let between = (0..self.harmonics.min(DOUBLED))
+            .flat_map(|k| [k as f64 + 0.25, k as f64 + 0.75])
+            .flat_map(|k| rows.wave(k / self.length, 0));
+        let taken = [self.all(rows), besides.to_vec()].concat();
+        let directions = beyond(&taken, &between.collect::<Vec<_>>());
+        match size(&directions, &rows.y, &|v| noise.times(v), &[]) {
+            Some(found) => {
+                Level { scale: found.max(1.0), freedom: freedom.min(directions.len() as f64) }
+            }
+            None => sound,
+        }
+    }
+
     /// The noise that is left when these columns are fitted too.
     pub(super) fn noise(&self, rows: &Rows, besides: &[Vec<f64>]) -> Noise {
         let columns = [self.all(rows), besides.to_vec()].concat();
@@ -194,6 +215,15 @@ impl Comb {
         let taken = (self.wave.len() + besides) as f64;
         (noise.effective() - 0.5 * taken).max(4.0)
     }
+}
+
+/// How far an estimate of noise is to be trusted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Level {
+    /// Variances are larger by this.
+    pub(super) scale: f64,
+    /// Rows by which they are judged.
+    pub(super) freedom: f64,
 }
 
 /// Wavelengths that it takes to see what changes from one to the next.
@@ -226,13 +256,15 @@ pub(super) fn by_chance(rows: &Rows, length: f64, trials: f64) -> Option<f64> {
     let besides = comb.besides(rows);
     let noise = comb.noise(rows, &besides);
     let directions = beyond(&rows.ground(), &rows.wave(1.0 / comb.length, 0));
-    let freedom = comb.freedom(&noise, besides.len());
-    let one = probability(&directions, &rows.y, &|v| noise.times(v), &[], freedom)?;
+    let Level { scale, freedom } = comb.level(rows, &besides, &noise);
+    let size = size(&directions, &rows.y, &|v| noise.times(v), &[])?;
+    let one = by_noise(size / scale, directions.len(), freedom)?;
     Some(-f64::exp_m1(trials * f64::ln_1p(-one.min(1.0 - f64::EPSILON))))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::subspace::probability;
     use super::*;
 
     fn track(wave: impl Fn(f64) -> f64) -> Rows {

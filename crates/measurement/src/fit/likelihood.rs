@@ -170,6 +170,11 @@ impl<'a> Around<'a> {
         Fitted { name, estimate, profile }
     }
 
+    /// A number is followed no farther than to this offset.
+    fn farthest(&self, i: usize) -> f64 {
+        if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln()
+    }
+
     /// An end with the error of the footprint, in quadrature, and over what other minima reach.
     fn farther(&self, i: usize, end: Option<f64>, side: f64) -> Option<f64> {
         let footprint = quantile(FOOTPRINTS) * self.moved[i].sqrt();
@@ -182,7 +187,7 @@ impl<'a> Around<'a> {
                 length = length.max(side * (at[i] - self.best.parameters[i]) + reach);
             }
         }
-        Some(side * length)
+        (length < self.farthest(i)).then_some(side * length)
     }
 
     /// A number of which no interval is given.
@@ -195,8 +200,7 @@ impl<'a> Around<'a> {
     /// The offset at which too much is left, and the points on the way there.
     fn end(&self, i: usize, side: f64) -> (Option<f64>, Vec<(f64, f64)>) {
         let wanted = self.quantile;
-        let most =
-            if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln();
+        let most = self.farthest(i);
         let deviation = self.independent[(i, i)].max(0.0).sqrt() * self.factor(i);
         let mut offset = side * (wanted * deviation).clamp(1e-9, most);
         // Below it too little is left, above it too much.

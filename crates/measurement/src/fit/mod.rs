@@ -63,8 +63,8 @@ pub enum FitError {
     Nothing,
     /// Nothing that noise alone would not have.
     #[error(
-        "no ripple stands out of the noise: noise alone has a wave as strong as the strongest one in {:.2} % of such data, and 0.01 % is \
-         the limit: give a longer track, or one with less noise",
+        "no regular ripple stands out: irregular noise alone has a wave as strong as the strongest one in {:.2} % of such data, and 0.01 % \
+         is the limit; give a longer track of settled ripples, or one with less noise",
         100.0 * probability
     )]
     Noise {
@@ -132,11 +132,8 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
         reweigh(&mut problem, &best, request.robust);
         best = minimum(&problem, &best.parameters).ok_or(FitError::NoStart)?;
     }
-    let others: Vec<Start> = ends
-        .into_iter()
-        .skip(1)
-        .map(|(scans, end)| Start { scans, searched: end.parameters })
-        .collect();
+    let others: Vec<Start> =
+        ends.into_iter().map(|(scans, end)| Start { scans, searched: end.parameters }).collect();
     settled(&problem, best, others, request)
 }
 

@@ -56,6 +56,11 @@ impl Noise {
         self
     }
 
+    /// Whether rows are independent.
+    pub(super) fn is_white(&self) -> bool {
+        self.covariances.len() == 1
+    }
+
     /// Standard deviation of a row.
     pub(super) fn deviation(&self) -> f64 {
         self.covariances[0].max(0.0).sqrt()

@@ -6,7 +6,7 @@ use super::parameters::{Name, Shape, Values};
 use super::problem::Problem;
 use super::start::Start;
 use super::wave::Cycles;
-use crate::least_squares::{Minimum, minimum};
+use crate::least_squares::{Minimum, Residuals, minimum, squares};
 use stickslip_tip::TipFunction;
 
 /// Another motion that the data do not exclude.
@@ -23,12 +23,12 @@ pub struct Alternative {
 /// By how much more a minimum may leave to be told: 99.7 % of χ² of one number are below.
 const TOLD: f64 = 9.0;
 /// The same before it is known how far rows are correlated: those that leave more are not followed.
-const FOLLOWED: f64 = 0.5;
+const FOLLOWED: f64 = 0.25;
 /// Most that are followed.
-const MOST: usize = 6;
+const MOST: usize = 3;
 /// Logarithms nearer than this, in deviations or as they are, are of one minimum.
 const SAME: f64 = 0.3;
-const EQUAL: f64 = 1e-3;
+const EQUAL: f64 = 5e-3;
 
 /// Minima that leave about as much as the best, each once; directions and place.
 pub(super) fn found(
@@ -36,20 +36,36 @@ pub(super) fn found(
     best: &Minimum,
     others: Vec<Start>,
 ) -> Vec<(Vec<Scan>, Minimum)> {
+    let numbers = problem.free.len();
+    let is_other = |(scans, at): (&Vec<Scan>, &[f64]), other: (&Vec<Scan>, &[f64])| {
+        let apart = |(a, b): (&f64, &f64)| (a - b).abs() > EQUAL;
+        scans != other.0 || at[..numbers].iter().zip(&other.1[..numbers]).any(apart)
+    };
     let mut found: Vec<(Vec<Scan>, Minimum)> = vec![];
-    let is_near = |other: &Minimum| other.sum < best.sum * (1.0 + FOLLOWED);
-    for Start { scans, searched } in others.into_iter().take(MOST) {
-        let there = Problem { by_excess: true, scans, ..problem.clone() };
-        let Some(end) = minimum(&there, &searched).filter(is_near) else { continue };
-        let Some((there, end)) = there.by_logarithms(&end) else { continue };
-        let is_other = |(scans, other): (&Vec<Scan>, &Minimum)| {
-            let apart = |(a, b): (&f64, &f64)| (a - b).abs() > EQUAL;
-            let numbers = problem.free.len();
-            let mut pairs = end.parameters[..numbers].iter().zip(&other.parameters[..numbers]);
-            *scans != there.scans || pairs.any(apart)
+    // Ends of one valley are followed once.
+    let mut followed: Vec<(Vec<Scan>, Vec<f64>)> = vec![];
+    for Start { scans, searched } in others {
+        let is_new =
+            |known: &(Vec<Scan>, Vec<f64>)| is_other((&scans, &searched), (&known.0, &known.1));
+        if found.len() == MOST || !followed.iter().all(is_new) {
+            continue;
+        }
+        let there = Problem { by_excess: true, scans: scans.clone(), ..problem.clone() };
+        followed.push((scans, searched.clone()));
+        let near = there.at(&searched).map_or(f64::INFINITY, |left| squares(&left));
+        if near > best.sum * (1.0 + FOLLOWED) {
+            continue;
+        }
+        let Some((there, end)) =
+            Minimum::at(&there, &searched).and_then(|start| there.by_logarithms(&start))
+        else {
+            continue;
         };
-        let known = found.iter().map(|(scans, other)| (scans, other));
-        if known.chain([(&problem.scans, best)]).all(is_other) {
+        let known = found.iter().map(|(scans, other)| (scans, &*other.parameters));
+        if known
+            .chain([(&problem.scans, &*best.parameters)])
+            .all(|known| is_other((&there.scans, &end.parameters), known))
+        {
             found.push((there.scans, end));
         }
     }

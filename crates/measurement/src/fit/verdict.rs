@@ -3,11 +3,11 @@
 //! Noise is judged by what does not repeat itself with the wavelength, whatever the model. What does repeat itself and
 //! the model leaves is its error; so is what repeats itself with twice the wavelength, or changes along the track.
 
-use super::comb::{Comb, Rows};
+use super::comb::{Comb, Level, Rows};
 use super::data::Data;
 use super::noise::Noise;
 use super::problem::Problem;
-use super::subspace::{beyond, dot, probability};
+use super::subspace::{beyond, by_noise, dot, probability, size};
 use crate::least_squares::Minimum;
 use std::ops::Range;
 
@@ -135,10 +135,11 @@ impl Evidence<'_> {
         let quiet = comb.noise(&rows, &besides);
         let known = (KNOWN * size_of(&rows)).powi(2) * rows.y.len() as f64;
         let quiet = quiet.and(known);
-        let freedom = comb.freedom(&quiet, besides.len());
+        let Level { scale, freedom } = comb.level(&rows, &besides, &quiet);
         let chance = |base: &[Vec<f64>], more: &[Vec<f64>], shifts: &[Vec<f64>]| {
             let directions = beyond(base, more);
-            probability(&directions, &residuals, &|v| quiet.times(v), shifts, freedom)
+            let size = size(&directions, &residuals, &|v| quiet.times(v), shifts)?;
+            by_noise(size / scale, directions.len(), freedom)
         };
         let few = chance(&base, &comb.first(&rows, FIRST), &shifts);
         let all = chance(&base, &comb.all(&rows), &shifts);

@@ -194,7 +194,9 @@ impl Table {
                 return error.to_string();
             }
         };
-        let truths = [drawn.truth.alpha(), drawn.truth.r, drawn.truth.width];
+        // A measured footprint has f(0) = 1, and α is that much smaller: the triple Gaussian has f(0) = 1 - e^-2.
+        let apex = if class == Class::Footprint { 1.0 - (-2_f64).exp() } else { 1.0 };
+        let truths = [apex * drawn.truth.alpha(), drawn.truth.r, drawn.truth.width];
         let names = [Name::Alpha, Name::R, Name::Width];
         let mut line = String::new();
         self.given += usize::from(found.explained);
@@ -281,5 +283,109 @@ fn intervals_are_given_where_they_hold_and_nowhere_else() {
         if only.is_none_or(|only| only == k) {
             campaign(class, sets, from);
         }
+    }
+}
+
+/// A few of each class. On commit cd9d12b noise had intervals, doubled and growing ripples no word of warning, and every
+/// mirrored ripple numbers of another motion.
+#[test]
+fn a_few_of_each_class_are_judged() {
+    let (mut given, mut held, mut modelled) = (0, 0, 0);
+    for (class, sets) in [(Class::White, 3), (Class::Correlated, 3), (Class::Mirrored, 3)] {
+        let table = campaign(class, sets, 100);
+        assert_eq!((table.refused, table.turned), (0, 0), "{class:?}");
+        given += table.given;
+        held += table.held[0];
+        modelled += table.fits;
+    }
+    // Binomial with 95 %: at least 7 of 9 in 99.2 % of such sets; the seeds are fixed.
+    assert!(modelled - given <= 1 && given - held <= 2, "{held} of {given} of {modelled}");
+    let noise = campaign(Class::Noise, 6, 100);
+    assert_eq!(noise.refused, noise.fits, "intervals for noise");
+    for (class, sets) in [(Class::Doubled, 4), (Class::Growing, 3), (Class::Wider, 2)] {
+        let table = campaign(class, sets, 100);
+        assert_eq!(table.silent, 0, "{class:?}: {} wrong", table.wrong);
+    }
+    let growing = campaign(Class::Growing, 2, 200);
+    assert!(growing.wrong > 0 || growing.given < growing.fits, "growth is seen");
+}
+
+/// The error of a measured footprint is carried along: without it an interval is narrower.
+#[test]
+fn the_error_of_a_footprint_widens_intervals() {
+    let drawn = drawn(Class::Footprint, 42);
+    assert!(!drawn.request.footprints.is_empty());
+    let data = std::slice::from_ref(&drawn.data);
+    let with = fit(data, &drawn.request).unwrap();
+    let without = fit(data, &FitRequest { footprints: vec![], ..drawn.request }).unwrap();
+    for (with, without) in with.numbers.iter().zip(&without.numbers) {
+        let length = |n: &stickslip_measurement::FittedNumber| n.estimate.high - n.estimate.low;
+        assert!(length(with) > length(without), "{with:?} {without:?}");
+    }
+}
+
+/// The same rows three times over say nothing of their errors, nor of two numbers.
+#[test]
+fn rows_at_one_place_are_no_series() {
+    let request = FitRequest {
+        shape: Shape::Known(TipFunction::triple_gaussian(1.0, 1.0).unwrap()),
+        known: Values::default(),
+        free: vec![],
+        robust: false,
+        scan: None,
+        footprints: vec![],
+    };
+    let onsets = Data::Onsets { velocity: vec![1.0; 3], load: vec![2.0; 3] };
+    let refused = fit(&[onsets], &request).unwrap_err().to_string();
+    assert!(refused.contains("different"), "{refused}");
+    // Exact rows at enough places: values, and no intervals.
+    let at = |r: f64| {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        stickslip_stability::critical(&tip, r).unwrap().alpha / 0.5
+    };
+    let velocity = vec![0.4, 0.6, 0.8, 1.0];
+    let load = velocity.iter().map(|v| at(*v)).collect();
+    let exact = fit(&[Data::Onsets { velocity, load }], &request).unwrap();
+    assert!(!exact.explained && exact.remarks.iter().any(|r| r.contains("exactly")), "{exact:?}");
+    assert!((exact.numbers[0].estimate.value / 0.5 - 1.0).abs() < 1e-5, "{exact:?}");
+}
+
+/// 100,000 rows are fitted as their means are, in seconds.
+#[test]
+fn many_rows_take_no_longer_than_a_few_thousand() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let truth = Truth { over: 1.2, r: 1.0, width: 20.0, ..Truth::drawn(&mut random) };
+    let made = truth.made(ROWS);
+    // Between the rows of the grid a cubic of neighbours: its error is far below the noise.
+    let between = |at: f64| {
+        let i = (at.floor() as usize).clamp(1, ROWS - 3);
+        let s = at - i as f64;
+        let u = |k: usize| made.u[i + k - 1];
+        let lagrange = [
+            -s * (s - 1.0) * (s - 2.0) / 6.0,
+            (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
+            -(s + 1.0) * s * (s - 2.0) / 2.0,
+            (s + 1.0) * s * (s - 1.0) / 6.0,
+        ];
+        (0..4).map(|k| lagrange[k] * u(k)).sum::<f64>()
+    };
+    let rows = 100_000;
+    let part = |i: usize| (ROWS - 1) as f64 * i as f64 / (rows - 1) as f64;
+    let x = (0..rows).map(|i| 20.0 * 40.0 * i as f64 / (rows - 1) as f64).collect();
+    let y = (0..rows).map(|i| between(part(i)) + 0.2 * normal(&mut random)).collect();
+    let shape = Shape::Known(TipFunction::triple_gaussian(1.0, 1.0).unwrap());
+    let request = FitRequest {
+        shape,
+        known: Values::default(),
+        free: vec![],
+        robust: false,
+        scan: Some(Scan::Right),
+        footprints: vec![],
+    };
+    let found = fit(&[Data::Ripple(Track::new(x, y, None))], &request).unwrap();
+    assert!(found.rows <= 4096 && found.explained, "{} {:?}", found.rows, found.remarks);
+    for (name, truth) in [(Name::Alpha, truth.alpha()), (Name::R, 1.0), (Name::Width, 20.0)] {
+        let estimate = found.numbers.iter().find(|n| n.name == name).unwrap().estimate;
+        assert!((estimate.value / truth).ln().abs() < 0.1, "{} {estimate:?}", name.word());
     }
 }

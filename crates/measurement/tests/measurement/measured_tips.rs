@@ -145,6 +145,39 @@ fn a_few_measured_tips_hold_their_onset() {
     campaign(12, 60, 9000);
 }
 
+/// Curved by 5 % of the apex, as a scanner bows: on commit cd9d12b three of twelve were off by 4 to 7 % without a remark.
+#[test]
+fn a_curved_ground_is_told_from_a_lobe() {
+    let (mut held, mut halves) = (0, vec![]);
+    for seed in 0..10 {
+        let truth = Truth::of(SHAPES[usize::from(seed % 2 == 0)]);
+        let mut random = ChaCha8Rng::seed_from_u64(300 + seed);
+        let x: Vec<f64> = (0..200).map(|i| 0.065 * f64::from(i) - 6.4).collect();
+        let bend = if random.random::<bool>() { 0.05 } else { -0.05 };
+        let height = |x: &f64| {
+            let ground = 0.02 * x + bend * (x / 6.4).powi(2);
+            (truth.shape)(*x) / (truth.shape)(0.0) + ground + 0.01 * normal(&mut random)
+        };
+        let f = x.iter().map(height).collect();
+        let request = Request { resamples: 40, ..Request::default() };
+        let found = tip(&Profile::new(x, f).unwrap(), &request).unwrap();
+        let alpha = found.critical_alpha;
+        let error = (alpha.value / truth.alpha).ln().abs();
+        println!(
+            "{} {alpha:?} for {:.4} on order {}",
+            truth.name,
+            truth.alpha,
+            found.ground.len() - 1
+        );
+        assert!(error < 0.04 || is_warned(&found), "{} {seed}: off by {error}", truth.name);
+        held += usize::from(alpha.holds(truth.alpha));
+        halves.push(alpha.relative());
+    }
+    halves.sort_by(f64::total_cmp);
+    assert!(held >= 9, "{held} of 10");
+    assert!(halves[9] < 5.0 * halves[5], "half-widths {halves:.3?}");
+}
+
 /// Those by which the intervals are calibrated.
 #[test]
 #[ignore = "minutes"]

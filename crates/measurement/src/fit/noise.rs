@@ -21,7 +21,7 @@ pub(super) struct Noise {
 /// Highest order that is tried.
 const MOST: usize = 20;
 /// By how much the criterion must fall before rows count as correlated at all.
-const GAIN: f64 = 4.0;
+const GAIN: f64 = 6.0;
 /// Covariances below this part of the variance, for as many rows as the order has, are left out.
 const NOTHING: f64 = 1e-3;
 
@@ -34,14 +34,19 @@ impl Noise {
         (removed, within): (usize, usize),
     ) -> Self {
         let rows = residuals.len() as f64;
-        let reflections = reflections(residuals, lines);
+        let longest = lines.iter().map(Range::len).max().unwrap_or(1);
+        let mut reflections = reflections(residuals, lines);
+        // Neighbours that seem to alternate would make waves quieter than independent rows are: that is taken for chance.
+        let found = covariances(&reflections, 1.0, longest);
+        if found[1..].iter().sum::<f64>() <= 0.0 {
+            reflections.clear();
+        }
         let order = reflections.len();
         let freedom = (rows - (removed + order) as f64).max(1.0);
         let whole = 1.0 - removed as f64 / rows;
         let band = 1.0 - removed.min(within) as f64 / (within.max(removed) + 1) as f64;
         let raised = if order > 0 { (whole / band).max(1.0) } else { 1.0 };
         let square = residuals.iter().map(|r| r * r).sum::<f64>() / freedom * raised;
-        let longest = lines.iter().map(Range::len).max().unwrap_or(1);
         Self { covariances: covariances(&reflections, square, longest), lines: lines.to_vec() }
     }
 

@@ -94,6 +94,8 @@ const ROWS_OF_A_WAVE: f64 = 4.0;
 const ROWS_IN_ALL: f64 = 6.0;
 /// By how much of a turn at the ends the wavelength is improved.
 const OFF: f64 = 0.4;
+/// Counts of wavelengths that differ by less are next to each other.
+const NEXT: f64 = 0.15;
 
 impl Comb {
     /// Near this wavelength; `None` where there are too few rows for one.
@@ -116,7 +118,19 @@ impl Comb {
             let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
             if left(a) < left(b) { high = b } else { low = a }
         }
-        let turns = 0.5 * (low + high);
+        Self::at(rows, 0.5 * (low + high), harmonics)
+    }
+
+    /// The same at this wavelength, if it is next to this one's: waves of two lengths would differ by what drifts.
+    pub(super) fn moved(self, rows: &Rows, length: f64) -> Self {
+        if (rows.extent() / length - self.count).abs() > NEXT {
+            return self;
+        }
+        Self::at(rows, 1.0 / length, self.harmonics).unwrap_or(self)
+    }
+
+    fn at(rows: &Rows, turns: f64, harmonics: usize) -> Option<Self> {
+        let extent = rows.extent();
         let (coefficients, residuals) = Self::fitted(rows, turns, harmonics)?;
         let mut wave = Self::columns(rows, turns, harmonics);
         wave.push(slope(rows, turns, &coefficients));

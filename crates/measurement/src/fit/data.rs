@@ -57,7 +57,7 @@ impl Scan {
 /// Most rows of one file.
 const MOST_ROWS: usize = 5_000_000;
 /// More rows than this are averaged in groups: a wavelength keeps dozens of them, and their noise falls as they grow fewer.
-const KEPT_ROWS: usize = 4096;
+const KEPT_ROWS: usize = 2048;
 
 /// What was measured, of one motion or of a series of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -251,8 +251,8 @@ mod tests {
         let x: Vec<f64> = (0..100_000).rev().map(f64::from).collect();
         let many = Data::Ripple(Track::new(x.clone(), x, None)).reduced().unwrap();
         let Data::Ripple(track) = &many else { panic!("a ripple") };
-        assert_eq!((track.x.len(), track.averaged), (4000, 25));
-        assert!((track.x[0] - 12.0).abs() < 1e-9 && (track.y[1] - 37.0).abs() < 1e-9);
+        assert_eq!((track.x.len(), track.averaged), (2040, 49));
+        assert!((track.x[0] - 24.0).abs() < 1e-9 && (track.y[1] - 73.0).abs() < 1e-9);
         assert!((track.spacing() - 1.0).abs() < 1e-9);
         assert_eq!(many.clone().reduced().unwrap(), many);
         let few = Data::Loop(Track::new(vec![2.0, 1.0], vec![5.0, 6.0], None), vec![7.0, 8.0]);

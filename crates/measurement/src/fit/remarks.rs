@@ -64,6 +64,12 @@ fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
             in_percent(p)
         ));
     }
+    if judged.irregular {
+        remarks.push(format!(
+            "the ripples of data {number} differ from one to the next by more than 30 %, and smoothly: they are irregular, or not of one \
+             settled motion"
+        ));
+    }
     if let Some(p) = judged.drift.filter(|p| *p < CHANGE) {
         remarks.push(format!(
             "the ripples of data {number} change along the track (probability of this by chance: {}): the motion has not settled, or the \

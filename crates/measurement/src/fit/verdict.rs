@@ -20,6 +20,8 @@ pub struct Judged {
     pub doubling: Option<f64>,
     /// Of ripples that change along the track.
     pub drift: Option<f64>,
+    /// Whether ripples differ from one to the next by what is smooth and no small part of them.
+    pub irregular: bool,
     /// As many independent rows tell as much.
     pub effective: Option<f64>,
     /// Standard deviation of the noise, by what does not repeat itself, in the unit of the data.
@@ -33,7 +35,10 @@ impl Judged {
     #[must_use]
     pub fn is_explained(&self) -> bool {
         let above = |p: Option<f64>, least: f64| p.is_none_or(|p| p >= least);
-        above(self.misfit, MISFIT) && above(self.doubling, CHANGE) && above(self.drift, CHANGE)
+        !self.irregular
+            && above(self.misfit, MISFIT)
+            && above(self.doubling, CHANGE)
+            && above(self.drift, CHANGE)
     }
 }
 
@@ -41,6 +46,8 @@ impl Judged {
 pub(super) const MISFIT: f64 = 0.005;
 /// The same of every other ripple, and of ripples that change, of which most data have none.
 pub(super) const CHANGE: f64 = 0.001;
+/// Correlated differences between ripples of this part of their root mean square are no noise of an instrument.
+const IRREGULAR: f64 = 0.3;
 /// Harmonics in which most of an error is.
 const FIRST: usize = 3;
 /// Waves are known to this part of their size.
@@ -125,7 +132,7 @@ impl Evidence<'_> {
             for (y, (plain, counted)) in rows.y.iter_mut().zip(left.iter().zip(&residuals)) {
                 *y = *y / scale - plain + counted;
             }
-            let comb = Comb::near(&rows, self.length?)?;
+            let comb = Comb::near(&rows, self.length?)?.moved(&rows, self.length?);
             Some((rows, comb))
         });
         let Some((rows, comb)) = comb else {
@@ -133,7 +140,8 @@ impl Evidence<'_> {
         };
         let besides = comb.besides(&rows);
         let quiet = comb.noise(&rows, &besides);
-        let known = (KNOWN * size_of(&rows)).powi(2) * rows.y.len() as f64;
+        let wave = size_of(&rows);
+        let known = (KNOWN * wave).powi(2) * rows.y.len() as f64;
         let quiet = quiet.and(known);
         let Level { scale, freedom } = comb.level(&rows, &besides, &quiet);
         let chance = |base: &[Vec<f64>], more: &[Vec<f64>], shifts: &[Vec<f64>]| {
@@ -153,9 +161,11 @@ impl Evidence<'_> {
         // Two looks, either of which may be by chance.
         let misfit = few.zip(all).map(|(few, all)| (2.0 * few.min(all)).min(1.0)).or(all);
         let noise = comb.noise(&rows, &[]).and(known);
+        let irregular = noise.deviation() > IRREGULAR * wave && !noise.is_white();
         let judged = Judged {
             misfit,
             doubling,
+            irregular,
             drift,
             effective: Some(noise.effective()),
             noise: Some(noise.deviation() * problem.noise[i]),

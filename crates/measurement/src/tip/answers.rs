@@ -81,6 +81,12 @@ impl Answers {
         [self.sigma, self.alpha, self.omega, self.trapping]
     }
 
+    /// Differences of the logarithms, without sign.
+    pub(super) fn changes(&self, other: &Self) -> [f64; 4] {
+        let (mine, others) = (self.each(), other.each());
+        std::array::from_fn(|i| (mine[i] / others[i]).ln().abs())
+    }
+
     /// `None` where the sum is no footprint, or has no onset.
     pub(super) fn of(candidate: &Candidate, sigma: Option<f64>, r: f64) -> Option<Self> {
         let (terms, sigma, _) = normalised(candidate, sigma)?;

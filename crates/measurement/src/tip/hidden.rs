@@ -48,9 +48,17 @@ pub(super) fn factors(
         for sign in [-1.0, 1.0] {
             let more = hidden.with(&shape, (found, &searched), sign * share * amplitude);
             let Some(after) = Answers::of(&more, sigma, r) else { continue };
-            let ratios = after.each().into_iter().zip(before.each());
-            for (factor, (after, before)) in factors.iter_mut().zip(ratios) {
-                let change = ((after / before).ln().abs() / share).exp();
+            let changes = after.changes(&before).map(|change| change / share);
+            // Far off what is fitted makes way by more than in proportion: then a fit to such a profile decides.
+            let whole = hidden.beside(found, sign * amplitude);
+            let fitted = if share < 1.0 {
+                refitted(profile, (centre, sigma, r), found, &whole, effective)
+            } else {
+                None
+            };
+            let fitted = fitted.unwrap_or([f64::INFINITY; 4]);
+            for (factor, change) in factors.iter_mut().zip(changes.into_iter().zip(fitted)) {
+                let change = change.0.min(change.1).exp();
                 if change.is_finite() {
                     *factor = factor.max(change);
                 }
@@ -58,6 +66,19 @@ pub(super) fn factors(
         }
     }
     factors
+}
+
+/// By how much the logarithms of the answers of a sum differ from those of a fit to it that lacks its last Gaussian.
+fn refitted(
+    profile: &Profile,
+    (centre, sigma, r): (Option<f64>, Option<f64>, f64),
+    found: &Candidate,
+    whole: &Candidate,
+    effective: f64,
+) -> Option<[f64; 4]> {
+    let heights = profile.x().iter().map(|x| whole.height(*x)).collect();
+    let fitted = found.again(&profile.with(heights), centre, effective)?;
+    Some(Answers::of(whole, sigma, r)?.changes(&Answers::of(&fitted, sigma, r)?))
 }
 
 /// The same sum with one such Gaussian somewhere, as strong as chance may have left unseen.
@@ -133,7 +154,16 @@ impl Hidden {
         })
     }
 
-    /// The sum with so much of it.
+    /// The sum and so much of it beside.
+    fn beside(&self, found: &Candidate, amount: f64) -> Candidate {
+        let mut whole = found.clone();
+        whole.terms += 1;
+        whole.places.terms.push(self.place);
+        whole.amplitudes.push(amount * self.amplitude);
+        whole
+    }
+
+    /// The sum with so much of it, where what is fitted makes way.
     fn with(
         &self,
         shape: &Shape,

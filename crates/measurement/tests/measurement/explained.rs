@@ -383,7 +383,7 @@ fn many_rows_take_no_longer_than_a_few_thousand() {
         footprints: vec![],
     };
     let found = fit(&[Data::Ripple(Track::new(x, y, None))], &request).unwrap();
-    assert!(found.rows <= 4096 && found.explained, "{} {:?}", found.rows, found.remarks);
+    assert!(found.rows <= 2048 && found.explained, "{} {:?}", found.rows, found.remarks);
     for (name, truth) in [(Name::Alpha, truth.alpha()), (Name::R, 1.0), (Name::Width, 20.0)] {
         let estimate = found.numbers.iter().find(|n| n.name == name).unwrap().estimate;
         assert!((estimate.value / truth).ln().abs() < 0.1, "{} {estimate:?}", name.word());

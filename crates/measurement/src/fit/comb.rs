@@ -2,7 +2,7 @@
 //! and the scatter from one wavelength to the next.
 
 use super::data::{Data, Track};
-use super::noise::Noise;
+use super::noise::{Noise, one_line};
 use super::problem::ends;
 use super::subspace::{beyond, by_noise, dot, size};
 use crate::projection::project;
@@ -22,7 +22,7 @@ impl Rows {
     pub(super) fn of(data: &Data) -> Option<Self> {
         let one = |track: &Track| {
             let rows = track.x.len();
-            Self { x: track.x.clone(), y: track.y.clone(), lines: vec![0..rows] }
+            Self { x: track.x.clone(), y: track.y.clone(), lines: one_line(rows) }
         };
         match data {
             Data::Ripple(track) | Data::Friction(track) => Some(one(track)),
@@ -103,7 +103,7 @@ impl Comb {
         let longest = rows.lines.iter().map(Range::len).max()? as f64;
         let count = rows.extent() / length;
         let most = HARMONICS.min(longest / count / ROWS_OF_A_WAVE).min(longest / ROWS_IN_ALL);
-        if !(most >= 1.0) {
+        if most < 1.0 || most.is_nan() {
             return None;
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -289,7 +289,7 @@ mod tests {
         };
         let x: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
         let y = x.iter().map(|x| wave(*x) + 0.1 * random()).collect();
-        Rows { x, y, lines: vec![0..400] }
+        Rows { x, y, lines: one_line(400) }
     }
 
     #[test]

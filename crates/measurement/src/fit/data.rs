@@ -217,9 +217,7 @@ impl Data {
                 return Err(DataError::NotPositive { row: i + 1 });
             }
         }
-        if !self.is_series()
-            && columns[0].iter().all(|x| *x <= columns[0][0] && *x >= columns[0][0])
-        {
+        if !self.is_series() && columns[0].iter().all(|x| (x - columns[0][0]).abs() <= 0.0) {
             return Err(DataError::NoExtent);
         }
         Ok(())

@@ -181,12 +181,10 @@ fn settled(
     let (mut problem, mut best) = problem.by_logarithms(&best).ok_or(FitError::NoStart)?;
     let mut rivals = rivals::found(&problem, &best, others);
     // Weights and the last step may have turned two minima round.
-    if let Some(i) = (0..rivals.len()).min_by(|a, b| rivals[*a].1.sum.total_cmp(&rivals[*b].1.sum))
-    {
-        if rivals[i].1.sum < best.sum {
-            std::mem::swap(&mut rivals[i].1, &mut best);
-            std::mem::swap(&mut rivals[i].0, &mut problem.scans);
-        }
+    let least = rivals.iter_mut().min_by(|a, b| a.1.sum.total_cmp(&b.1.sum));
+    if let Some((scans, least)) = least.filter(|least| least.1.sum < best.sum) {
+        std::mem::swap(least, &mut best);
+        std::mem::swap(scans, &mut problem.scans);
     }
     let best = retreat::retreated(&problem, best);
     let around = Around::of(&problem, &best).ok_or(FitError::NoStart)?;

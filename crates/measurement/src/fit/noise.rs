@@ -52,7 +52,7 @@ impl Noise {
 
     /// White noise of this variance.
     pub(super) fn white(rows: usize, variance: f64) -> Self {
-        Self { covariances: vec![variance], lines: vec![0..rows] }
+        Self { covariances: vec![variance], lines: one_line(rows) }
     }
 
     /// The same with an independent error of this variance in every row.
@@ -95,6 +95,11 @@ impl Noise {
     }
 }
 
+/// All rows are of one line.
+pub(super) fn one_line(rows: usize) -> Vec<Range<usize>> {
+    std::iter::once(0..rows).collect()
+}
+
 /// Burg's reflection coefficients of the order that the criterion chooses.
 fn reflections(residuals: &[f64], lines: &[Range<usize>]) -> Vec<f64> {
     let rows = residuals.len() as f64;
@@ -128,7 +133,7 @@ fn reflections(residuals: &[f64], lines: &[Range<usize>]) -> Vec<f64> {
         }
         square *= 1.0 - k * k;
         found.push(k);
-        if !(square > 0.0) {
+        if square <= 0.0 || square.is_nan() {
             break;
         }
         let here = criterion(square, order);
@@ -187,7 +192,7 @@ mod tests {
                 last
             })
             .collect();
-        let found = Noise::of(&noise, &[0..rows], (0, 0));
+        let found = Noise::of(&noise, &one_line(rows), (0, 0));
         for (lag, covariance) in found.covariances.iter().take(8).enumerate() {
             let truth = rho.powi(lag as i32) / (1.0 - rho * rho);
             assert!((covariance / truth - 1.0).abs() < 0.15, "{lag}: {covariance} for {truth}");
@@ -204,7 +209,7 @@ mod tests {
     fn white_noise_stays_white() {
         let mut random = random(9);
         let noise: Vec<f64> = (0..500).map(|_| random()).collect();
-        let found = Noise::of(&noise, &[0..500], (0, 0));
+        let found = Noise::of(&noise, &one_line(500), (0, 0));
         assert!(found.effective() > 380.0, "{}", found.effective());
         assert!((found.deviation() - 1.0).abs() < 0.1);
     }

@@ -73,8 +73,8 @@ pub(super) fn found(
 }
 
 /// Those that the data do not exclude, as intervals see them and as they are told.
-pub(super) fn judged<'a>(
-    problem: &'a Problem,
+pub(super) fn judged(
+    problem: &Problem,
     around: &Around,
     found: Vec<(Vec<Scan>, Minimum)>,
 ) -> (Vec<Rival>, Vec<Alternative>) {

@@ -5,7 +5,7 @@
 
 use super::comb::{Comb, Level, Rows};
 use super::data::Data;
-use super::noise::Noise;
+use super::noise::{Noise, one_line};
 use super::problem::Problem;
 use super::subspace::{beyond, by_noise, dot, probability, size};
 use crate::least_squares::Minimum;
@@ -198,7 +198,7 @@ impl Evidence<'_> {
         let noise = if data.is_series() {
             Noise::white(rows, sum / freedom)
         } else {
-            let lines = Rows::of(data).map_or_else(|| vec![0..rows], |rows| rows.lines);
+            let lines = Rows::of(data).map_or_else(|| one_line(rows), |rows| rows.lines);
             Noise::of(&residuals, &lines, (numbers, rows))
         };
         let judged = Judged { misfit: misfit.flatten(), ..Judged::default() };

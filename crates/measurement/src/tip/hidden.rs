@@ -20,6 +20,8 @@ const TOLD: f64 = 0.15;
 /// become another sum, which is a matter of the resamples.
 const FAR: f64 = 0.05;
 const TOO_FAR: f64 = 0.6;
+/// A change of an answer's logarithm up to which it is taken along the tangent.
+const ALONG: f64 = 0.05;
 
 /// By how much at most each answer changes, as a factor, if such a Gaussian is there and what is fitted makes way for
 /// it: [σ, αc, ω, α of trapping].
@@ -49,7 +51,7 @@ pub(super) fn factors(
             let more = hidden.with(&shape, (found, &searched), sign * share * amplitude);
             let Some(after) = Answers::of(&more, sigma, r) else { continue };
             let changes = after.changes(&before).map(|change| change / share);
-            // Far off what is fitted makes way by more than in proportion: then a fit to such a profile decides.
+            // A large change along the tangent counts as far as a fit to such a profile confirms it.
             let whole = hidden.beside(found, sign * amplitude);
             let fitted = if share < 1.0 {
                 refitted(profile, (centre, sigma, r), found, &whole, effective)
@@ -58,7 +60,8 @@ pub(super) fn factors(
             };
             let fitted = fitted.unwrap_or([f64::INFINITY; 4]);
             for (factor, change) in factors.iter_mut().zip(changes.into_iter().zip(fitted)) {
-                let change = change.0.min(change.1).exp();
+                let (along, fitted) = change;
+                let change = along.min(fitted.max(ALONG)).exp();
                 if change.is_finite() {
                     *factor = factor.max(change);
                 }

@@ -86,7 +86,9 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
     all.dedup();
     let end = format!(".{path}");
     let ending: Vec<&String> = all.iter().filter(|whole| whole.ends_with(&end)).collect();
-    if path.is_empty() {
+    // Of a part that there is, all fields are listed.
+    let is_of_part = path.rsplit_once('.').is_some_and(|(part, _)| judge(schema, part, "").is_ok());
+    if path.is_empty() || (is_of_part && ending.is_empty()) {
         return Err(refused);
     }
     match ending.as_slice() {
@@ -234,7 +236,8 @@ mod tests {
             "{several}"
         );
         assert!(said("perod").contains("did you mean oscillation.period"), "{}", said("perod"));
-        assert!(said("oscilation.period").contains("oscillation.period?"));
+        let meant = said("oscilation.period");
+        assert!(meant.contains("did you mean oscillation.period"), "{meant}");
         assert!(said("zzz").contains("there are "));
     }
 

@@ -165,7 +165,7 @@ const PLAIN: std::ops::Range<i32> = -5..15;
 /// ```
 pub fn to_its_digits(value: f64, error: f64) -> String {
     let size = value.abs().max(error.abs());
-    if !size.is_finite() {
+    if !(value.is_finite() && error.is_finite()) {
         return format!("{value:e}(?)");
     }
     if size <= 0.0 {

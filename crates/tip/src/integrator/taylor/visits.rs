@@ -178,7 +178,7 @@ mod tests {
             let visits = Visits::new(8.0, error);
             let most = visits.most_healing();
             for healing in [0.01, 0.1, 0.3, 0.6, 1.0].map(|part| part * most) {
-                for part in [0.0, 0.3, 1.0] {
+                for part in [0.0, 0.3, 0.999] {
                     let moved = part * visits.farthest(healing);
                     let rule = visits.rule(moved, healing).unwrap();
                     let phase = visits.wave * moved;

@@ -146,7 +146,7 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
     let folder = Folder::new("fit_refusals");
     folder.write("two.csv", "0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n");
     folder.write("below.csv", "1,1\n-2,2\n3,3\n4,4\n");
-    folder.write("same.csv", "1,2\n1,2\n1,2\n");
+    folder.write("same.csv", "v,N\n1,2\n1,2\n1,2\n");
     let mut random = random();
     let noise: String = (0..500).map(|i| format!("{i},{}\n", random() + random())).collect();
     folder.write("noise.csv", noise);

@@ -163,23 +163,28 @@ fn a_wrong_law_is_noticed() {
     let data = [Data::Ripple(track)];
     let without = fit(&data, &request()).unwrap();
     assert!(!without.explained && without.parts[0].judged.misfit.unwrap() < 1e-3);
-    assert!(without.remarks.iter().any(|r| r.contains("wider one")), "{:?}", without.remarks);
+    assert!(without.remarks.iter().any(|r| r.contains("wider law")), "{:?}", without.remarks);
 }
 
 /// Rows struck by dust change little where they count less.
 #[test]
 fn rows_far_off_count_less_where_asked_for() {
-    let mut random = ChaCha8Rng::seed_from_u64(5);
     let truth = Truth { alpha: 1.25, r: 1.0, width: 25.0, depth_limit: None };
-    let mut track = truth.track(160, 0.01, 0.02, &mut random);
-    let height = track.y.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    for i in (20..160).step_by(29) {
-        track.y[i] += 3.0 * height;
-    }
-    let data = [Data::Ripple(track)];
-    let robust = fit(&data, &FitRequest { robust: true, ..request() }).unwrap();
-    let plain = fit(&data, &request()).unwrap();
     let off = |fit: &Fit| (number(fit, Name::Alpha).value / truth.alpha).ln().abs();
-    assert!(off(&robust) < 0.02, "{}", off(&robust));
-    assert!(off(&robust) < off(&plain), "{} {}", off(&robust), off(&plain));
+    // Of one track the plain fit may be the nearer one by chance.
+    let (mut robust, mut plain) = (0.0, 0.0);
+    for seed in 5..9 {
+        let mut track = truth.track(160, 0.01, 0.02, &mut ChaCha8Rng::seed_from_u64(seed));
+        let height = track.y.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        for i in (20..160).step_by(29) {
+            track.y[i] += 3.0 * height;
+        }
+        let data = [Data::Ripple(track)];
+        let asked = FitRequest { robust: true, ..request() };
+        let off = [&asked, &request()].map(|asked| off(&fit(&data, asked).unwrap()));
+        println!("{seed}: {off:?}");
+        assert!(off[0] < 0.02, "{off:?}");
+        (robust, plain) = (robust + off[0], plain + off[1]);
+    }
+    assert!(robust < plain, "{robust} {plain}");
 }

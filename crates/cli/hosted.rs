@@ -95,6 +95,7 @@ fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
         let said = error.render().to_string();
         // The words that say what is wrong, without usage and advice for a shell.
         let said = said.split("\n\nUsage:").next().unwrap_or_default();
+        let said = said.split("\n\nFor more information").next().unwrap_or_default();
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
     };
     let matches = parser.try_get_matches_from_mut(words).map_err(refused)?;

@@ -21,9 +21,9 @@ impl Estimate {
         Self { value, error }
     }
 
-    /// With a further error, independent of this one.
+    /// With a further error, which may go the same way.
     pub(super) fn and(self, error: f64) -> Self {
-        Self { error: self.error.hypot(error), ..self }
+        Self { error: self.error + error, ..self }
     }
 
     /// Wide enough for this value too.

@@ -305,5 +305,6 @@ fn random_rasters_are_reported_within_their_errors() {
         faults.extend(judge(&Case::random(&mut random, 300.0), &mut tally));
     }
     println!("{tally:?}");
-    assert!(faults.is_empty(), "{faults:#?}");
+    // Errors are those of 95 %: of what is reported, one in twenty may lie outside.
+    assert!(20 * faults.len() <= tally.angles + tally.wavelengths, "{faults:#?}");
 }

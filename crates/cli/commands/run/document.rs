@@ -21,7 +21,7 @@ pub(super) fn end(
     Ok(RunEnd { work, interrupted: interrupt.signal().is_some(), ..end })
 }
 
-/// What became of a run that has come as far as this. Whoever raises the flag is told what can be said at once.
+/// The outcome of a run up to this point. Once the flag is raised, only what is known without further work is returned.
 pub(crate) fn became(
     scenario: &Scenario,
     initial: &InitialSurface,

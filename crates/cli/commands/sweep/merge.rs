@@ -94,7 +94,8 @@ fn runs(numbers: &[usize]) -> String {
     runs.collect::<Vec<_>>().join(",")
 }
 
-/// Whether a file is what was asked for, and all of it: `indices` are those of its points. What else it is, is said.
+/// Whether a file is a complete document of the requested sweep; `indices` are those of its points. A remark says what another
+/// file is.
 pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &[usize]) -> bool {
     if !path.exists() {
         return false;

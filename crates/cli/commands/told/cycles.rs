@@ -128,10 +128,11 @@ const IN_FULL: usize = 1;
 const LISTED: usize = 20;
 
 /// Means of ensembles with their standard errors, and how far members are apart.
-fn statistics(told: Told, ensembles: &[&EnsembleDocument]) -> Told {
+fn statistics(summary: Told, ensembles: &[&EnsembleDocument]) -> Told {
     if ensembles.len() <= IN_FULL {
-        return ensembles.iter().fold(told, |told, ensemble| {
-            told.maybe("period", ensemble.period.as_ref().map(|s| spread(s, "Γ/k")))
+        return ensembles.iter().fold(summary, |summary, ensemble| {
+            summary
+                .maybe("period", ensemble.period.as_ref().map(|s| spread(s, "Γ/k")))
                 .maybe("wavelength", ensemble.wavelength.as_ref().map(|s| spread(s, "σ")))
                 .maybe("amplitude of x0", ensemble.amplitude_x0.as_ref().map(|s| spread(s, "σ")))
                 .maybe("amplitude of u", ensemble.amplitude_u.as_ref().map(|s| spread(s, "kσ²/a")))
@@ -139,14 +140,14 @@ fn statistics(told: Told, ensembles: &[&EnsembleDocument]) -> Told {
                 .maybe("deviation of l", ensemble.deviation_l.as_ref().map(|s| spread(s, "σ")))
         });
     }
-    let row = |told: Told, ensemble: &&EnsembleDocument| {
+    let row = |summary: Told, ensemble: &&EnsembleDocument| {
         let points =
             format!("l, points {} to {}", ensemble.first, ensemble.first + ensemble.count - 1);
-        told.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+        summary.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
     };
-    let told = ensembles.iter().take(LISTED).fold(told, row);
+    let summary = ensembles.iter().take(LISTED).fold(summary, row);
     let more = ensembles.len().saturating_sub(LISTED);
-    told.maybe("more ensembles", (more > 0).then(|| more.to_string()))
+    summary.maybe("more ensembles", (more > 0).then(|| more.to_string()))
 }
 
 fn spread(of: &StatisticsDocument, unit: &str) -> String {

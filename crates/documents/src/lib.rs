@@ -89,12 +89,14 @@ pub use measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
     MeasuredTipParameters,
 };
-pub use model::{GaussianDocument, LayerDocument, ModelParameters, TipDocument, judge_details};
+pub use model::{
+    GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
+};
 pub use outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
 };
 pub use physical::{InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units};
-pub use question::{Indentation, Law, NamedTip, Tip, TipName};
+pub use question::{Indentation, NamedTip, Tip, TipName};
 pub use raster::{
     AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
     PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,

@@ -1,6 +1,6 @@
 //! The model in a document.
 
-use crate::Unusable;
+use crate::{Refused, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{
@@ -143,6 +143,55 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
     TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
 }
 
+/// What is added to the basic law. A question without them is about the basic law.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Law {
+    /// Depth limit b of (61), in kσ²/a; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// Relaxation time T of the surface, in Γ/k; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// Inertia M of the tip, in Γ²/k; above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// Whether there is no spring.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub no_spring: bool,
+}
+
+impl From<Wider> for Law {
+    fn from(Wider { depth_limit, healing_time, inertia, spring }: Wider) -> Self {
+        Self { depth_limit, healing_time, inertia, no_spring: !spring }
+    }
+}
+
+impl From<Law> for Wider {
+    fn from(Law { depth_limit, healing_time, inertia, no_spring }: Law) -> Self {
+        Self { depth_limit, healing_time, inertia, spring: !no_spring }
+    }
+}
+
+impl Law {
+    /// Refuses what has no steady motion behind a support: no spring, or a footprint that never fades on a surface that
+    /// never heals.
+    pub(crate) fn dragged(self, tip: &TipFunction) -> Result<Wider, Refused> {
+        if self.no_spring {
+            let why = "nothing drags the tip: there is no steady motion behind a support";
+            return Err(Refused::whole("no_spring", why));
+        }
+        if *tip == TipFunction::Cosine && self.healing_time.is_none() {
+            let why = "does not fade, so that steady motion leaves an infinite groove: give {healing_time}";
+            return Err(Refused {
+                parameter: "tip",
+                value: Some("cosine".into()),
+                why: why.into(),
+            });
+        }
+        Ok(self.into())
+    }
+}
+
 /// Footprint, α and r, and what a wider law adds.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ModelParameters {
@@ -154,40 +203,21 @@ pub struct ModelParameters {
     pub alpha_above: Option<f64>,
     /// Dimensionless support velocity r (12); 0 without a spring.
     pub r: f64,
-    /// b of (61), in kσ²/a, where there is a depth limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_limit: Option<f64>,
-    /// T, in Γ/k, where the surface heals.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub healing_time: Option<f64>,
-    /// M, in Γ²/k, where the tip has inertia.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<f64>,
-    /// Whether there is no spring.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub no_spring: bool,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
 }
 
 impl ModelParameters {
     /// Those of the paper's law.
     pub fn papers(tip: TipDocument, alpha: f64, alpha_above: Option<f64>, r: f64) -> Self {
-        let (depth_limit, healing_time, inertia, no_spring) = (None, None, None, false);
-        Self { tip, alpha, alpha_above, r, depth_limit, healing_time, inertia, no_spring }
+        Self { tip, alpha, alpha_above, r, law: Law::default() }
     }
 
     /// Those of a model, and D where its α was given as αc(r) + D.
     pub fn of(model: &Model, alpha_above: Option<f64>) -> Self {
-        let Wider { depth_limit, healing_time, inertia, spring } = *model.wider();
-        Self {
-            tip: model.tip().into(),
-            alpha: model.alpha(),
-            alpha_above,
-            r: model.r(),
-            depth_limit,
-            healing_time,
-            inertia,
-            no_spring: !spring,
-        }
+        let (tip, law) = (model.tip().into(), (*model.wider()).into());
+        Self { tip, alpha: model.alpha(), alpha_above, r: model.r(), law }
     }
 
     /// The model again.
@@ -201,7 +231,6 @@ impl ModelParameters {
 
     /// What the wider law adds.
     pub fn wider(&self) -> Wider {
-        let Self { depth_limit, healing_time, inertia, no_spring, .. } = *self;
-        Wider { depth_limit, healing_time, inertia, spring: !no_spring }
+        self.law.into()
     }
 }

@@ -1,7 +1,8 @@
 //! Parameters that several questions share: footprint, law, indentation rate.
 
 use crate::{
-    GaussianDocument, LayerDocument, ModelParameters, Refused, TipDocument, Typed, judge_details,
+    GaussianDocument, Law, LayerDocument, ModelParameters, Refused, TipDocument, Typed,
+    judge_details,
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::Error;
@@ -160,55 +161,6 @@ impl JsonSchema for Tip {
     }
 }
 
-/// What is added to the basic law. A question without them is about the basic law.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Law {
-    /// Depth limit b of (61), in kσ²/a; above 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_limit: Option<f64>,
-    /// Relaxation time T of the surface, in Γ/k; above 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub healing_time: Option<f64>,
-    /// Inertia M of the tip, in Γ²/k; above 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<f64>,
-    /// Whether there is no spring.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub no_spring: bool,
-}
-
-impl From<Wider> for Law {
-    fn from(Wider { depth_limit, healing_time, inertia, spring }: Wider) -> Self {
-        Self { depth_limit, healing_time, inertia, no_spring: !spring }
-    }
-}
-
-impl From<Law> for Wider {
-    fn from(Law { depth_limit, healing_time, inertia, no_spring }: Law) -> Self {
-        Self { depth_limit, healing_time, inertia, spring: !no_spring }
-    }
-}
-
-impl Law {
-    /// Refuses what has no steady motion behind a support: no spring, or a footprint that never fades on a surface that
-    /// never heals.
-    pub(crate) fn dragged(self, tip: &TipFunction) -> Result<Wider, Refused> {
-        if self.no_spring {
-            let why = "nothing drags the tip: there is no steady motion behind a support";
-            return Err(Refused::whole("no_spring", why));
-        }
-        if *tip == TipFunction::Cosine && self.healing_time.is_none() {
-            let why = "does not fade, so that steady motion leaves an infinite groove: give {healing_time}";
-            return Err(Refused {
-                parameter: "tip",
-                value: Some("cosine".into()),
-                why: why.into(),
-            });
-        }
-        Ok(self.into())
-    }
-}
-
 /// Dimensionless indentation rate, given as α or by its distance from the critical one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Indentation {
@@ -284,10 +236,9 @@ impl Indentation {
 impl ModelParameters {
     /// Those of a resolved question.
     pub(crate) fn asked(tip: &Tip, indentation: Indentation, r: f64, law: Law) -> Self {
-        let Law { depth_limit, healing_time, inertia, no_spring } = law;
         let alpha = indentation.alpha.unwrap_or(f64::NAN);
         let alpha_above = indentation.alpha_above;
         let tip = (&tip.0).into();
-        Self { tip, alpha, alpha_above, r, depth_limit, healing_time, inertia, no_spring }
+        Self { tip, alpha, alpha_above, r, law }
     }
 }

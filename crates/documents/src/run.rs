@@ -102,7 +102,7 @@ impl RunDocument {
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
         let history = self.history.as_ref().ok_or_else(missing)?;
         let parameters = &self.parameters;
-        if parameters.support_path.is_none() && !parameters.model.no_spring {
+        if parameters.support_path.is_none() && !parameters.model.law.no_spring {
             let (wider, support) = (parameters.model.wider(), Support::Moving(parameters.model.r));
             return history.under(wider, support);
         }

@@ -7,7 +7,6 @@ use stickslip_documents::{
     TipDocument,
 };
 use stickslip_stability::trapping_alpha;
-use stickslip_tip::Wider;
 
 pub(super) fn of(
     arguments: &ContinueArguments,
@@ -28,7 +27,6 @@ pub(super) fn of(
         f.branch.special.iter().map(move |special| SpecialDocument::of(i, special))
     });
     let from = |f: &Found| f.from.map(|(branch, place)| offsets[branch] + place);
-    let Wider { depth_limit, healing_time, inertia, .. } = *origin.wider();
     // In steady creep α/r is what counts; under a depth limit, or where the surface heals, no tip is held for ever.
     let ratio = trapping_alpha(origin.tip(), 1.0).ok().filter(|_| origin.wider().traps());
     let papers = ModelParameters::papers(
@@ -38,7 +36,7 @@ pub(super) fn of(
         first.r,
     );
     let parameters = ContinueParameters {
-        model: ModelParameters { depth_limit, healing_time, inertia, ..papers },
+        model: ModelParameters { law: (*origin.wider()).into(), ..papers },
         over: arguments.over,
         to: arguments.to,
         switch: arguments.switch,

@@ -4,7 +4,7 @@ use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
 use stickslip_documents::{
-    ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, ModelParameters,
+    ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, Law, ModelParameters,
     NumberFitted, PanelDocument, StyleName,
 };
 
@@ -48,9 +48,12 @@ fn models(fit: &FitDocument) -> Vec<ModelParameters> {
         fitted.or(held)
     };
     let model = value("alpha").zip(value("r")).map(|(alpha, r)| ModelParameters {
-        depth_limit: value("depth_limit"),
-        healing_time: value("healing_time"),
-        inertia: value("inertia"),
+        law: Law {
+            depth_limit: value("depth_limit"),
+            healing_time: value("healing_time"),
+            inertia: value("inertia"),
+            no_spring: false,
+        },
         ..ModelParameters::papers(fit.parameters.tip.clone(), alpha, None, r)
     });
     model.into_iter().collect()

@@ -130,7 +130,7 @@ fn steady(run: &RunDocument) -> Option<Level> {
 
 /// r, likewise.
 fn dragged(run: &RunDocument) -> Option<Level> {
-    let moves = run.parameters.support_path.is_none() && !run.parameters.model.no_spring;
+    let moves = run.parameters.support_path.is_none() && !run.parameters.model.law.no_spring;
     let r = run.parameters.model.r;
     moves.then(|| (r, format!("support, r = {}", short(r))))
 }

@@ -19,7 +19,7 @@ pub(crate) fn tip_name(tip: &TipDocument) -> String {
 /// Tip, α and r.
 pub(crate) fn model_name(model: &ModelParameters) -> String {
     let [alpha, r] = [model.alpha, model.r].map(seven_digits);
-    let dragged = if model.no_spring { ", no spring".into() } else { format!(", r = {r}") };
+    let dragged = if model.law.no_spring { ", no spring".into() } else { format!(", r = {r}") };
     format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), wider_name(model))
 }
 
@@ -29,7 +29,8 @@ pub(crate) fn law_name(model: &ModelParameters) -> String {
 }
 
 fn wider_name(model: &ModelParameters) -> String {
-    let wider = [("b", model.depth_limit), ("T", model.healing_time), ("M", model.inertia)];
+    let wider =
+        [("b", model.law.depth_limit), ("T", model.law.healing_time), ("M", model.law.inertia)];
     let there = wider.into_iter().filter_map(|(name, value)| Some((name, value?)));
     there.map(|(name, value)| format!(", {name} = {}", seven_digits(value))).collect()
 }

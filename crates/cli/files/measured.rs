@@ -156,6 +156,17 @@ mod tests {
         }
     }
 
+    /// A line `;NaN` counted as a comment, so that the row was not among those without a value.
+    #[test]
+    fn a_row_without_any_value_is_one_with_every_separator() {
+        for separator in [",", ";", "\t"] {
+            let text = "x,z\n-10.5,1.2\n,NaN\n0.5,-3e-1\n5.25,-0.75\n".replace(',', separator);
+            let found = parse_measured(&text, &[2]).unwrap();
+            assert_eq!(found.missing, [3], "{text}");
+            assert_eq!(found.columns[0], [-10.5, 0.5, 5.25], "{text}");
+        }
+    }
+
     #[test]
     fn units_of_several_files_meet_in_that_of_the_first() {
         let mut common = Common::of(Unit::Length);

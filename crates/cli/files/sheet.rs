@@ -310,12 +310,9 @@ impl<'a> Reading<'a> {
             return Err(Flaw { reached: Reached::default(), message: String::new() });
         }
         // Separators at the ends of lines make columns of nothing.
-        let mut is_kept = self
-            .blank
-            .iter()
-            .zip(&self.headings)
-            .map(|(blank, heading)| !blank || !heading.text().is_empty());
-        let is_kept: Vec<bool> = is_kept.by_ref().collect();
+        let columns = self.blank.iter().zip(&self.headings);
+        let is_kept: Vec<bool> =
+            columns.map(|(blank, heading)| !blank || !heading.text().is_empty()).collect();
         retain(&mut self.columns, &is_kept);
         retain(&mut self.headings, &is_kept);
         let count = self.columns.len();
@@ -488,11 +485,12 @@ fn comment(line: &str) -> Option<&str> {
         return None;
     }
     let marked = ["#", "%", "//"].into_iter().find_map(|mark| line.strip_prefix(mark));
-    // A row of numbers separated by semicolons may lack its first.
+    // A row separated by semicolons may lack its first value.
     let is_row = |rest: &str| {
-        let cells =
-            rest.split(';').flat_map(|field| DIALECTS.map(|dialect| dialect.cell(field.trim())));
-        cells.into_iter().any(|cell| matches!(cell, Cell::Number(_) | Cell::TooLarge))
+        let fields = rest.split(';').map(str::trim).filter(|field| !field.is_empty());
+        fields
+            .flat_map(|field| DIALECTS.map(|dialect| dialect.cell(field)))
+            .any(|cell| cell != Cell::Text)
     };
     let marked = marked.or_else(|| line.strip_prefix(';').filter(|rest| !is_row(rest)));
     marked.map(|rest| rest.trim_start_matches(['#', '%', ';', '/']).trim())

@@ -13,9 +13,6 @@ use crate::files::distinct::distinct;
 use stickslip_documents::{Ask, Boundary, BoundaryDocument, Physical, SpacingName, Tip};
 use stickslip_figures::{Size, View};
 
-const DEFAULT_POINTS: usize = 200;
-const MOST_POINTS: usize = 100_000;
-
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.tip.tip_file.as_deref())];
     let written = [
@@ -67,10 +64,10 @@ fn range(
             return Err(range.refused(named, message));
         }
         (Some(points), None) => (named, points),
-        (None, points) => ("--points", points.unwrap_or(DEFAULT_POINTS)),
+        (None, points) => ("--points", points.unwrap_or(Boundary::DEFAULT_POINTS)),
     };
-    if !(2..=MOST_POINTS).contains(&points) {
-        let message = format!("2 to {MOST_POINTS} will do");
+    if !(2..=Boundary::MOST_POINTS).contains(&points) {
+        let message = format!("2 to {} will do", Boundary::MOST_POINTS);
         return Err(Failure::input(format!("{option} {points}"), message));
     }
     Ok(([low, high], points))

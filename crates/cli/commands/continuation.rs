@@ -13,9 +13,7 @@ use crate::arguments::ContinueArguments;
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
 use std::ops::ControlFlow;
-use stickslip_cycles::{
-    Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind, TOLERANCES,
-};
+use stickslip_cycles::{Branch, Continuation, Cycle, CycleError, Parameter, Special, SpecialKind};
 use stickslip_documents::{
     self as documents, Ask, ContinueDocument, Cycle as Question, OverName, Physical,
 };
@@ -49,7 +47,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
     };
     let mut document = document::of(arguments, &origin, &branches, remarks);
     document.interrupted = signal.is_some();
-    // Of what is complete nothing is lost that the same command does not find again.
+    // What is complete can be computed again: from here on a first signal ends the program at once.
     let _keeps = signal.map(|_| interrupt);
     job.finish(document.in_units(scales.as_ref()))?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
@@ -79,7 +77,7 @@ impl Origin {
             let model = question.model()?;
             return Ok(Self::Cycle(Box::new(question), model));
         }
-        judge_tolerance(arguments.start.tolerance)?;
+        Question::judge_tolerance(arguments.start.tolerance)?;
         let missing = match arguments.over {
             OverName::Alpha => Failure::input("--r", "missing: give --r R, at which α is to vary"),
             OverName::R => {
@@ -113,13 +111,6 @@ impl Origin {
             Self::Onset { tip, .. } => tip,
         }
     }
-}
-
-fn judge_tolerance(tolerance: f64) -> Result<(), Failure> {
-    if (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance) {
-        return Ok(());
-    }
-    Err(documents::Failure::from(CycleError::Tolerance(tolerance)).into())
 }
 
 fn settings(arguments: &ContinueArguments) -> Result<Continuation, Failure> {

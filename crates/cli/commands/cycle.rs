@@ -25,5 +25,5 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     let question = question.resolved(&context)?;
     let scales = scales(&arguments.in_units, tip_file, Some(question.r))?;
     let job = Job::open::<CycleDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(question.ask(&context)?.in_units(scales.as_ref()))
+    job.finish(question.answered(&context)?.in_units(scales.as_ref()))
 }

@@ -1,16 +1,14 @@
 //! `stickslip fit`.
 
 use super::job::{Job, judge_places};
-use super::model::tip;
+use super::model::tip_and_draws;
 use crate::arguments::{FitArguments, ScanName, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::heading::Heading;
-use crate::files::input::{TipFile, read_tip};
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
 use std::path::Path;
-use stickslip_documents::TipName;
-use stickslip_documents::{FitDocument, FitParameters, NumberHeld};
+use stickslip_documents::{FitDocument, FitParameters, NumberHeld, TipName};
 use stickslip_measurement::{
     Data, Fit, FitError, FitRequest, Name, Scan, Shape, Track, Values, fit as fitted,
 };
@@ -75,15 +73,15 @@ fn reduced(data: Given) -> Result<Given, Failure> {
     data.into_iter().map(one).collect()
 }
 
-/// The footprints that a measured one may as well be.
-fn footprints(arguments: &TipArguments) -> Result<Vec<TipFunction>, Failure> {
-    let Some(path) = &arguments.tip_file else { return Ok(vec![]) };
-    let TipFile::Measured(measured) = read_tip(path)? else { return Ok(vec![]) };
-    let tips = measured.draws.iter().map(|draw| {
-        TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect())
-            .map_err(|error| Failure::input(format!("--tip-file {}: draws", path.display()), error))
+/// The footprint that is asked for, and those drawn within its error where it was measured.
+fn footprints(arguments: &TipArguments) -> Result<(TipFunction, Vec<TipFunction>), Failure> {
+    let (tip, draws) = tip_and_draws(&TipArguments { width: None, ..arguments.clone() })?;
+    let file = arguments.tip_file.as_deref().unwrap_or(Path::new(""));
+    let refused = |error| Failure::input(format!("--tip-file {}: draws", file.display()), error);
+    let drawn = draws.iter().map(|draw| {
+        TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect()).map_err(refused)
     });
-    tips.collect()
+    Ok((tip, drawn.collect::<Result<_, _>>()?))
 }
 
 /// The files, as they were named.
@@ -140,21 +138,21 @@ fn request(arguments: &FitArguments) -> Result<FitRequest, Failure> {
     }
     let is_triple =
         matches!(name, None | Some(TipName::TripleGaussian)) && arguments.tip.tip_file.is_none();
-    let shape = if free.contains(&Name::Beta) {
+    let (shape, footprints) = if free.contains(&Name::Beta) {
         if !is_triple || beta.is_some() {
             let message =
                 "is that of the triple Gaussian, and free: leave --beta, --tip and --tip-file out";
             return Err(Failure::input("--free beta", message));
         }
-        Shape::Triple
+        (Shape::Triple, vec![])
     } else {
-        Shape::Known(tip(&TipArguments { width: None, ..arguments.tip.clone() })?)
+        let (tip, drawn) = footprints(&arguments.tip)?;
+        (Shape::Known(tip), drawn)
     };
     let scan = arguments.scan.map(|scan| match scan {
         ScanName::Right => Scan::Right,
         ScanName::Left => Scan::Left,
     });
-    let footprints = footprints(&arguments.tip)?;
     Ok(FitRequest { shape, known, free, robust: arguments.robust, scan, footprints })
 }
 

@@ -4,7 +4,9 @@ use super::judged::judge_table;
 use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip_documents::{Indentation, Law, NamedTip, Refused, TipName, judge_details};
+use stickslip_documents::{
+    GaussianDocument, Indentation, Law, NamedTip, Refused, TipName, judge_details,
+};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
@@ -94,6 +96,13 @@ pub(crate) fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
 
 /// The footprint that the options ask for.
 pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
+    tip_and_draws(arguments).map(|(tip, _)| tip)
+}
+
+/// The same, and the terms of those drawn within the error of a measured one.
+pub(crate) fn tip_and_draws(
+    arguments: &TipArguments,
+) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
     let TipArguments { tip, beta, width, tip_file } = arguments;
     let unused = |option: String, with: &str| {
         Failure::input(option, format!("has no meaning with {with}: leave one of them out"))
@@ -103,7 +112,11 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        let file = read_tip(path)?;
+        let mut file = read_tip(path)?;
+        let draws = match &mut file {
+            TipFile::Measured(measured) => std::mem::take(&mut measured.draws),
+            _ => vec![],
+        };
         let table = match &file {
             TipFile::Table(table) => Some(table.clone()),
             TipFile::Table2d(columns) => Some(on_path(columns)),
@@ -113,9 +126,9 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
         if let Some((x, f)) = table {
             judge_table(path, (&x, &f), &tip)?;
         }
-        return Ok(tip);
+        return Ok((tip, draws));
     }
-    Ok(NamedTip { name: *tip, beta: *beta, width: *width }.tip()?)
+    Ok((NamedTip { name: *tip, beta: *beta, width: *width }.tip()?, vec![]))
 }
 
 /// The rows of f(x,y) with x ≥ 0 that are on the path of the tip, by ascending x.

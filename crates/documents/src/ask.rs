@@ -54,12 +54,16 @@ pub trait Ask:
     /// # Errors
     /// As [`resolved`](Self::resolved) and [`answer`](Self::answer).
     fn ask(self, context: &Context) -> Result<Document<Self>, Failure> {
-        let (question, (answer, remarks)) = context.within(|| {
-            let question = self.resolved(context)?;
-            let answer = question.answer(context)?;
-            Ok((question, answer))
-        })?;
-        Ok(Document::new(question, answer, remarks))
+        context.within(|| self.resolved(context))?.answered(context)
+    }
+
+    /// A resolved question and its answer.
+    ///
+    /// # Errors
+    /// As [`answer`](Self::answer).
+    fn answered(self, context: &Context) -> Result<Document<Self>, Failure> {
+        let (answer, remarks) = context.within(|| self.answer(context))?;
+        Ok(Document::new(self, answer, remarks))
     }
 }
 

@@ -14,9 +14,6 @@ use stickslip_stability::{
 };
 use stickslip_tip::{TipFunction, Wider};
 
-/// More take hours, and no picture shows them.
-const MOST_POINTS: usize = 100_000;
-
 /// The critical α over a range of r, and the oscillation that is born along it.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Boundary {
@@ -37,7 +34,7 @@ pub struct Boundary {
 }
 
 fn default_points() -> usize {
-    200
+    Boundary::DEFAULT_POINTS
 }
 
 /// A boundary and the question that it answers.
@@ -69,6 +66,11 @@ pub struct BoundaryFound {
 }
 
 impl Boundary {
+    /// Values of r where their number is not given.
+    pub const DEFAULT_POINTS: usize = 200;
+    /// More take hours, and no picture shows them.
+    pub const MOST_POINTS: usize = 100_000;
+
     /// The boundary over a range of r, in 200 points, under the basic law.
     pub fn new(tip: Tip, r_range: [f64; 2]) -> Self {
         let (points, spacing) = (default_points(), SpacingName::default());
@@ -90,8 +92,8 @@ impl Boundary {
         if low <= 0.0 {
             return refused("needs numbers above 0, such as 0.05 and 3");
         }
-        if !(2..=MOST_POINTS).contains(&self.points) {
-            let why = format!("must be from 2 to {MOST_POINTS}");
+        if !(2..=Self::MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 2 to {}", Self::MOST_POINTS);
             return Err(Refused::number("points", self.points as f64, why));
         }
         Ok(())

@@ -110,13 +110,21 @@ impl Cycle {
         Ok(found?)
     }
 
-    /// Refuses a tolerance out of its range.
-    fn judged(&self) -> Result<(), Refused> {
+    /// Refuses a residual that cannot be reached, or is too large for a cycle.
+    ///
+    /// # Errors
+    /// The tolerance is outside [`cycles::TOLERANCES`].
+    pub fn judge_tolerance(tolerance: f64) -> Result<(), Refused> {
         let (least, most) = cycles::TOLERANCES;
-        if !(least..=most).contains(&self.tolerance) {
-            let error = CycleError::Tolerance(self.tolerance);
-            return Err(Refused::number("tolerance", self.tolerance, error));
+        if (least..=most).contains(&tolerance) {
+            return Ok(());
         }
+        Err(Refused::number("tolerance", tolerance, CycleError::Tolerance(tolerance)))
+    }
+
+    /// Refuses what no cycle can be computed for or shown with.
+    fn judged(&self) -> Result<(), Refused> {
+        Self::judge_tolerance(self.tolerance)?;
         if matches!(self.tip.0, TipFunction::Bessel) {
             let value = Some("bessel".into());
             let why = CycleError::NeverFades.to_string();

@@ -27,6 +27,15 @@ const sent = async () => {
   for (let i = 0; i < 20; i++) await new Promise((go) => setImmediate(go));
 };
 const run = (id) => ({ kind: 'run', id });
+/** A crew whose worker has begun the first wish. */
+const atWork = async () => {
+  mock.timers.enable({ apis: ['setTimeout'] });
+  const crew = hire({});
+  crew.ask(run(1));
+  await sent();
+  workers[0].says({ kind: 'begun', id: 1 });
+  return crew;
+};
 
 beforeEach(() => {
   workers = [];
@@ -34,11 +43,7 @@ beforeEach(() => {
 });
 
 test('a worker that stays at an older wish is ended, and another gets the newest', async () => {
-  mock.timers.enable({ apis: ['setTimeout'] });
-  const crew = hire({});
-  crew.ask(run(1));
-  await sent();
-  workers[0].says({ kind: 'begun', id: 1 });
+  const crew = await atWork();
   crew.ask(run(2));
   crew.ask(run(3));
   await sent();
@@ -51,11 +56,7 @@ test('a worker that stays at an older wish is ended, and another gets the newest
 });
 
 test('one that comes to the newest in time goes on', async () => {
-  mock.timers.enable({ apis: ['setTimeout'] });
-  const crew = hire({});
-  crew.ask(run(1));
-  await sent();
-  workers[0].says({ kind: 'begun', id: 1 });
+  const crew = await atWork();
   crew.ask(run(2));
   workers[0].says({ kind: 'begun', id: 2 });
   mock.timers.tick(10_000);

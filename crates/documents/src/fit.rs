@@ -39,6 +39,10 @@ pub struct FitDocument {
     /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<AlternativeDocument>,
+    /// The best fit with a depth limit, where the request leaves that out, the data do not exclude it at 95 %, and it changes
+    /// the numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_depth_limit: Option<AlternativeDocument>,
     /// What should be known before it is believed.
     pub remarks: Vec<String>,
 }
@@ -48,7 +52,7 @@ fn yes() -> bool {
     true
 }
 
-/// Another minimum.
+/// Another motion.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AlternativeDocument {
@@ -198,6 +202,7 @@ impl FitDocument {
             explained: found.explained,
             joint_misfit: found.joint,
             alternatives: found.alternatives.iter().map(AlternativeDocument::from).collect(),
+            with_depth_limit: found.with_depth_limit.as_ref().map(AlternativeDocument::from),
             remarks: found.remarks.clone(),
         }
     }

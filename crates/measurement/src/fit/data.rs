@@ -151,6 +151,16 @@ impl Data {
         }
     }
 
+    /// Whether it says how high or strong the motion is, and not its shape alone.
+    pub(super) fn has_gain(&self) -> bool {
+        match self {
+            Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => {
+                track.gain.is_some()
+            }
+            Self::Onsets { .. } | Self::Wavelengths { .. } => true,
+        }
+    }
+
     /// Numbers that are projected out: offset, slope, gain.
     pub(super) fn linear(&self) -> usize {
         match self {

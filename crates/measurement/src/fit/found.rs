@@ -23,6 +23,8 @@ pub struct Fit {
     pub parameters: usize,
     /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
     pub alternatives: Vec<Alternative>,
+    /// The best fit with a depth limit, where the request leaves it out and the data do not exclude it at 95 %.
+    pub with_depth_limit: Option<Alternative>,
     /// Whether the model explains the data: intervals are given only where it does.
     pub explained: bool,
     /// Probability by chance of what one model leaves of several data; `None` of one.

@@ -125,6 +125,11 @@ impl<'a> Around<'a> {
         Self { rivals, ..self }
     }
 
+    /// By how much more a minimum may leave that 95 % intervals reach over.
+    pub(super) fn most(&self) -> f64 {
+        self.quantile.powi(2)
+    }
+
     /// Of each number if rows are independent.
     pub(super) fn deviations(&self) -> Vec<f64> {
         (0..self.problem.free.len()).map(|i| self.independent[(i, i)].max(0.0).sqrt()).collect()

@@ -6,6 +6,7 @@
 mod comb;
 mod data;
 mod found;
+mod law;
 mod likelihood;
 mod noise;
 mod parameters;
@@ -219,6 +220,7 @@ fn settled(
         rows: problem.rows(),
         parameters: problem.parameters(),
         alternatives,
+        with_depth_limit: explained.then(|| law::with_depth_limit(&problem, &around)).flatten(),
         explained,
         joint: verdict.joint,
         remarks: vec![],

@@ -72,7 +72,7 @@ impl Problem<'_> {
     }
 
     /// In σ.
-    fn wavelength(&self, values: &Values) -> Option<f64> {
+    pub(super) fn wavelength(&self, values: &Values) -> Option<f64> {
         let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
         Some(self.cycles.waves(&values.model(self.shape, alpha, r)?)?.ripple.wavelength)
     }
@@ -205,7 +205,7 @@ impl Problem<'_> {
     }
 
     /// αc and the wavelength there.
-    fn onset(&self, values: &Values, r: f64) -> Option<(f64, f64)> {
+    pub(super) fn onset(&self, values: &Values, r: f64) -> Option<(f64, f64)> {
         let model = values.model(self.shape, 1.0, r)?;
         let found = if model.wider().is_papers() {
             critical(model.tip(), r).ok()?

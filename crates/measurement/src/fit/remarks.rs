@@ -2,7 +2,7 @@
 
 use super::found::{Fit, Part};
 use super::likelihood::{Around, Fitted, least_felt};
-use super::parameters::Name;
+use super::parameters::{Name, Values};
 use super::problem::Problem;
 use super::verdict::{CHANGE, MISFIT};
 
@@ -41,6 +41,7 @@ pub(super) fn remarks(
         );
     }
     alternatives(&mut remarks, problem, fit);
+    depth_limit(&mut remarks, problem, fit);
     if fit.explained {
         wide(&mut remarks, problem, around, fit);
     }
@@ -105,16 +106,32 @@ fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
 
 fn alternatives(remarks: &mut Vec<String>, problem: &Problem, fit: &Fit) {
     let Some(first) = fit.alternatives.first() else { return };
-    let number = |name: &Name| Some(format!("{} = {:.4}", name.word(), first.values.get(*name)?));
-    let numbers: Vec<String> = problem.free.iter().filter_map(number).collect();
     let turned = first.scans != problem.scans;
     let words = if turned { ", for a scan in the other direction," } else { "" };
     let covered = if fit.explained { "; the intervals cover both where the data do" } else { "" };
     remarks.push(format!(
         "another minimum{words} is nearly as good (χ² higher by {:.1}): {}{covered}",
         first.behind.max(0.0),
-        numbers.join(", ")
+        numbers(problem, &first.values)
     ));
+}
+
+fn depth_limit(remarks: &mut Vec<String>, problem: &Problem, fit: &Fit) {
+    let Some(found) = &fit.with_depth_limit else { return };
+    let limit = found.values.get(Name::DepthLimit).unwrap_or(f64::INFINITY);
+    remarks.push(format!(
+        "a surface with a depth limit of {limit} kσ²/a explains the data as well (χ² {} by {:.1}): {}; the intervals are those of a \
+         surface without one. Give k/a or a friction trace, or fit the depth limit too",
+        if found.behind < 0.0 { "lower" } else { "higher" },
+        found.behind.abs(),
+        numbers(problem, &found.values)
+    ));
+}
+
+/// The numbers fitted, as they are elsewhere.
+fn numbers(problem: &Problem, values: &Values) -> String {
+    let number = |name: &Name| Some(format!("{} = {:.4}", name.word(), values.get(*name)?));
+    problem.free.iter().filter_map(number).collect::<Vec<String>>().join(", ")
 }
 
 fn wide(remarks: &mut Vec<String>, problem: &Problem, around: &Around, fit: &Fit) {

@@ -179,6 +179,9 @@ struct Table {
     /// Wrong by three errors of the data, and without a word.
     wrong: usize,
     silent: usize,
+    /// A depth limit explains the data as well; α is missed without that being said.
+    limited: usize,
+    unsaid: usize,
     /// The direction given is not that of the scan.
     turned: usize,
 }
@@ -213,7 +216,17 @@ impl Table {
                 estimate.high
             );
         }
-        let is_remarked = !found.remarks.is_empty() || !found.explained;
+        // Ripples of unknown gain all have the remark on a depth limit: it is a word on that alone.
+        let of_a_limit = usize::from(found.with_depth_limit.is_some() && class != Class::Wider);
+        let is_remarked = found.remarks.len() > of_a_limit || !found.explained;
+        if let Some(law) = &found.with_depth_limit {
+            let at = names.map(|name| law.values.get(name).unwrap_or(f64::NAN));
+            line += &format!("with a depth limit {at:.4?}, behind by {:.1}; ", law.behind);
+        }
+        self.limited += usize::from(found.with_depth_limit.is_some());
+        let is_open = found.numbers.iter().all(|n| !n.estimate.relative().is_finite());
+        let is_missed = found.explained && !found.numbers[0].estimate.holds(truths[0]);
+        self.unsaid += usize::from(is_missed && found.with_depth_limit.is_none() && !is_open);
         self.remarked += usize::from(is_remarked);
         let off = found.parts[0].model.iter().zip(&drawn.exact);
         let off = off.map(|(m, e)| (m - e).abs()).fold(0.0, f64::max);
@@ -243,7 +256,7 @@ impl Table {
         let share = |n: usize, of: usize| 100.0 * n as f64 / of.max(1) as f64;
         println!(
             "{class:?}: {} fits, {} refused, {} given intervals, held α {:.1} r {:.1} σ {:.1} %; wrong {}, of which silent {}; turned \
-             round {}; remarked {}",
+             round {}; remarked {}; with a depth limit {}, missed without one {}",
             self.fits,
             self.refused,
             self.given,
@@ -253,7 +266,9 @@ impl Table {
             self.wrong,
             self.silent,
             self.turned,
-            self.remarked
+            self.remarked,
+            self.limited,
+            self.unsaid
         );
     }
 }
@@ -306,8 +321,26 @@ fn a_few_of_each_class_are_judged() {
         let table = campaign(class, sets, 100);
         assert_eq!(table.silent, 0, "{class:?}: {} wrong", table.wrong);
     }
+    let wider = campaign(Class::Wider, 8, 700);
+    assert!(wider.limited >= 5 && wider.unsaid <= 1, "{} {}", wider.limited, wider.unsaid);
     let growing = campaign(Class::Growing, 2, 200);
     assert!(growing.wrong > 0 || growing.given < growing.fits, "growth is seen");
+}
+
+/// Ripples alone do not tell a surface that saturates from one that does not; with their gain they do.
+#[test]
+fn a_depth_limit_is_named_where_the_data_do_not_exclude_it() {
+    let Drawn { truth, data, request, .. } = drawn(Class::White, 7710);
+    let alone = fit(std::slice::from_ref(&data), &request).unwrap();
+    let limited = alone.with_depth_limit.expect("the shape alone does not exclude it");
+    assert!(limited.values.get(Name::DepthLimit).is_some() && limited.behind < 4.0, "{limited:?}");
+    assert!(alone.remarks.iter().any(|remark| remark.contains("depth limit")));
+    let Data::Ripple(track) = data else { panic!("a ripple") };
+    let known = Data::Ripple(Track { gain: Some(0.02), ..track });
+    let known = fit(&[known], &request).unwrap();
+    assert!(known.with_depth_limit.is_none(), "{:?}", known.with_depth_limit);
+    let alpha = known.numbers.iter().find(|n| n.name == Name::Alpha).unwrap().estimate;
+    assert!((alpha.value / truth.alpha()).ln().abs() < 0.1, "{alpha:?}");
 }
 
 /// The error of a measured footprint is carried along: without it an interval is narrower.

@@ -12,7 +12,7 @@ DOCUMENTS ?= 1000000
 RUNS ?= 1000
 
 # Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
-trial := --profile trial --no-default-features
+trial := -p stickslip-cli --profile trial --no-default-features
 stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
@@ -86,15 +86,15 @@ peers: ## race other programs on one problem at matched error: data/peers.json, 
 	python3 peers/race.py data
 
 fuzz: ## millions of mutated files, command lines and documents, 100,000 random motions; CASES, DOCUMENTS and MOTIONS set how many
-	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked -p stickslip --lib fuzz::any -- --nocapture
-	PROPTEST_CASES=$(DOCUMENTS) $(CARGO) test --release --locked -p stickslip --lib fuzz_documents -- --nocapture
+	PROPTEST_CASES=$(CASES) $(CARGO) test --release --locked -p stickslip-cli --lib fuzz::any -- --nocapture
+	PROPTEST_CASES=$(DOCUMENTS) $(CARGO) test --release --locked -p stickslip-cli --lib fuzz_documents -- --nocapture
 	PROPTEST_CASES=$(MOTIONS) $(CARGO) test --release --locked --test science properties
 
 doc: ## the libraries' documentation, in target/doc
 	$(CARGO) doc --workspace --no-deps --locked
 
 install: ## put `stickslip` among cargo's binaries
-	$(CARGO) install --locked --path .
+	$(CARGO) install --locked --path crates/cli
 
 site: ## the book and the page to play with, in target/site (needs node and a standard library for wasm32)
 	.ci/site

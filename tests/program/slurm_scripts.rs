@@ -31,7 +31,8 @@ fn submit(folder: &Folder, parts: &str, options: &str) -> Output {
     folder.write("sbatch", SBATCH);
     std::fs::set_permissions(&sbatch, PermissionsExt::from_mode(0o755)).unwrap();
     let path = std::env::var("PATH").unwrap();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/slurm/submit.sh");
+    let script =
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("examples/slurm/submit.sh");
     Command::new(script)
         .args(["map.json", parts])
         .args(options.split(' '))

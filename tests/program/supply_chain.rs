@@ -36,7 +36,7 @@ const DEFAULTS_WANTED: [(&str, &str); 2] = [
 ];
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
 /// Every package of the build, ours included.

@@ -39,7 +39,7 @@ fn found((beta, alpha, r): (f64, f64, f64)) -> Cycle {
 }
 
 fn reference(name: &str) -> f64 {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/reference_values.json");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/reference_values.json");
     let text = std::fs::read_to_string(path).unwrap();
     let document: serde_json::Value = serde_json::from_str(&text).unwrap();
     document["values"][name]["value"].as_str().unwrap().parse().unwrap()

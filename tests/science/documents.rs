@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use std::io::{self, Read};
-use stickslip_documents::{
+use stickslip::{
     Dimension, RegimeName, RunDocument, RunEnd, RunParameters, SCHEMAS, SteadyState, SweepDocument,
     WorkDocument, dimension, read, read_from,
 };
@@ -154,7 +154,7 @@ fn no_number_is_longer_than_a_person_reads() {
     let sizes: Vec<f64> = sizes.chain([0.0, f64::MIN_POSITIVE, 1e308, 5e-324]).collect();
     for value in sizes.iter().flat_map(|size| [*size, -size]) {
         for error in &sizes {
-            let shown = stickslip_documents::to_its_digits(value, *error);
+            let shown = stickslip::to_its_digits(value, *error);
             assert!(shown.len() <= 42, "{value:e} ± {error:e}: {shown}");
             let (before, rest) = shown.split_once('(').unwrap_or((&shown, ")"));
             let after = rest.split_once(')').unwrap().1;
@@ -163,6 +163,6 @@ fn no_number_is_longer_than_a_person_reads() {
             assert!(off <= *error + 1e-13 * value.abs() + 1e-320, "{value:e} ± {error:e}: {shown}");
         }
     }
-    assert_eq!(stickslip_documents::to_its_digits(f64::NAN, 1.0), "NaN(?)");
-    assert_eq!(stickslip_documents::to_its_digits(1.0, f64::INFINITY), "1e0(?)");
+    assert_eq!(stickslip::to_its_digits(f64::NAN, 1.0), "NaN(?)");
+    assert_eq!(stickslip::to_its_digits(1.0, f64::INFINITY), "1e0(?)");
 }

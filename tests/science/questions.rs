@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use stickslip_documents::{
+use stickslip::{
     Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure, Tip, read,
 };
 use stickslip_tip::TipFunction;

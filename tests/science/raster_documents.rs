@@ -1,6 +1,6 @@
 //! A document of a raster is the raster: plan and lines come back from its text.
 
-use stickslip_documents::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
+use stickslip::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 

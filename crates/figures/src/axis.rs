@@ -1,7 +1,7 @@
 //! The range of an axis, linear or logarithmic, and its ticks.
 
 use crate::ticks::{self, Tick};
-use stickslip_documents::ScaleName;
+use stickslip::ScaleName;
 
 /// Spans below this part of the scale are taken for round-off of a constant.
 const ROUND_OFF: f64 = 1e-6;

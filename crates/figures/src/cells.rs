@@ -4,7 +4,7 @@ use crate::curve::Frame;
 use crate::style::colour;
 use crate::svg::{Paint, Svg, number};
 use std::fmt::Write;
-use stickslip_documents::CellsDocument;
+use stickslip::CellsDocument;
 
 /// The cells, a path for each kind. Each reaches half-way to its neighbours, those at the ends as far to either side, where
 /// the axes do not cut them.

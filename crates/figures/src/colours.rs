@@ -1,6 +1,6 @@
 //! Colours by height. All are told apart by the colour-blind and in print.
 
-use stickslip_documents::ColoursName;
+use stickslip::ColoursName;
 
 /// The colour at a part of the scale, 0 to 1.
 pub(crate) fn at(colours: ColoursName, part: f64) -> [u8; 3] {

@@ -5,7 +5,7 @@ use crate::style::{BAND_OPACITY, Mark, Pen, SHADE_OPACITY, Shape, colour};
 use crate::svg::{Paint, Rect, Svg, number, polyline};
 use crate::thin::{Point, thin};
 use std::fmt::Write;
-use stickslip_documents::{ColourName, CurveDocument, StyleName};
+use stickslip::{ColourName, CurveDocument, StyleName};
 
 /// About how many points all lines of a panel may have together, so that a file of three panels
 /// stays below 300 kB (a point takes some 14 bytes).
@@ -189,7 +189,7 @@ fn handle(before: Point, here: Point, next: Point) -> Point {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip_documents::ScaleName;
+    use stickslip::ScaleName;
 
     fn axis(low: f64, high: f64) -> Axis {
         Axis::new(low, high, ScaleName::Linear, 5.0)

@@ -4,7 +4,7 @@ use crate::error::FigureError;
 use crate::format::FigureFormat;
 use crate::sheet::sheet;
 use crate::size::Size;
-use stickslip_documents::FigureDocument;
+use stickslip::FigureDocument;
 
 /// Draws a figure. The same figure gives the same bytes.
 ///

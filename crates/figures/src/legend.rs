@@ -4,7 +4,7 @@ use crate::curve::{is_empty, marked, shape};
 use crate::style::{BAND_OPACITY, LEGEND_SIZE, Mark, Pen, Shape, colour};
 use crate::svg::{Anchor, Paint, Rect, Svg, Text};
 use crate::text::width;
-use stickslip_documents::PanelDocument;
+use stickslip::PanelDocument;
 
 /// Length of a sample line.
 const LINE: f64 = 34.0;

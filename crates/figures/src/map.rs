@@ -7,7 +7,7 @@ use crate::picture::data_url;
 use crate::style::{INK, LABEL_SIZE, TICK_SIZE};
 use crate::svg::{Anchor, Paint, Rect, Svg, Text};
 use crate::text::width;
-use stickslip_documents::{ColoursName, MapDocument, ScaleName};
+use stickslip::{ColoursName, MapDocument, ScaleName};
 
 const BAR_GAP: f64 = 16.0;
 const BAR: f64 = 18.0;

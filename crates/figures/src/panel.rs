@@ -9,7 +9,7 @@ use crate::map::Map;
 use crate::style::{GRID, INK, LABEL_SIZE, Pen, SHADE_OPACITY, Shape, TICK_SIZE, colour};
 use crate::svg::{Anchor, Paint, Rect, Svg, Text};
 use crate::text::{width, wrapped};
-use stickslip_documents::{ArrowName, ColourName, PanelDocument};
+use stickslip::{ArrowName, ColourName, PanelDocument};
 
 /// Room right of the axes, for half of the last tick label.
 const MARGIN_RIGHT: f64 = 28.0;

@@ -6,7 +6,7 @@ use crate::size::Size;
 use crate::style::TITLE_SIZE;
 use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
 use crate::text::wrapped;
-use stickslip_documents::{FigureDocument, PanelDocument};
+use stickslip::{FigureDocument, PanelDocument};
 
 /// Columns narrower than this leave no room for axes: panels are then set below each other.
 const NARROWEST: f64 = 240.0;

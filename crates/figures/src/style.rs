@@ -2,7 +2,7 @@
 //!
 //! One unit is half a point, 1/144 inch: letters of 8 points are 16 units high.
 
-use stickslip_documents::{ColourName, StyleName};
+use stickslip::{ColourName, StyleName};
 
 /// Of tick labels, axis labels, legends and titles.
 pub(crate) const TICK_SIZE: f64 = 14.0;

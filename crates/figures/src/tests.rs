@@ -1,7 +1,7 @@
 //! A figure as a whole: limits, bytes, what is drawn of what.
 
 use crate::{FigureFormat, Size, View, draw, of, saved, svg};
-use stickslip_documents::{
+use stickslip::{
     ColourName, CurveDocument, FigureDocument, ModelParameters, PanelDocument, RunDocument,
     RunParameters, ScaleName, StyleName,
 };
@@ -135,7 +135,7 @@ fn document(
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},
         "parameters": parameters, "steady_state": {"l": scenario.model.steady_l(), "lag": 0.0, "surface_behind": null},
         "samples": {"t": [0.0, 1.0, 2.0], "l": [0.0, 0.0, 0.0], "x0": [0.0, 0.0, 0.0], "velocity": [0.0, 0.0, 0.0]},
-        "history": stickslip_documents::History::from(trajectory), "regime": "transient", "oscillation": null,
+        "history": stickslip::History::from(trajectory), "regime": "transient", "oscillation": null,
         "interrupted": false,
         "work": {"memory": "", "memory_reason": "", "steps": 0, "rejected": 0, "newton_iterations": 0, "seconds": 0.0},
     });

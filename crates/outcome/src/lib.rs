@@ -78,8 +78,3 @@ pub struct Prospect {
     /// How much longer that would take, in Γ/k, where it can be told.
     pub time: Option<f64>,
 }
-
-/// The README's example is compiled and run.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;

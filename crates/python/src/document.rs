@@ -12,7 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use stickslip_cli::hosted::{self, Made};
-use stickslip_documents::RunDocument;
+use stickslip::RunDocument;
 use stickslip_figures::{self as figures, FigureFormat, Size, View, Width};
 use stickslip_tip::Trajectory;
 
@@ -106,7 +106,7 @@ impl Document {
 
     /// Its table: columns by name, in order; words are lists.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        use stickslip_documents::Column;
+        use stickslip::Column;
         let own = |column: Column<'_>| match column {
             Column::Words(words, _) => Err(words),
             // A column of numbers stays one where none of them is there: NaN.

@@ -3,7 +3,7 @@
 use crate::failed::unusable;
 use pyo3::PyResult;
 use pyo3::exceptions::PyRuntimeError;
-use stickslip_documents::RunDocument;
+use stickslip::RunDocument;
 use stickslip_surface::Surface;
 use stickslip_tip::{Support, Trajectory};
 

@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::any::Any;
 use stickslip_cli::hosted::Document;
-use stickslip_documents::{RunDocument, Samples};
+use stickslip::{RunDocument, Samples};
 
 /// The columns of a run that Python has.
 pub(crate) struct Taken(Vec<(&'static str, Py<PyArray1<f64>>)>);

@@ -4,8 +4,8 @@ use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
 use crate::failed::Failed;
 use std::ops::ControlFlow;
+use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
-use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
 use stickslip_outcome::{Regime, judge_trajectory};
 use stickslip_tip::{Scenario, Trajectory};
 

@@ -3,7 +3,7 @@
 use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
-use stickslip_documents::{FigureDocument, ScaleName, StyleName};
+use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_stability::{Boundary, onset_at};
 
 /// log₁₀ of the r shown.

@@ -3,7 +3,7 @@
 use super::parts::{curve, figure as figure_with, finished, heights, panel, spaced};
 use super::tips::beta_1;
 use crate::failed::Failed;
-use stickslip_documents::{FigureDocument, StyleName};
+use stickslip::{FigureDocument, StyleName};
 use stickslip_tip::{Model, Noise, Scenario, Start};
 
 const END: f64 = 457.0;

@@ -4,7 +4,7 @@ use super::onset::{FITTED, Onset};
 use super::parts::{curve, failed, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
-use stickslip_documents::{FigureDocument, PanelDocument, StyleName};
+use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_stability::onset;
 
 /// α - αc of the cycles, and of steady motion below.

@@ -5,7 +5,7 @@ use super::onset::{FITTED, Onset};
 use super::parts::{curve, figure as empty, panel};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
-use stickslip_documents::{FigureDocument, StyleName};
+use stickslip::{FigureDocument, StyleName};
 
 pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let tips = [beta_1()?, beta_0()?];

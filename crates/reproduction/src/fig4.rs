@@ -4,7 +4,7 @@ use super::parts::{curve, failed, figure as empty, finished, heights, panel, spa
 use super::tips::{BETA_0, beta_0};
 use crate::failed::Failed;
 use std::sync::LazyLock;
-use stickslip_documents::{FigureDocument, StyleName};
+use stickslip::{FigureDocument, StyleName};
 use stickslip_tip::{Noise, Run, Scenario};
 
 pub(super) const END: f64 = 460.0;

@@ -5,7 +5,7 @@ use super::onset::Onset;
 use super::parts::{figure as empty, spaced};
 use super::tips::beta_1;
 use crate::failed::Failed;
-use stickslip_documents::FigureDocument;
+use stickslip::FigureDocument;
 
 const ALPHA: f64 = 1.0;
 const STEADY: [f64; 2] = [0.01, 0.02];

@@ -3,7 +3,7 @@
 use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
-use stickslip_documents::{FigureDocument, StyleName};
+use stickslip::{FigureDocument, StyleName};
 use stickslip_stability::Boundary;
 
 /// Gnecco et al.: k = 1.406 N/(σ v0) is α = r/1.406.

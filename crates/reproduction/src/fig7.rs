@@ -4,7 +4,7 @@ use super::fig4::{END, settled};
 use super::parts::{failed, figure as empty, panel, spaced};
 use super::tips::BETA_0;
 use crate::failed::Failed;
-use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
+use stickslip::{ColoursName, FigureDocument, MapDocument};
 use stickslip_surface::Surface;
 use stickslip_tip::Footprint;
 

@@ -3,7 +3,7 @@
 use super::parts::{figure as empty, finished, heights, panel, spaced};
 use super::tips::beta_1;
 use crate::failed::Failed;
-use stickslip_documents::{ColoursName, FigureDocument, MapDocument};
+use stickslip::{ColoursName, FigureDocument, MapDocument};
 use stickslip_tip::Scenario;
 
 const ALPHA: f64 = 1.4;

@@ -23,7 +23,7 @@ mod work_precision;
 pub use failed::Failed;
 pub use table::{page, table};
 
-use stickslip_documents::FigureDocument;
+use stickslip::FigureDocument;
 
 /// A figure: its name, and what computes it.
 pub type Figure = (&'static str, fn() -> Result<FigureDocument, Failed>);

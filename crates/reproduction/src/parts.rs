@@ -2,9 +2,7 @@
 
 use crate::failed::Failed;
 use std::fmt::Display;
-use stickslip_documents::{
-    CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName,
-};
+use stickslip::{CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName};
 use stickslip_surface::Surface;
 use stickslip_tip::{Model, Run, Scenario, run};
 

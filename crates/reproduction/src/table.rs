@@ -8,7 +8,7 @@ mod printed;
 pub use markdown::page;
 
 use crate::failed::Failed;
-use stickslip_documents::ReproductionDocument;
+use stickslip::ReproductionDocument;
 
 /// The numbers.
 ///

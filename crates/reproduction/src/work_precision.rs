@@ -4,10 +4,10 @@
 use super::parts::{curve, failed, figure as empty, panel};
 use crate::failed::Failed;
 use serde::Deserialize;
-use stickslip_documents::{FigureDocument, ScaleName, StyleName};
+use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};
 
-/// Written by examples/work_precision.
+/// Written by benches/work_precision.
 const MEASURED: &str = include_str!("../../../data/work_precision.json");
 
 #[derive(Debug, Deserialize)]

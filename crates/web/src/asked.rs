@@ -2,7 +2,7 @@
 
 use crate::refusal::Refusal;
 use serde::Deserialize;
-use stickslip_documents::StartName;
+use stickslip::StartName;
 use stickslip_tip::{Model, Scenario, TipFunction, Wider};
 
 /// Lengths in σ, times in Γ/k, heights in kσ²/a.

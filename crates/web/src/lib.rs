@@ -1,7 +1,7 @@
 //! The libraries in a browser: what the page of `crates/web/page` calls, from its workers.
 //!
 //! Parameters come, and what is found goes, as JSON; columns of numbers go as arrays. Documents are those that the
-//! program writes (`stickslip_documents`), and each has the command line that makes the same.
+//! program writes (`stickslip`), and each has the command line that makes the same.
 
 mod asked;
 mod limits;

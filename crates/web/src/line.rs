@@ -2,7 +2,7 @@
 
 use crate::asked::Asked;
 use crate::scan::Scan;
-use stickslip_documents::StartName;
+use stickslip::StartName;
 
 /// Options of the model; what is the program's default is left out.
 fn model(asked: &Asked) -> String {

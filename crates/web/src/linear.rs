@@ -3,7 +3,7 @@
 use crate::asked::Asked;
 use crate::refusal::Refusal;
 use serde::Serialize;
-use stickslip_documents::{ComplexDocument, CriticalDocument, SteadyState};
+use stickslip::{ComplexDocument, CriticalDocument, SteadyState};
 use stickslip_stability::{
     Critical, OnsetKind, StabilityError, critical, critical_under, leading_roots, trapping_alpha,
     unstable_count,

@@ -3,7 +3,7 @@
 use crate::asked::Asked;
 use crate::limits::{MOST_MILLISECONDS, MOST_TIME, STEPS_PER_LOOK};
 use crate::refusal::Refusal;
-use stickslip_documents::{
+use stickslip::{
     OscillationDocument, RunDocument, RunEnd, RunParameters, SampleLine, SteadyState, Times,
     WorkDocument,
 };

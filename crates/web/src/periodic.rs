@@ -2,7 +2,7 @@
 
 use crate::asked::Asked;
 use crate::refusal::Refusal;
-use stickslip_documents::{Ask, Context, Cycle, CycleDocument, Indentation, Tip};
+use stickslip::{Ask, Context, Cycle, CycleDocument, Indentation, Tip};
 
 pub(crate) fn cycle_document(asked: &Asked) -> Result<CycleDocument, Refusal> {
     let model = asked.model()?;

@@ -1,7 +1,7 @@
 //! Why there is no result, in words for the page.
 
 use stickslip_cycles::CycleError;
-use stickslip_documents::Unusable;
+use stickslip::Unusable;
 use stickslip_raster::RasterError;
 use stickslip_stability::StabilityError;
 use stickslip_surface::SurfaceError;
@@ -34,7 +34,7 @@ pub(crate) enum Refusal {
     #[error(transparent)]
     Cycle(#[from] CycleError),
     #[error(transparent)]
-    Question(#[from] stickslip_documents::Failure),
+    Question(#[from] stickslip::Failure),
     #[error(transparent)]
     Raster(#[from] RasterError),
 }

@@ -4,7 +4,7 @@ use crate::asked::Asked;
 use crate::limits::MOST_LINES;
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
-use stickslip_documents::{PathName, PatternDocument, RasterRegimeName};
+use stickslip::{PathName, PatternDocument, RasterRegimeName};
 use stickslip_raster::{Path, Plan, Scanned, Scanning, pattern};
 use stickslip_tip::{Footprint, Scenario};
 

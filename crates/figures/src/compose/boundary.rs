@@ -5,7 +5,7 @@ use super::labels::{ALPHA, R};
 use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
-use stickslip_documents::{
+use stickslip::{
     BoundaryDocument, BranchDocument, CurveDocument, FigureDocument, ModelParameters, NoteDocument,
     PanelDocument, ScaleName, SpacingName, StyleName,
 };

@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::error::FigureError;
-use stickslip_documents::{
+use stickslip::{
     CompareDocument, CurveDocument, FigureDocument, PanelDocument, ScaleName, StyleName,
 };
 

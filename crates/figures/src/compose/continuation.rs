@@ -6,7 +6,7 @@ use super::tip::tip_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::seven_digits;
-use stickslip_documents::{
+use stickslip::{
     ColourName, ContinueDocument, CurveDocument, CycleBranch, FigureDocument, OverName,
     PanelDocument, ScaleName, SpecialName, StyleName,
 };

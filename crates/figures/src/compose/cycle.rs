@@ -7,9 +7,7 @@ use super::run::against;
 use super::tip::model_name;
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
-use stickslip_documents::{
-    CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable,
-};
+use stickslip::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable};
 use stickslip_surface::Surface;
 use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_weights};
 

@@ -1,6 +1,6 @@
 //! A motion drawn from its dense history: no peak is lost between samples, however long the run.
 
-use stickslip_documents::{CurveDocument, StyleName};
+use stickslip::{CurveDocument, StyleName};
 use stickslip_tip::{Step, Trajectory};
 
 /// Points within a step: its polynomials are of degree 5 and less.

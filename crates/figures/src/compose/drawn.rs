@@ -1,7 +1,7 @@
 //! What has a figure, and what may be asked of it.
 
 use crate::error::FigureError;
-use stickslip_documents::{FigureDocument, KnownScales, Tabular};
+use stickslip::{FigureDocument, KnownScales, Tabular};
 
 /// What is asked of a figure beyond what its document says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

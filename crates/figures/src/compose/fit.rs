@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
-use stickslip_documents::{
+use stickslip::{
     ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, Law, ModelParameters,
     NumberFitted, PanelDocument, StyleName,
 };

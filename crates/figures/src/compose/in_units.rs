@@ -1,7 +1,7 @@
 //! A finished figure with its axes in nm, s and nN: what an axis is a multiple of stands in its label.
 
 use super::View;
-use stickslip_documents::{CurveDocument, Dimension, FigureDocument, KnownScales, PanelDocument};
+use stickslip::{CurveDocument, Dimension, FigureDocument, KnownScales, PanelDocument};
 
 /// By what the numbers along an axis are multiplied, and its label then.
 struct Axis {

@@ -3,7 +3,7 @@
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
+use stickslip::{
     ColourName, CurveDocument, EstimateDocument, FigureDocument, GaussianDocument,
     MeasuredTipDocument, ModelParameters, PanelDocument, StyleName, TipDocument,
 };

@@ -26,7 +26,7 @@ use crate::error::FigureError;
 use in_units::{asked_of, in_units};
 use serde::Serialize;
 use std::io::Read;
-use stickslip_documents::{
+use stickslip::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,

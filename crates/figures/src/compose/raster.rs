@@ -6,7 +6,7 @@ use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
 use std::f64::consts::{PI, TAU};
-use stickslip_documents::{
+use stickslip::{
     ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
     PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterParameters,
     RasterSurfaceDocument, ScaleName, StyleName,

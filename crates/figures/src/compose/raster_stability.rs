@@ -4,7 +4,7 @@ use super::drawn::{Drawn, View};
 use super::tip::{model_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
+use stickslip::{
     CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument, RasterStabilityDocument,
     StyleName,
 };

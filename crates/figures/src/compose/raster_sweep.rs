@@ -5,7 +5,7 @@ use super::tip::tip_name;
 use crate::cells::{ascending, edges};
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
+use stickslip::{
     CellsDocument, ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument,
     PathName, PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
 };

@@ -3,9 +3,7 @@
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::error::FigureError;
-use stickslip_documents::{
-    CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName,
-};
+use stickslip::{CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName};
 
 /// A pulse lasts for so many of its widths on either side.
 const WIDTHS: f64 = 5.0;

@@ -9,7 +9,7 @@ use super::tip::model_name;
 use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
-use stickslip_documents::{
+use stickslip::{
     CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters,
     StyleName, to_its_digits,
 };

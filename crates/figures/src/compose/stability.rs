@@ -4,7 +4,7 @@ use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
-use stickslip_documents::{
+use stickslip::{
     ColourName, ComplexDocument, CurveDocument, FigureDocument, PanelDocument, StabilityDocument,
     StyleName,
 };

@@ -6,7 +6,7 @@ use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
+use stickslip::{
     ColoursName, CurveDocument, FigureDocument, MapDocument, PanelDocument, StyleName,
     SurfaceCurve, SurfaceDocument,
 };
@@ -35,7 +35,7 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     let heights = document.images.iter().flat_map(|image| image.u.iter().flatten().copied());
     let range = extremes(heights.filter(|u| u.is_finite()));
     let range = range.filter(|(low, high)| low < high).map(|(low, high)| [low, high]);
-    let panel = |image: &stickslip_documents::SurfaceImage| {
+    let panel = |image: &stickslip::SurfaceImage| {
         let mut panel = PanelDocument::new(&time(image.t), ("x (σ)", "y (σ)"));
         panel.map = Some(MapDocument {
             x: image.x.clone(),
@@ -83,8 +83,8 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
 
 /// All in the first panel, in colours and dashes of their own.
 fn overlaid(panels: Vec<PanelDocument>) -> Vec<PanelDocument> {
-    use stickslip_documents::ColourName::{Black, Blue, Green, Orange, Purple, Sky, Vermillion};
-    const COLOURS: [stickslip_documents::ColourName; 7] =
+    use stickslip::ColourName::{Black, Blue, Green, Orange, Purple, Sky, Vermillion};
+    const COLOURS: [stickslip::ColourName; 7] =
         [Blue, Vermillion, Green, Purple, Orange, Sky, Black];
     const STYLES: [StyleName; 3] = [StyleName::Line, StyleName::Dashed, StyleName::Dotted];
     let mut all = panels.into_iter();

@@ -8,7 +8,7 @@ use super::drawn::{Drawn, View};
 use super::tip::tip_name;
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{FigureDocument, ModelParameters, SweepDocument, SweepParameters};
+use stickslip::{FigureDocument, ModelParameters, SweepDocument, SweepParameters};
 use varied::varied;
 
 /// Refuses a grid that no picture shows, before its points are computed.
@@ -64,7 +64,7 @@ fn fixed(parameters: &SweepParameters) -> String {
 fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
     let first = |values: &Option<Vec<f64>>| values.as_ref().and_then(|v| v.first().copied());
     let (alpha, alpha_above) = (first(&parameters.alpha), first(&parameters.alpha_above));
-    let model = |tip: &stickslip_documents::TipDocument| {
+    let model = |tip: &stickslip::TipDocument| {
         let (alpha, r) = (alpha.or(alpha_above)?, *parameters.r.first()?);
         Some(ModelParameters::papers(tip.clone(), alpha, alpha_above, r))
     };

@@ -1,7 +1,7 @@
 //! What a tip and a model are called in titles.
 
 use crate::number::{seven_digits, short};
-use stickslip_documents::{GaussianDocument, ModelParameters, TipDocument};
+use stickslip::{GaussianDocument, ModelParameters, TipDocument};
 
 /// Numbers closer than this are taken for the same.
 const SAME: f64 = 1e-9;

@@ -4,7 +4,7 @@ use super::drawn::{Drawn, View};
 use super::stability::exponents;
 use super::tip::model_name;
 use crate::error::FigureError;
-use stickslip_documents::{FigureDocument, WalkDocument, WalkingDocument};
+use stickslip::{FigureDocument, WalkDocument, WalkingDocument};
 
 impl Drawn for WalkingDocument {
     /// A panel for each walk.

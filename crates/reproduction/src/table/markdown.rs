@@ -1,6 +1,6 @@
 //! The table for people.
 
-use stickslip_documents::{NumberDocument, ReproductionDocument};
+use stickslip::{NumberDocument, ReproductionDocument};
 
 const HEAD: &str = "# The paper's numbers beside ours
 

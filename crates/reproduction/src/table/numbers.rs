@@ -4,7 +4,7 @@ use super::printed::Printed;
 use crate::failed::Failed;
 use crate::parts::failed;
 use crate::tips::{Tip, beta_0, beta_1};
-use stickslip_documents::NumberDocument;
+use stickslip::NumberDocument;
 use stickslip_stability::{critical, unstable_count};
 use stickslip_tip::{InitialSurface, Model, TipFunction};
 

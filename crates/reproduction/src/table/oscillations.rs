@@ -5,7 +5,7 @@ use crate::failed::Failed;
 use crate::onset::{Onset, solved};
 use crate::parts::line_of_best_fit;
 use crate::tips::{Tip, beta_0, beta_1};
-use stickslip_documents::NumberDocument;
+use stickslip::NumberDocument;
 
 /// α - αc so small that the leading order is what one sees.
 const NEAR: [f64; 2] = [1e-3, 2e-3];

@@ -1,6 +1,6 @@
 //! A number as the paper prints it.
 
-use stickslip_documents::NumberDocument;
+use stickslip::NumberDocument;
 
 /// Where a printed number stands, and what it is the value of.
 #[derive(Debug, Clone, Copy)]

@@ -4,9 +4,7 @@ use crate::axis::extremes;
 use crate::compose::labels::{NATURAL, SURFACE};
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip_documents::{
-    ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName,
-};
+use stickslip::{ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName};
 use stickslip_surface::Surface;
 
 /// Shown on either side of the tip's way.

@@ -3,7 +3,7 @@
 use super::varied::{Phase, Varied};
 use crate::cells::ascending;
 use crate::compose::labels::{ALPHA, R};
-use stickslip_documents::{
+use stickslip::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
     TipDocument,
 };

@@ -4,9 +4,7 @@
 use super::varied::{Phase, Varied};
 use crate::axis::extremes;
 use crate::compose::labels::WIDE;
-use stickslip_documents::{
-    CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint,
-};
+use stickslip::{CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint};
 
 /// Two panels of dots.
 pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
@@ -73,7 +71,7 @@ fn range(
 
 impl Phase {
     /// The silver of areas is too light for dots.
-    fn mark(self) -> stickslip_documents::ColourName {
-        if self == Self::Steady { stickslip_documents::ColourName::Grey } else { self.colour() }
+    fn mark(self) -> stickslip::ColourName {
+        if self == Self::Steady { stickslip::ColourName::Grey } else { self.colour() }
     }
 }

@@ -1,7 +1,7 @@
 //! What a sweep varies, and what its points come to.
 
 use crate::compose::labels::{ALPHA, R};
-use stickslip_documents::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
+use stickslip::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
 
 /// A parameter that varies.
 #[derive(Debug, Clone, Copy)]

@@ -1,0 +1,157 @@
+//! `stickslip compare`.
+
+use super::examples::examples;
+use super::named::named;
+use super::{
+    DisturbanceArguments, InUnitsArguments, ModelArguments, OutletArguments, SamplingArguments,
+    ScanArguments, StartArguments,
+};
+use clap::{ArgGroup, Args};
+use std::path::PathBuf;
+use stickslip::{GridName, MemoryName};
+
+/// The closed equation against the full PDE on a grid: largest difference and speed.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = USAGE,
+    after_help = examples(EXAMPLES),
+    mut_arg("r", |r| r.required_unless_present("no_spring")),
+    mut_arg("pitch", |pitch| pitch.requires("lines").conflicts_with_all(OF_A_RUN)),
+    mut_arg("lines", |lines| lines.requires("length").conflicts_with_all(OF_A_RUN)),
+    mut_arg("length", |length| length.requires("lines")),
+    mut_arg("area", |area| area.conflicts_with_all(OF_A_RUN)),
+    mut_arg("path", |path| path.requires("rastered")),
+    mut_arg("width_y", |width| width.requires("rastered")),
+    group(ArgGroup::new("rastered").args(["lines", "area"]).multiple(true))
+)]
+pub(crate) struct CompareArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Time at which both end (they start as `stickslip run` does), in Γ/k.
+    #[arg(
+        long,
+        value_name = "T",
+        allow_hyphen_values = true,
+        required_unless_present_any = ["lines", "area"]
+    )]
+    pub(crate) until: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) scan: ScanArguments,
+
+    #[command(flatten)]
+    pub(crate) start: StartArguments,
+
+    #[command(flatten)]
+    pub(crate) disturbance: DisturbanceArguments,
+
+    /// How the closed equation remembers the past.
+    #[arg(
+        long,
+        value_parser = named::<MemoryName>(),
+        value_name = "MEMORY",
+        default_value = "auto",
+        help_heading = "Closed equation"
+    )]
+    pub(crate) memory: MemoryName,
+
+    /// Error of x0(t) asked of the closed equation, in σ; from 1e-13 to 1e-2.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value = "1e-9",
+        allow_hyphen_values = true,
+        help_heading = "Closed equation"
+    )]
+    pub(crate) tolerance: f64,
+
+    /// Which discretisation of (10), (11); of a raster sinc, which spectral stands for there too, or windowed.
+    #[arg(
+        long,
+        value_parser = named::<GridName>(),
+        value_name = "GRID",
+        default_value = "spectral",
+        help_heading = "Grid"
+    )]
+    pub(crate) grid: GridName,
+
+    /// Δx, in σ [default: the widest exact to round-off for spectral and sinc, 0.01 tip widths for
+    /// uniform and windowed; the paper has 0.001].
+    #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) spacing: Option<f64>,
+
+    /// Adaptive steps of local error E, in every unknown [default: as --tolerance].
+    #[arg(
+        long,
+        value_name = "E",
+        conflicts_with = "step",
+        allow_hyphen_values = true,
+        help_heading = "Grid"
+    )]
+    pub(crate) grid_tolerance: Option<f64>,
+
+    /// Steps of this length throughout instead, at most that of the run; the paper has about 0.04.
+    #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) step: Option<f64>,
+
+    /// The grid goes only to this time; the speedup is that over the same span of time.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
+    pub(crate) grid_until: Option<f64>,
+
+    /// Give up once either side is seen to need more than so many seconds.
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 600.0,
+        allow_hyphen_values = true,
+        help_heading = "Output"
+    )]
+    pub(crate) time_limit: f64,
+
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArguments,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
+
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
+
+    /// Draw both motions, and how far apart they and the surfaces are, to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
+const USAGE: &str =
+    "stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip compare (--alpha <A> | --alpha-above <D>) --r <R>
+           --pitch <D> --lines <N> --length <X> [OPTIONS]
+       stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]";
+
+/// What lines of a raster have not: they start flat and end where they do.
+const OF_A_RUN: [&str; 11] = [
+    "until",
+    "start",
+    "start_position",
+    "kick",
+    "support_path",
+    "start_velocity",
+    "noise",
+    "seed",
+    "initial_surface",
+    "force_file",
+    "grid_until",
+];
+
+const EXAMPLES: &str = "Examples:
+  Against the strongest grid, exact to round-off in space:
+    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76 -o compare.json --plot compare.svg
+  From the paper's own start, noise on a flat surface:
+    stickslip compare --alpha-above 0.01 --r 1 --start paper --until 76
+  Against the paper's scheme at its Δx and Δt, within a window of the tip:
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
+  A raster against rows of cells:
+    stickslip compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 24 --length 40 -o rasters.json --plot rasters.png
+  Against the paper's own grid, for a time unit of it:
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid uniform --spacing 0.001 --step 0.04 --grid-until 17";

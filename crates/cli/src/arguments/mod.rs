@@ -1,0 +1,151 @@
+//! What can be typed. Parsing only: values are judged where they are used.
+
+mod boundary;
+mod compare;
+mod continuation;
+mod cycle;
+mod disturbance;
+mod examples;
+mod figures;
+mod fit;
+mod in_units;
+mod interval;
+mod model;
+mod named;
+mod outlet;
+mod plot;
+mod range;
+mod raster;
+mod raster_sweep;
+mod response;
+mod run;
+mod sampling;
+mod scan;
+mod shard;
+mod stability;
+mod start;
+mod surface;
+mod sweep;
+mod sweep_start;
+mod tip;
+mod units;
+mod verify;
+
+pub(crate) use boundary::BoundaryArguments;
+pub(crate) use compare::CompareArguments;
+pub(crate) use continuation::ContinueArguments;
+pub(crate) use cycle::{CycleArguments, CycleStart};
+pub(crate) use disturbance::DisturbanceArguments;
+pub(crate) use figures::{FigureName, FiguresArguments};
+pub(crate) use fit::{FitArguments, ScanName};
+pub(crate) use in_units::InUnitsArguments;
+pub(crate) use interval::Interval;
+pub(crate) use model::{ModelArguments, TipArguments, WiderArguments};
+pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
+pub(crate) use plot::PlotArguments;
+pub(crate) use range::Range;
+pub(crate) use raster::RasterArguments;
+pub(crate) use raster_sweep::RasterSweepArguments;
+pub(crate) use response::ResponseArguments;
+pub(crate) use run::{HistoryName, RunArguments};
+pub(crate) use sampling::SamplingArguments;
+pub(crate) use scan::ScanArguments;
+pub(crate) use stability::StabilityArguments;
+pub(crate) use start::{StartArguments, StartChoice};
+pub(crate) use surface::SurfaceArguments;
+pub(crate) use sweep::{MergeArguments, SweepArguments, SweepThen};
+pub(crate) use tip::MeasuredTipArguments;
+pub(crate) use units::UnitsArguments;
+pub(crate) use verify::VerifyArguments;
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand};
+use examples::examples;
+use stickslip::SCHEMAS;
+
+/// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
+///
+/// A tip dragged over a soft surface carves it, and the groove pulls back on the tip: above a critical
+/// indentation rate it sticks, slips and writes ripples. All quantities are dimensionless: lengths in
+/// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a; --units, or --sigma and what goes with it, tell results in nm, s
+/// and nN.
+#[derive(Debug, Parser)]
+#[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
+pub(crate) struct Cli {
+    /// Say nothing but what failed: no progress, no remarks, not what was found.
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The answer to the name of the program alone.
+pub(crate) const FIRST_SCREEN: &str = "\
+stickslip: stick-slip of an AFM tip on a soft surface, from one closed delay equation
+
+To begin with:
+  stickslip stability --r 1
+      the critical indentation rate, where stick-slip sets in
+  stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 100 -o run.json --plot run.svg
+      the motion of the tip, its regime, and a picture
+  stickslip surface run.json --at 100 --range 0:110 --spacing 0.1 -o surface.csv
+      the surface that the tip has left
+  stickslip cycle --alpha 1.2 --r 1
+      the periodic motion: period, amplitude, stability
+  stickslip sweep --r 1 --alpha 0.5:3:11
+      the regime at each of several points
+
+stickslip --help           all commands, with examples
+stickslip COMMAND --help   the options of one";
+
+const EXAMPLES: &str = "Examples:
+  stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  stickslip verify run.json
+  stickslip surface run.json --at 457 --range -5:460 --spacing 0.02 -o surface.csv
+  stickslip stability --r 1
+  stickslip boundary --r-range 0.05:3:200 -o boundary.csv --plot boundary.svg
+  stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
+  stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
+  stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
+  stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
+  stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
+  stickslip tip measured.csv -o tip.json --plot tip.svg
+  stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
+  stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip plot run.json -o run.pdf --width 85mm
+  stickslip figures --out-dir figures
+  stickslip schema run
+
+`stickslip COMMAND --help` explains each command and gives examples.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Run(RunArguments),
+    Verify(VerifyArguments),
+    Surface(SurfaceArguments),
+    Stability(StabilityArguments),
+    Boundary(BoundaryArguments),
+    Compare(CompareArguments),
+    Response(ResponseArguments),
+    Cycle(CycleArguments),
+    Continue(ContinueArguments),
+    Sweep(Box<SweepArguments>),
+    Raster(RasterArguments),
+    Tip(MeasuredTipArguments),
+    Fit(Box<FitArguments>),
+    Units(UnitsArguments),
+    Plot(PlotArguments),
+    Figures(FiguresArguments),
+    Schema(SchemaArguments),
+}
+
+/// Print the JSON Schema of a document.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  stickslip schema run > run.schema.json")]
+pub(crate) struct SchemaArguments {
+    /// Kind of document.
+    #[arg(value_parser = PossibleValuesParser::new(SCHEMAS.map(|(name, _)| name)))]
+    pub(crate) name: String,
+}

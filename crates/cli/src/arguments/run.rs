@@ -1,0 +1,156 @@
+//! `stickslip run`.
+
+use super::examples::examples;
+use super::named::named;
+use super::{
+    DisturbanceArguments, FieldArguments, InUnitsArguments, ModelArguments, SamplingArguments,
+    StartArguments,
+};
+use clap::{Arg, Args, ValueEnum};
+use std::path::{Path, PathBuf};
+use stickslip::{MemoryName, RunFormat};
+
+/// Which part of the dense history a document holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HistoryName {
+    /// All of it.
+    All,
+    /// Nothing of it: the memory that a run takes does not grow with its length.
+    None,
+}
+
+/// Integrate the tip's motion, and say what became of it.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = USAGE,
+    after_help = examples(EXAMPLES),
+    mut_arg("r", |r| r.required_unless_present_any(["resume", "no_spring"])),
+    mut_args(not_on_resume)
+)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    /// Time at which the run ends (it starts when the support has pulled the tip to its start position:
+    /// about t = 16 by default), in Γ/k.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "resume")]
+    pub(crate) until: Option<f64>,
+
+    #[command(flatten)]
+    pub(crate) start: StartArguments,
+
+    #[command(flatten)]
+    pub(crate) disturbance: DisturbanceArguments,
+
+    /// How the past is remembered. All memories give the same motion to the tolerance.
+    #[arg(
+        long,
+        value_parser = named::<MemoryName>(),
+        value_name = "MEMORY",
+        default_value = "auto",
+        help_heading = "Accuracy"
+    )]
+    pub(crate) memory: MemoryName,
+
+    /// Error of l(t) and x0(t) asked for, in σ; from 1e-13 to 1e-2.
+    #[arg(
+        long,
+        value_name = "E",
+        default_value = "1e-9",
+        allow_hyphen_values = true,
+        help_heading = "Accuracy"
+    )]
+    pub(crate) tolerance: f64,
+
+    #[command(flatten)]
+    pub(crate) sampling: SamplingArguments,
+
+    /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
+    /// arrays, .jsonl for samples written as the run passes them, in memory that does not grow; `-` is
+    /// standard output [default: -].
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
+    /// terminal, else json].
+    #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
+    pub(crate) format: Option<RunFormat>,
+
+    #[command(flatten)]
+    pub(crate) in_units: InUnitsArguments,
+
+    #[command(flatten)]
+    pub(crate) fields: FieldArguments,
+
+    /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.
+    #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
+    pub(crate) history: HistoryName,
+
+    /// Draw l(t), the tip's velocity and the surface at the end to this .svg or .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) plot: Option<PathBuf>,
+
+    /// Repeat the run with another memory and a tighter tolerance, and say in the document how far the two
+    /// are apart; exit status 1 if that is more than the tolerance allows. Takes many times as
+    /// long as the run.
+    #[arg(long, help_heading = "Accuracy")]
+    pub(crate) verify: bool,
+
+    /// Save the state of the run to FILE as it goes on, so that `--resume FILE` can take it up again.
+    #[arg(long, value_name = "FILE", help_heading = "Long runs")]
+    pub(crate) checkpoint: Option<PathBuf>,
+
+    /// Time between two checkpoints, in Γ/k [default: a hundredth of the run].
+    #[arg(
+        long,
+        value_name = "T",
+        requires = "checkpoint",
+        allow_hyphen_values = true,
+        help_heading = "Long runs"
+    )]
+    pub(crate) checkpoint_every: Option<f64>,
+
+    /// Go on where the checkpoint FILE was made, and write what the run would have written, to the files that it
+    /// names if they are in its folder, or else to -o and --plot; all other options are those in FILE.
+    #[arg(long, value_name = "FILE", help_heading = "Long runs")]
+    pub(crate) resume: Option<PathBuf>,
+}
+
+const USAGE: &str = "stickslip run (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip run --resume <FILE> [-o <FILE>]";
+
+impl RunArguments {
+    /// Where the run is written to.
+    pub(crate) fn output(&self) -> &Path {
+        self.output.as_deref().unwrap_or(Path::new("-"))
+    }
+}
+
+/// A checkpoint holds all options; only where the run is written to can be another place than then.
+fn not_on_resume(argument: Arg) -> Arg {
+    match argument.get_id().as_str() {
+        "resume" | "output" | "plot" | "print" => argument,
+        _ => argument.conflicts_with("resume"),
+    }
+}
+
+const EXAMPLES: &str = "Examples:
+  The paper's Fig. 1, just above onset:
+    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  With the paper's own start, noise on a flat surface:
+    stickslip run --alpha-above 0.01 --r 1 --start paper --until 457 -o run.json
+  A tip of your own, two pulses, samples as CSV:
+    stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
+  A trapped tip:
+    stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
+  Under the depth limit (61), on a surface that heals, and a friction loop of trace and retrace:
+    stickslip run --alpha 2.6 --beta 0 --r 1 --depth-limit 20 --kick 0.05 --until 200 -o limited.json
+    stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 --until 200 -o healing.json
+    printf 't,R\n0,0\n20,20\n40,0\n' > path.csv
+    stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
+  A particle that its own past drives: the Lorenz system:
+    stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
+  A long run, its samples written as it passes them, that survives a loss of power (errors of the period
+  add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
+    stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
+    stickslip run --resume long.checkpoint";

@@ -1,0 +1,93 @@
+//! `stickslip units`.
+
+use super::examples::examples;
+use super::{ModelArguments, OutletArguments};
+use clap::Args;
+
+/// Measured quantities to the numbers of the model, and back.
+///
+/// Give all six quantities for α and r. Or leave one out for --r or --alpha, or two for both: they are
+/// solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
+/// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is refused.
+#[derive(Debug, Args)]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+pub(crate) struct UnitsArguments {
+    /// Friction Γ of the tip (kg/s or Ns/m), (1).
+    #[arg(
+        long,
+        value_name = "Γ",
+        visible_alias = "gamma",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) damping: Option<String>,
+
+    /// Spring constant k (N/m), (3).
+    #[arg(
+        long,
+        value_name = "k",
+        visible_alias = "k",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) stiffness: Option<String>,
+
+    /// Width σ of the tip (m), (7); left out, that of a --tip-file which `stickslip tip` wrote.
+    #[arg(
+        long,
+        value_name = "σ",
+        visible_alias = "sigma",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) tip_width: Option<String>,
+
+    /// Indentation rate N (m/s), (7).
+    #[arg(
+        long,
+        value_name = "N",
+        visible_alias = "N",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) indentation_rate: Option<String>,
+
+    /// Force a per slope of the surface (N), (4).
+    #[arg(
+        long,
+        value_name = "a",
+        visible_alias = "a",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) slope_force: Option<String>,
+
+    /// Velocity v0 of the support (m/s), (3).
+    #[arg(
+        long,
+        value_name = "v0",
+        visible_alias = "v0",
+        allow_hyphen_values = true,
+        help_heading = "Quantities"
+    )]
+    pub(crate) velocity: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+
+    #[command(flatten)]
+    pub(crate) outlet: OutletArguments,
+}
+
+const USAGE: &str =
+    "stickslip units --damping <Γ> --stiffness <k> --tip-width <σ> --indentation-rate <N>
+           --slope-force <a> --velocity <v0> [OPTIONS]
+       of these one may be left out for --r or --alpha, two for both";
+
+const EXAMPLES: &str = "Examples:
+  α, r, the lag, and how far it is to stick-slip:
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  The velocity and indentation rate that give α = 1.2 and r = 1:
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1
+  The indentation rate from an α fitted to a measured profile:
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --velocity 1um/s --alpha 1.2";

@@ -1,0 +1,140 @@
+//! `stickslip compare`.
+
+mod closed;
+mod grid;
+mod pace;
+mod raster;
+
+use super::job::{Job, judge_places};
+use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
+use crate::arguments::CompareArguments;
+use crate::commands::in_units::scales;
+use crate::failure::{Failure, Typed};
+use closed::Closed;
+use grid::{Discretisation, Motion};
+use stickslip::{
+    CompareDocument, CompareParameters, DifferenceDocument, KnownScales, Physical, RunParameters,
+};
+use stickslip_tip::Scenario;
+
+/// Heights compared.
+const POINTS: usize = 2001;
+
+pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    if arguments.scan.lines.is_some() || arguments.scan.area.is_some() {
+        return raster::compare(arguments);
+    }
+    let read = files_read(&arguments.model, &arguments.disturbance);
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let asked = Asked::of(arguments, scales.as_ref())?;
+    let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let closed = closed::run(&asked)?;
+    let x = asked.positions(&closed)?;
+    let motion = grid::run(&asked, &x)?;
+    let document = document(arguments, &asked, &closed, motion, x)?;
+    job.finish(document.in_units(scales.as_ref()))
+}
+
+/// The options, judged.
+struct Asked {
+    scenario: Scenario,
+    disturbance: Disturbance,
+    discretisation: Discretisation,
+    /// Time at which the grid ends.
+    grid_until: f64,
+    /// Seconds that either side may take.
+    time_limit: f64,
+}
+
+impl Asked {
+    fn of(arguments: &CompareArguments, scales: Option<&KnownScales>) -> Result<Self, Failure> {
+        let disturbance = Disturbance::of(&arguments.disturbance, scales)?;
+        let scenario = closed::scenario(arguments, &disturbance)?;
+        warn_of_idle(&arguments.disturbance, &disturbance, (scenario.start_time(), scenario.until));
+        let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
+        let start = scenario.start_time();
+        let grid_until = arguments.grid_until.unwrap_or(scenario.until);
+        if !(grid_until > start && grid_until <= scenario.until) {
+            return Err(Failure::input(
+                format!("--grid-until {}", Typed(grid_until)),
+                format!("must lie between the start at t = {start} and --until"),
+            ));
+        }
+        let (longest, step) = (grid_until - start, arguments.step.unwrap_or(0.0));
+        if step > longest {
+            return Err(Failure::input(
+                format!("--step {}", Typed(step)),
+                format!("is longer than the run of the grid: at most {} will do", Typed(longest)),
+            ));
+        }
+        let time_limit = time_limit(arguments)?;
+        Ok(Self { scenario, disturbance, discretisation, grid_until, time_limit })
+    }
+
+    /// Where the surfaces are compared: all that the tip came within reach of.
+    fn positions(&self, closed: &Closed) -> Result<Vec<f64>, Failure> {
+        let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
+        let x0 = times.iter().map(|t| closed.trajectory.x0(*t));
+        let (low, high) =
+            x0.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let reach = self.discretisation.reach;
+        self.discretisation.fits(high - low + 2.0 * reach)?;
+        Ok(super::surface::evenly(low - reach, high + reach, POINTS))
+    }
+}
+
+/// Seconds that either side may take.
+fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
+    let time_limit = arguments.time_limit;
+    if time_limit.is_nan() || time_limit <= 0.0 {
+        return Err(Failure::input(
+            format!("--time-limit {}", Typed(time_limit)),
+            "must be a number of seconds above 0",
+        ));
+    }
+    Ok(time_limit)
+}
+
+fn document(
+    arguments: &CompareArguments,
+    asked: &Asked,
+    closed: &Closed,
+    motion: Motion,
+    x: Vec<f64>,
+) -> Result<CompareDocument, Failure> {
+    let Motion { t, grid } = motion;
+    let closed_document = closed.document(&asked.scenario, &t, asked.grid_until, &x)?;
+    let spans = [asked.grid_until, asked.scenario.until].map(|t| t - asked.scenario.start_time());
+    let rates = [grid.work.seconds / spans[0], closed_document.work.seconds / spans[1]];
+    let max_difference = DifferenceDocument {
+        x0: largest_difference(&closed_document.x0, &grid.x0),
+        u: largest_difference(&closed_document.u, &grid.u),
+    };
+    if !(max_difference.x0.is_finite() && max_difference.u.is_finite()) {
+        let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
+        return Err(Failure::Run(advice.into()));
+    }
+    let (parameters, speedup) = (parameters(arguments, asked), rates[0] / rates[1]);
+    Ok(CompareDocument::new(parameters, [t, x], closed_document, grid, max_difference, speedup))
+}
+
+/// NaN where either is.
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
+}
+
+fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
+    let Disturbance { pulses, table, .. } = &asked.disturbance;
+    let above = arguments.model.alpha_above;
+    CompareParameters {
+        run: RunParameters::of(&asked.scenario, above, pulses, table.clone()),
+        grid: arguments.grid,
+        spacing: asked.discretisation.spacing,
+        grid_tolerance: asked.discretisation.tolerance(),
+        step: arguments.step,
+        grid_until: asked.grid_until,
+    }
+}

@@ -1,0 +1,105 @@
+//! The closed equation's side of a comparison.
+
+use super::Asked;
+use super::pace::{Pace, stopped, timed};
+use crate::arguments::CompareArguments;
+use crate::commands::model::wide_model;
+use crate::commands::progress::Progress;
+use crate::commands::run::disturbance::Disturbance;
+use crate::commands::run::limits::within_range;
+use crate::commands::run::{explain, option_at_fault};
+use crate::failure::Failure;
+use std::ops::ControlFlow;
+use stickslip::{ClosedDocument, ClosedWork};
+use stickslip_surface::Surface;
+use stickslip_tip::{Run, RunError, Scenario, Trajectory, run_observed};
+
+/// Steps between two looks at the clock: a step takes microseconds.
+const STEPS_PER_LOOK: u32 = 256;
+
+/// A finished run and its time.
+pub(super) struct Closed {
+    run: Run,
+    pub(super) trajectory: Trajectory,
+    seconds: f64,
+}
+
+/// The run that both sides make.
+pub(super) fn scenario(
+    arguments: &CompareArguments,
+    disturbance: &Disturbance,
+) -> Result<Scenario, Failure> {
+    let until = arguments.until.unwrap_or_default();
+    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
+    let scenario = Scenario {
+        tolerance: arguments.tolerance,
+        memory: arguments.memory.into(),
+        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, until)?
+    };
+    within_range(&arguments.model, &scenario)?;
+    scenario.validate().map_err(explained)?;
+    scenario.initial_surface().map_err(explained)?;
+    Ok(scenario)
+}
+
+/// What no judgement before the run found.
+fn at_run_time(error: &RunError) -> Failure {
+    match option_at_fault(error) {
+        Some(option) => Failure::input(option, error),
+        None => Failure::Run(error.to_string()),
+    }
+}
+
+pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
+    let Asked { scenario, time_limit, .. } = asked;
+    let span = (scenario.start_time(), scenario.until);
+    let once = || {
+        let pace = Pace::new("--until", span, *time_limit);
+        let mut progress = Progress::new(span.0, span.1);
+        let (mut steps, mut failure) = (0_u32, None);
+        let run = run_observed(scenario, |step| {
+            progress.reached(step.end());
+            steps = steps.wrapping_add(1);
+            if steps.is_multiple_of(STEPS_PER_LOOK) {
+                failure = pace.too_slow(step.end());
+            }
+            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let seconds = pace.seconds();
+        // The run looks at every step whether anybody waits for it, and this at some.
+        match failure.or_else(stopped) {
+            Some(failure) => Err(failure),
+            None => Ok((run.map_err(|error| at_run_time(&error))?, seconds)),
+        }
+    };
+    let (run, seconds) = timed(once)?;
+    Ok(Closed { trajectory: run.trajectory.clone(), run, seconds })
+}
+
+impl Closed {
+    /// x0 at the times t, u at the positions x at the time `end`.
+    pub(super) fn document(
+        &self,
+        scenario: &Scenario,
+        t: &[f64],
+        end: f64,
+        x: &[f64],
+    ) -> Result<ClosedDocument, Failure> {
+        let Self { run, trajectory, seconds } = self;
+        let surface = Surface::new(&scenario.model, &run.initial_surface, trajectory);
+        let u = surface.heights(end.min(trajectory.end()), x);
+        Ok(ClosedDocument {
+            x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
+            u: u.map_err(|error| Failure::Run(error.to_string()))?.to_vec(),
+            work: ClosedWork {
+                memory: run.memory.into(),
+                steps: run.work.steps,
+                rejected: run.work.rejected,
+                newton_iterations: run.work.newton_iterations,
+                series: run.work.series,
+                switches: run.work.switches,
+                seconds: *seconds,
+            },
+        })
+    }
+}

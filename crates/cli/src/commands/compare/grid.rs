@@ -1,0 +1,291 @@
+//! The grid's side of a comparison.
+
+use super::Asked;
+use super::pace::{Pace, timed};
+use crate::arguments::CompareArguments;
+use crate::commands::progress::Progress;
+use crate::failure::{Failure, Typed};
+use std::ops::ControlFlow;
+use stickslip::{GridDocument, GridName, GridWork};
+use stickslip_grid::{
+    Footprint, Gaussian, GridError, Method, Path, Problem, Request, Run, Start, Stepping, Wider,
+    solve_observed,
+};
+use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
+use stickslip_tip::{InitialSurface, Scenario, TipFunction};
+
+/// The widest lattice that is exact to round-off, in widths.
+const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
+/// Of the second-order grids, in widths.
+const SECOND_ORDER: f64 = 0.01;
+/// Cells on either side that a sinc reaches over, for round-off.
+const SINC_HALF_WIDTH: usize = 80;
+/// Eight vectors of these are 190 MB.
+const MOST_CELLS: f64 = 3e6;
+/// At most twice as many samples are kept.
+const SAMPLES: usize = 2048;
+
+/// A way to discretise, judged.
+pub(super) struct Discretisation {
+    name: GridName,
+    gaussians: Vec<Gaussian>,
+    pub(super) reach: f64,
+    pub(super) spacing: f64,
+    smallest_width: f64,
+    stepping: Stepping,
+}
+
+impl Discretisation {
+    pub(super) fn of(arguments: &CompareArguments, tip: &TipFunction) -> Result<Self, Failure> {
+        let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
+            let message = "never fades, and a grid counts f as 0 beyond a reach: compare with a tip \
+                           that does, such as triple-gaussian";
+            let cosine = *tip == TipFunction::Cosine;
+            let option = if cosine { "--tip cosine" } else { "--tip bessel" };
+            return Err(Failure::input(option, message));
+        };
+        let name = arguments.grid;
+        let gaussians: Vec<Gaussian> = sum
+            .terms()
+            .iter()
+            .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
+            .collect();
+        let smallest_width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
+        let spacing = arguments.spacing.unwrap_or(match name {
+            GridName::Uniform | GridName::Windowed => SECOND_ORDER * smallest_width,
+            GridName::Spectral => EXACT * smallest_width,
+            GridName::Sinc => std::f64::consts::PI / tip.band(),
+        });
+        if !(spacing > 0.0 && spacing <= smallest_width) {
+            return Err(Failure::input(
+                format!("--spacing {}", Typed(spacing)),
+                format!(
+                    "must be above 0, and at most the width of the tip, {}",
+                    Typed(smallest_width)
+                ),
+            ));
+        }
+        let stepping = stepping(arguments)?;
+        Ok(Self { name, gaussians, reach, spacing, smallest_width, stepping })
+    }
+
+    /// Judges the number of cells over a length of way.
+    pub(super) fn fits(&self, length: f64) -> Result<(), Failure> {
+        let cells = length / self.spacing;
+        if cells <= MOST_CELLS {
+            return Ok(());
+        }
+        Err(Failure::input(
+            format!("--spacing {}", Typed(self.spacing)),
+            format!(
+                "would make {cells:.1e} cells, more than fit in memory; {:.1e} or above will do, or a \
+                 smaller --grid-until",
+                length / MOST_CELLS
+            ),
+        ))
+    }
+
+    /// Local error allowed, where steps are adaptive.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        Some(self.stepping.atol).filter(|atol| atol.is_finite())
+    }
+
+    fn method(&self, (from, to): (f64, f64)) -> Method {
+        let spacing = self.spacing;
+        match self.name {
+            GridName::Uniform => Method::Uniform { spacing, from, to },
+            GridName::Windowed => Method::Windowed { spacing },
+            GridName::Spectral => Method::Spectral {
+                gaussians: self.gaussians.clone(),
+                spacing: spacing / self.smallest_width,
+            },
+            GridName::Sinc => Method::Sinc { spacing, half_width: SINC_HALF_WIDTH },
+        }
+    }
+}
+
+/// Local errors below are round-off.
+const LEAST_TOLERANCE: f64 = 1e-15;
+
+pub(super) fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
+    let above_0 = |option: &str, value: f64| {
+        let named = format!("{option} {}", Typed(value));
+        let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);
+        judged.ok_or_else(|| Failure::input(named, "must be a finite number above 0"))
+    };
+    match (arguments.step, arguments.grid_tolerance) {
+        (Some(step), _) => Ok(Stepping::fixed(above_0("--step", step)?)),
+        (None, Some(tolerance)) if tolerance > 0.0 && tolerance < LEAST_TOLERANCE => {
+            let named = format!("--grid-tolerance {}", Typed(tolerance));
+            let advice = "is below round-off, in which the grid would step for ever";
+            Err(Failure::input(named, format!("{advice}: {LEAST_TOLERANCE:e} or more will do")))
+        }
+        (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
+        (None, None) => Ok(Stepping::absolute(arguments.tolerance)),
+    }
+}
+
+/// The motion at the ends of its own steps, and the surface at its end.
+pub(super) struct Motion {
+    pub(super) t: Vec<f64>,
+    pub(super) grid: GridDocument,
+}
+
+/// Runs the grid from the scenario's start, over the domain that `x` spans.
+pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
+    let Asked { scenario, discretisation, grid_until, .. } = asked;
+    let model = &scenario.model;
+    let f = |x: f64| model.tip().value(x);
+    let force = |t: f64| scenario.force.value(t);
+    let method = discretisation.method((x[0], x[x.len() - 1]));
+    let request = Request { times: &[*grid_until], points: x };
+    let explain = |error| explain(asked, error);
+    let footprint = Footprint::new(&f, discretisation.reach).map_err(explain)?;
+    let texture = texture(scenario)?;
+    let support = scenario.support();
+    let position = |t: f64| support.position(t);
+    let knots = scenario.path.as_ref().map_or(&[][..], |path| path.knots().0);
+    let path = scenario.path.is_some().then_some(Path { position: &position, knots });
+    let law = wider(scenario, path);
+    let start = start(scenario, &law, footprint, texture.as_ref());
+    let problem = Problem::under(law, (model.alpha(), model.r()), footprint, start)
+        .map_err(explain)?
+        .with_force(&force);
+
+    let once = || -> Result<((Run, Samples), f64), Failure> {
+        let mut watch = Watch::new(asked);
+        let run =
+            solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
+                watch.step(t, x0)
+            });
+        let seconds = watch.pace.seconds();
+        match watch.failure {
+            Some(failure) => Err(failure),
+            None => Ok(((run.map_err(explain)?, watch.samples), seconds)),
+        }
+    };
+    let ((run, samples), seconds) = timed(once)?;
+    let work = GridWork {
+        steps: run.work.steps,
+        rejected: run.work.rejected,
+        right_hand_sides: run.work.right_hand_sides,
+        cells_updated: run.work.cells_updated,
+        seconds,
+    };
+    Ok(Motion { t: samples.t, grid: GridDocument { x0: samples.x0, u: run.u, work } })
+}
+
+/// What no tip has carved of the surface at the start: noise and profile.
+fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
+    if scenario.noise.is_none() && scenario.profile.is_none() {
+        return Ok(None);
+    }
+    let scenario = Scenario { start: stickslip_tip::Start::Flat, ..scenario.clone() };
+    scenario.initial_surface().map(Some).map_err(|error| Failure::Run(error.to_string()))
+}
+
+/// The law, in the grid's own words.
+fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
+    let stickslip_tip::Wider { depth_limit, healing_time, inertia, spring } =
+        *scenario.model.wider();
+    let velocity = scenario.velocity_at_start();
+    let inertia = inertia.map(|mass| (mass, velocity));
+    Wider { depth_limit, healing_time, inertia, spring, path }
+}
+
+/// The texture is given to the grid as f and the force are: as functions of what the closed equation is given.
+fn start<'a>(
+    scenario: &Scenario,
+    law: &Wider,
+    footprint: Footprint<'a>,
+    texture: Option<&'a InitialSurface>,
+) -> Start<'a> {
+    let (position, kick) = (scenario.start_position, scenario.kick);
+    let (alpha, r) = (scenario.model.alpha(), scenario.model.r());
+    let start = match scenario.start {
+        stickslip_tip::Start::Steady
+            if scenario.model.wider().is_papers() && scenario.path.is_none() =>
+        {
+            Start::steady(alpha, r, footprint, position, kick)
+        }
+        stickslip_tip::Start::Steady => {
+            Start::steady_under(law, (alpha, r), footprint, position, kick)
+        }
+        stickslip_tip::Start::Flat => {
+            Start::new(scenario.start_time(), position - kick, |_| 0.0, |_| 0.0)
+        }
+    };
+    match texture {
+        None => start,
+        Some(u) => start.on_top_of(|x| u.texture(x), |x| u.slope_and_curvature(x).0),
+    }
+}
+
+/// Looks at every step: keeps samples, shows progress, and stops what would take too long.
+struct Watch {
+    progress: Progress,
+    pace: Pace,
+    samples: Samples,
+    failure: Option<Failure>,
+}
+
+impl Watch {
+    fn new(asked: &Asked) -> Self {
+        let span = (asked.scenario.start_time(), asked.grid_until);
+        let pace = Pace::new("--grid-until", span, asked.time_limit);
+        let progress = Progress::new(span.0, span.1).at_every_call();
+        Self { progress, pace, samples: Samples::default(), failure: None }
+    }
+
+    fn step(&mut self, t: f64, x0: f64) -> ControlFlow<()> {
+        self.samples.take(t, x0);
+        self.progress.reached(t);
+        self.failure = self.pace.too_slow(t);
+        if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// The motion at every 2^n-th step, thinned as it grows.
+struct Samples {
+    t: Vec<f64>,
+    x0: Vec<f64>,
+    every: usize,
+    seen: usize,
+}
+
+impl Default for Samples {
+    fn default() -> Self {
+        Self { t: vec![], x0: vec![], every: 1, seen: 0 }
+    }
+}
+
+impl Samples {
+    fn take(&mut self, t: f64, x0: f64) {
+        self.seen += 1;
+        if !self.seen.is_multiple_of(self.every) {
+            return;
+        }
+        self.t.push(t);
+        self.x0.push(x0);
+        if self.t.len() == 2 * SAMPLES {
+            let second = |column: &[f64]| column.iter().skip(1).step_by(2).copied().collect();
+            (self.t, self.x0) = (second(&self.t), second(&self.x0));
+            self.every *= 2;
+        }
+    }
+}
+
+/// Names the option that an error of the grid is about.
+fn explain(asked: &Asked, error: GridError) -> Failure {
+    match error {
+        GridError::Defect { .. } => {
+            Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)
+        }
+        GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
+            let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may do: a deep \
+                          groove is stiff, and the grids are explicit";
+            Failure::Run(format!("grid: {error}; {advice}"))
+        }
+        error => Failure::Run(format!("grid: {error}")),
+    }
+}

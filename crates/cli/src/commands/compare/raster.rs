@@ -1,0 +1,182 @@
+//! `stickslip compare --lines`: a raster against the full equations on rows of cells.
+
+use super::grid::stepping;
+use super::pace::{PATIENCE, stopped, timed};
+use super::time_limit;
+use crate::arguments::CompareArguments;
+use crate::commands::in_units::scales;
+use crate::commands::job::{Job, judge_places};
+use crate::commands::progress::Progress;
+use crate::commands::raster::{plan_of, sample_times};
+use crate::commands::surface::evenly;
+use crate::failure::{Failure, Typed};
+use std::ops::ControlFlow;
+use std::time::Instant;
+use stickslip::{GridName, GridWork, Physical, RasterCompareDocument, RasterCompared};
+use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
+use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
+
+/// Heights compared on each row.
+const POINTS: usize = 501;
+
+pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+    let read = [
+        ("--tip-file", arguments.model.tip.tip_file.as_deref()),
+        ("--area", arguments.scan.area.as_deref()),
+    ];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let sampling = &arguments.sampling;
+    let accuracy = (arguments.tolerance, arguments.memory);
+    let pulse = &arguments.disturbance.pulse;
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
+    let scan = (&arguments.scan, scales.as_ref());
+    let (plan, parameters) = plan_of(&arguments.model, scan, pulse, accuracy)?;
+    let (stepping, limit) = (stepping(arguments)?, time_limit(arguments)?);
+    let (grid, method) = method(arguments.grid)?;
+    let spacing = spacing(arguments, method, &plan)?;
+    // Its own steps, unless times are asked for, which it would have to step to.
+    let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
+    let times = if is_asked { sample_times(sampling, &plan)? } else { vec![] };
+    let job = Job::open::<RasterCompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let (low, high) = plan.area.ends();
+    let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
+    let (lines, seconds) = closed(&plan, limit)?;
+    let (scanned, grid_seconds) =
+        on_cells(&plan, (method, spacing), &stepping, (&times, &x), limit)?;
+    let work = GridWork {
+        steps: scanned.work.steps,
+        rejected: scanned.work.rejected,
+        right_hand_sides: scanned.work.right_hand_sides,
+        cells_updated: scanned.work.cells_updated,
+        seconds: grid_seconds,
+    };
+    let asked_for = |x0: &Vec<f64>| times.iter().copied().zip(x0.iter().copied()).collect();
+    let motions = if is_asked { scanned.x0.iter().map(asked_for).collect() } else { scanned.steps };
+    let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
+    let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
+    let discretisation = (grid, spacing, tolerance, arguments.step);
+    let scanned = (&plan, lines.as_slice(), seconds);
+    let document = RasterCompareDocument::new(parameters, scanned, discretisation, compared);
+    job.finish(document.in_units(scales.as_ref()))
+}
+
+/// The one that is exact to round-off along x, or the one of second order.
+fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
+    match asked {
+        GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
+        GridName::Windowed => Ok((GridName::Windowed, RowMethod::ThreePoint)),
+        GridName::Uniform => {
+            let message = "is none for a raster: sinc is exact along x, windowed of second order";
+            Err(Failure::input("--grid uniform", message))
+        }
+    }
+}
+
+/// Δx: by default the widest that is exact to round-off, or a fiftieth of that.
+fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Result<f64, Failure> {
+    let bands = plan.footprint.layers().iter().map(|layer| layer.along.band());
+    let exact = std::f64::consts::PI / bands.fold(0.0, f64::max);
+    match arguments.spacing {
+        None if method == RowMethod::Sinc => Ok(exact),
+        None => Ok(0.02 * exact),
+        Some(spacing) if spacing > 0.0 && spacing <= exact => Ok(spacing),
+        Some(spacing) => Err(Failure::input(
+            format!("--spacing {}", Typed(spacing)),
+            format!("must be above 0, and at most {exact:.4} for cells that hold this tip"),
+        )),
+    }
+}
+
+/// All lines, and the time that they take.
+fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
+    let failed = |error: RasterError| Failure::Run(error.to_string());
+    timed(|| {
+        let clock = Instant::now();
+        let mut scanning = Scanning::new(plan).map_err(failed)?;
+        while scanning.next_line().map_err(failed)?.is_some() {
+            let done = scanning.lines().len() as f64;
+            too_slow(clock, done, plan.lines(), limit).map_or(Ok(()), Err)?;
+        }
+        // A scan that is told to end has no next line either.
+        stopped().map_or(Ok(()), Err)?;
+        let seconds = clock.elapsed().as_secs_f64();
+        Ok((scanning.into_lines(), seconds))
+    })
+}
+
+fn on_cells(
+    plan: &Plan,
+    rows: (RowMethod, f64),
+    stepping: &Stepping,
+    asked: (&[f64], &[f64]),
+    limit: f64,
+) -> Result<(Scanned, f64), Failure> {
+    type Function<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
+    let parts = plan.footprint.layers();
+    let functions: Vec<(Function, Function)> = parts
+        .iter()
+        .map(|part| -> (Function, Function) {
+            (Box::new(|x| part.along.value(x)), Box::new(|y| part.across.value(y)))
+        })
+        .collect();
+    let layers: Vec<Layer> =
+        functions.iter().map(|(along, across)| Layer { along, across }).collect();
+    let way = |n: usize| {
+        let track = plan.track(n);
+        ScanLine { y: track.y, from: track.start, to: track.x(track.length) }
+    };
+    let lines: Vec<ScanLine> = (0..plan.lines()).map(way).collect();
+    let (model, wider) = (&plan.law.model, plan.law.model.wider());
+    let reach = plan.footprint.layers().iter().filter_map(|layer| layer.along.reach());
+    let problem = Scan {
+        model: (model.alpha(), model.r()),
+        law: (wider.depth_limit, wider.healing_time, wider.inertia),
+        layers: &layers,
+        reach: (reach.fold(0.0, f64::max), plan.reach_across()),
+        lines: &lines,
+        zigzag: plan.path == Path::Zigzag,
+        force: &|t| plan.disturbance.value(t),
+    };
+    let clock = Instant::now();
+    let mut failure = None;
+    let mut progress = Progress::new(0.0, lines.len() as f64).at_every_call();
+    let mut watch = |done: f64| {
+        progress.counted(done, || format!("grid: {} of {} lines", done.floor(), lines.len()));
+        failure = too_slow(clock, done, lines.len(), limit);
+        if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let scanned = scan(&problem, rows, stepping, asked, &mut watch);
+    let seconds = clock.elapsed().as_secs_f64();
+    match (failure, scanned) {
+        (Some(failure), _) => Err(failure),
+        (None, scanned) => Ok((scanned.map_err(explain)?, seconds)),
+    }
+}
+
+/// A refusal, where the rest at the pace so far goes beyond the limit, or nobody waits for it.
+fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failure> {
+    if let Some(failure) = stopped() {
+        return Some(failure);
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    let needed = seconds * lines as f64 / done;
+    // Before a line is done nobody knows what lines take.
+    let is_known = done >= 1.0 && seconds >= PATIENCE.min(limit) && needed > limit;
+    if !is_known && seconds <= limit {
+        return None;
+    }
+    let fewer = (0.5 * limit * done / seconds).floor().max(1.0);
+    Some(Failure::input(
+        format!("--time-limit {}", Typed(limit)),
+        format!(
+            "this would take about {needed:.0} s: some {fewer} lines would do within the limit, or a higher one"
+        ),
+    ))
+}
+
+fn explain(error: GridError) -> Failure {
+    let advice = "another --step or --grid-tolerance, or fewer lines, may do: a deep groove is stiff, and the grid \
+                  is explicit";
+    Failure::Run(format!("grid: {error}; {advice}"))
+}

@@ -1,0 +1,45 @@
+//! `--plot`: its format and its place judged before the work, drawn after it.
+
+use crate::failure::Failure;
+use crate::files::output::Output;
+use std::path::Path;
+use stickslip::FigureDocument;
+use stickslip_figures::{self as figures, Drawn, FigureError, FigureFormat, Size, View};
+
+/// A figure asked for.
+#[derive(Debug)]
+pub(super) struct Figure {
+    format: FigureFormat,
+    output: Output,
+}
+
+impl Figure {
+    /// The figure that `option` named, if it did.
+    pub(super) fn asked(option: &str, path: Option<&Path>) -> Result<Option<Self>, Failure> {
+        path.map(|path| Self::at(option, path)).transpose()
+    }
+
+    /// The figure of that name.
+    pub(super) fn at(option: &str, path: &Path) -> Result<Self, Failure> {
+        let format = FigureFormat::of(path)
+            .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))?;
+        Ok(Self { format, output: Output::open(option, path)? })
+    }
+
+    /// Draws a document as `stickslip plot` does.
+    pub(super) fn draw(self, document: &dyn Drawn) -> Result<(), Failure> {
+        let figure = figures::of(document, &View::default()).map_err(|e| undrawn(&e))?;
+        self.write(&figure, &Size::default())
+    }
+
+    /// Writes a figure as what was asked for.
+    pub(super) fn write(self, figure: &FigureDocument, size: &Size) -> Result<(), Failure> {
+        let bytes = figures::draw(figure, self.format, size).map_err(|e| undrawn(&e))?;
+        self.output.write_bytes(&bytes)
+    }
+}
+
+/// A figure that failed after the work.
+pub(super) fn undrawn(error: &FigureError) -> Failure {
+    Failure::Run(format!("cannot draw: {error}"))
+}

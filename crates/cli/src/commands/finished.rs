@@ -1,0 +1,284 @@
+//! The parts of long work that are finished, kept in a file beside the output as they come: a line for what was asked,
+//! then a line a part, each with its checksum. A kill at any moment costs the points under way and at most the line
+//! being written; damage costs the lines that it touches.
+
+use crate::arithmetic::{arithmetic, foreign};
+use crate::failure::Failure;
+use crate::files::beside;
+use crate::files::place::taken;
+use crate::message::remark;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::collections::HashSet;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use stickslip::{KeptLine, Software, SweepPoint};
+
+/// A part of long work.
+pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
+    /// Such as "point", a word of small letters.
+    const NAME: &'static str;
+    /// Whose parts they are, such as "sweep".
+    const WHOLE: &'static str;
+
+    /// Which one.
+    fn index(&self) -> usize;
+}
+
+impl Part for SweepPoint {
+    const NAME: &'static str = "point";
+    const WHOLE: &'static str = "sweep";
+
+    fn index(&self) -> usize {
+        self.index
+    }
+}
+
+impl Part for KeptLine {
+    const NAME: &'static str = "line";
+    const WHOLE: &'static str = "raster";
+
+    fn index(&self) -> usize {
+        self.index
+    }
+}
+
+/// What has been finished so far, and where it is kept, if it is.
+#[derive(Debug)]
+pub(super) struct Finished<P> {
+    parts: Vec<P>,
+    kept: Option<Kept>,
+}
+
+#[derive(Debug)]
+struct Kept {
+    path: PathBuf,
+    file: File,
+    /// Somebody has removed it, or its folder.
+    is_gone: bool,
+    /// Of what it holds.
+    name: &'static str,
+}
+
+/// How the first line begins.
+const MAGIC: &[u8] = b"{\"software\":{\"name\":\"stickslip\"";
+
+/// The first line: parts of another whole, or another version, are not ours to go on from.
+#[derive(Debug, Serialize)]
+struct Head<'a, Q> {
+    software: Software,
+    /// Nor those of a machine that rounds otherwise.
+    arithmetic: String,
+    parameters: &'a Q,
+}
+
+/// The file in which the parts are kept of what goes to `output`.
+fn partial_of(output: &Path) -> PathBuf {
+    beside::with(output, ".partial")
+}
+
+impl<P: Part> Finished<P> {
+    /// Nothing yet, and nothing kept.
+    pub(super) fn in_memory() -> Self {
+        Self { parts: vec![], kept: None }
+    }
+
+    /// What an interrupted command with the same parameters left beside `output`, or nothing; `has` tells the
+    /// indices of its parts.
+    pub(super) fn beside(
+        output: &Path,
+        parameters: &impl Serialize,
+        has: impl Fn(usize) -> bool,
+    ) -> Result<Self, Failure> {
+        let path = partial_of(output);
+        let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
+        let opened = open(&path, output, &head, has);
+        let (file, parts) = opened.map_err(|error| {
+            taken("--output", output, &error).unwrap_or_else(|| {
+                let advice = "remove it, or choose another --output";
+                let message = format!("{} {error}; {advice}", path.display());
+                Failure::input(format!("--output {}", output.display()), message)
+            })
+        })?;
+        Ok(Self { parts, kept: Some(Kept { path, file, is_gone: false, name: P::NAME }) })
+    }
+
+    pub(super) fn parts(&self) -> &[P] {
+        &self.parts
+    }
+
+    /// Adds a part, and keeps it before anything else is done.
+    pub(super) fn add(&mut self, part: P) -> io::Result<()> {
+        self.keep(&part)?;
+        self.parts.push(part);
+        Ok(())
+    }
+
+    /// Keeps a part in the file alone.
+    pub(super) fn keep(&mut self, part: &P) -> io::Result<()> {
+        if let Some(kept) = &mut self.kept {
+            kept.file.write_all(&line_of(part)?)?;
+            kept.look_after();
+        }
+        Ok(())
+    }
+
+    /// Where the parts are kept.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.kept.as_ref().filter(|kept| !kept.is_gone).map(|kept| kept.path.as_path())
+    }
+
+    /// The parts by rising index.
+    pub(super) fn in_order(&self) -> Vec<P> {
+        let mut parts = self.parts.clone();
+        parts.sort_by_key(Part::index);
+        parts
+    }
+
+    /// The file is not needed any more.
+    pub(super) fn remove(self) {
+        if let Some(kept) = self.kept.filter(|kept| !kept.is_gone) {
+            std::fs::remove_file(kept.path).ok();
+        }
+    }
+}
+
+impl Kept {
+    /// Says so, once, when the file has lost its name.
+    fn look_after(&mut self) {
+        if !self.is_gone && is_removed(&self.file) {
+            self.is_gone = true;
+            let path = self.path.display();
+            let fate = "are in memory alone: an interrupt loses them; at the end they are written to \
+                        --output or, where that cannot be, to a temporary file";
+            remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
+        }
+    }
+}
+
+#[cfg(unix)]
+fn is_removed(file: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    file.metadata().is_ok_and(|data| data.nlink() == 0)
+}
+
+#[cfg(not(unix))]
+fn is_removed(_: &File) -> bool {
+    false
+}
+
+/// A part with the CRC-32 of its text.
+fn line_of<P: Part>(part: &P) -> io::Result<Vec<u8>> {
+    let text = serde_json::to_string(part)?;
+    let sum = crc32fast::hash(text.as_bytes());
+    Ok(format!("{{\"crc32\":{sum},\"{}\":{text}}}\n", P::NAME).into_bytes())
+}
+
+/// What [`line_of`] wrote; `None` of anything else.
+fn part_of<P: Part>(line: &[u8]) -> Option<P> {
+    let line = str::from_utf8(line).ok()?;
+    let separator = format!(",\"{}\":", P::NAME);
+    let (sum, text) = line.strip_prefix("{\"crc32\":")?.split_once(&separator)?;
+    let text = text.strip_suffix("}\n")?;
+    let is_whole = sum.parse() == Ok(crc32fast::hash(text.as_bytes()));
+    is_whole.then(|| serde_json::from_str(text).ok())?
+}
+
+fn open<P: Part>(
+    path: &Path,
+    output: &Path,
+    head: &impl Serialize,
+    has: impl Fn(usize) -> bool,
+) -> io::Result<(File, Vec<P>)> {
+    let mut first = serde_json::to_vec(head)?;
+    first.push(b'\n');
+    let mut text = vec![];
+    if let Some(mut file) = beside::ours(path, MAGIC)? {
+        file.read_to_end(&mut text)?;
+        if text.starts_with(&first) && !beside::has_other_names(&file)? {
+            let (length, parts) = read(path, &text, first.len(), has);
+            // What a kill left of the last line goes.
+            file.set_len(length as u64)?;
+            file.seek(SeekFrom::End(0))?;
+            return Ok((file, parts));
+        }
+        // A kill may have left a part of the first line.
+        if !text.starts_with(&first) && !first.starts_with(&text) {
+            return Err(io::Error::other(other::<P>(&text)));
+        }
+    }
+    let mut file = beside::create_like(path, MAGIC, output)?;
+    let is_taken_over = text.starts_with(&first);
+    let (length, parts) = match is_taken_over {
+        true => read(path, &text, first.len(), has),
+        false => (0, vec![]),
+    };
+    file.write_all(if is_taken_over { &text[..length] } else { &first })?;
+    Ok((file, parts))
+}
+
+/// Why parts are not ours to go on from.
+fn other<P: Part>(text: &[u8]) -> String {
+    let first = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let made = serde_json::from_slice::<serde_json::Value>(first).ok();
+    let made = made.as_ref().and_then(|head| head["arithmetic"].as_str());
+    match made {
+        Some(made) if made != arithmetic() => foreign(Some(made)),
+        _ => format!("holds the {}s of another {}", P::NAME, P::WHOLE),
+    }
+}
+
+/// The whole lines after the first: their length with that, and the parts that they hold.
+fn read<P: Part>(
+    path: &Path,
+    text: &[u8],
+    first: usize,
+    has: impl Fn(usize) -> bool,
+) -> (usize, Vec<P>) {
+    let (mut length, mut damaged, mut parts) = (first, 0, vec![]);
+    let mut seen = HashSet::new();
+    let lines = text[first..].split_inclusive(|byte| *byte == b'\n');
+    for line in lines.filter(|line| line.ends_with(b"\n")) {
+        length += line.len();
+        match part_of::<P>(line) {
+            Some(part) if has(part.index()) && seen.insert(part.index()) => parts.push(part),
+            _ => damaged += 1,
+        }
+    }
+    if damaged > 0 {
+        let path = path.display();
+        remark(format_args!(
+            "stickslip: {damaged} lines of {path} are damaged: their {}s are computed again",
+            P::NAME
+        ));
+    }
+    (length, parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(index: usize) -> SweepPoint {
+        SweepPoint {
+            critical_alpha: Some(1.069_036_174_947_265),
+            period: Some(7.25),
+            ..SweepPoint::at(index, None, 1.0, Some(1.2))
+        }
+    }
+
+    /// Every bit of a line is covered.
+    #[test]
+    fn no_flipped_bit_of_a_line_passes() {
+        let line = line_of(&point(3)).unwrap();
+        assert_eq!(part_of(&line), Some(point(3)));
+        for at in 0..line.len() {
+            for bit in 0..8 {
+                let mut flipped = line.clone();
+                flipped[at] ^= 1 << bit;
+                assert_eq!(part_of::<SweepPoint>(&flipped), None, "byte {at}, bit {bit}");
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! From the options of an experiment, or a document, to the scales of a result in nm, s and nN.
+
+use crate::arguments::InUnitsArguments;
+use crate::failure::{Failure, Typed};
+use crate::files::input::{TipFile, open, read_tip};
+use crate::message::remark;
+use serde::Deserialize;
+use std::path::Path;
+use stickslip::{
+    DataFitted, EstimateDocument, FitDocument, KnownScales, MeasuredTipDocument, NumberFitted,
+    NumberHeld, UnitsDocument,
+};
+use stickslip_units::Unit;
+
+/// Relative difference at which an r is taken for another: what is typed has this many digits.
+const SAME: f64 = 1e-6;
+
+/// What a result is told in; `None` where nothing of this was asked for. `tip_file` is that of the command, `r` the one
+/// velocity of all that it computes.
+pub(crate) fn scales(
+    arguments: &InUnitsArguments,
+    tip_file: Option<&Path>,
+    r: Option<f64>,
+) -> Result<Option<KnownScales>, Failure> {
+    if let Some(path) = &arguments.units {
+        return of_document(path).map(Some);
+    }
+    let given = Given::read(arguments)?;
+    if given.is_empty() {
+        return Ok(None);
+    }
+    given.with_width_of(tip_file)?.scales(r).map(Some)
+}
+
+/// Metres in a unit of length and in one of height, for an image: 1 and no unit where none is asked for.
+pub(crate) fn in_metres(scales: Option<&KnownScales>) -> Result<(f64, f64, &'static str), Failure> {
+    let Some(KnownScales { length, height, .. }) = scales else { return Ok((1.0, 1.0, "")) };
+    match length.zip(*height) {
+        Some((length, height)) => Ok((length, height, "m")),
+        None => {
+            let message = "an image in metres needs σ and kσ²/a: give --sigma, --stiffness and --slope-force, or a document of \
+                           `stickslip units` to --units";
+            Err(Failure::input("--output", message))
+        }
+    }
+}
+
+/// In SI units, under their options.
+struct Given {
+    sigma: Option<f64>,
+    stiffness: Option<f64>,
+    damping: Option<f64>,
+    velocity: Option<f64>,
+    slope_force: Option<f64>,
+}
+
+impl Given {
+    fn read(arguments: &InUnitsArguments) -> Result<Self, Failure> {
+        let InUnitsArguments { sigma, stiffness, damping, velocity, slope_force, .. } = arguments;
+        Ok(Self {
+            sigma: quantity("--sigma", sigma.as_deref(), Unit::Length)?,
+            stiffness: quantity("--stiffness", stiffness.as_deref(), Unit::Stiffness)?,
+            damping: quantity("--damping", damping.as_deref(), Unit::Damping)?,
+            velocity: quantity("--velocity", velocity.as_deref(), Unit::Velocity)?,
+            slope_force: quantity("--slope-force", slope_force.as_deref(), Unit::Force)?,
+        })
+    }
+
+    fn is_empty(&self) -> bool {
+        let Self { sigma, stiffness, damping, velocity, slope_force } = *self;
+        [sigma, stiffness, damping, velocity, slope_force].iter().all(Option::is_none)
+    }
+
+    /// With the σ that a measured tip brings along, which is said.
+    fn with_width_of(self, tip_file: Option<&Path>) -> Result<Self, Failure> {
+        let Some(path) = tip_file.filter(|_| self.sigma.is_none()) else { return Ok(self) };
+        let TipFile::Measured(measured) = read_tip(path)? else { return Ok(self) };
+        if let Some(sigma) = measured.sigma_metres {
+            let nanometres = sigma * 1e9;
+            remark(format_args!("σ = {nanometres} nm, that of --tip-file {}", path.display()));
+        }
+        Ok(Self { sigma: measured.sigma_metres, ..self })
+    }
+
+    /// Refused where an option has nothing to go with, or they contradict each other.
+    fn scales(&self, r: Option<f64>) -> Result<KnownScales, Failure> {
+        let Self { sigma, stiffness, damping, velocity, slope_force } = *self;
+        let together = |one: Option<f64>, other: Option<f64>| one.zip(other);
+        let by_friction = together(damping, stiffness).map(|(damping, k)| damping / k);
+        let by_velocity = velocity.zip(sigma).zip(r).map(|((v0, sigma), r)| r * sigma / v0);
+        if let (Some(one), Some(other)) = (by_friction, by_velocity)
+            && (one - other).abs() > SAME * one
+        {
+            let r = r.unwrap_or(f64::NAN) * one / other;
+            let message =
+                format!("r = Γ v0/(kσ) is {} by these, not the one given: leave one out", Typed(r));
+            return Err(Failure::input("--damping, --stiffness, --sigma, --velocity", message));
+        }
+        let force = together(stiffness, sigma).map(|(k, sigma)| k * sigma);
+        let height = force.zip(sigma).zip(slope_force).map(|((force, sigma), a)| force * sigma / a);
+        let scales =
+            KnownScales { length: sigma, time: by_friction.or(by_velocity), height, force };
+        let unused = [
+            (
+                "--velocity",
+                velocity.is_some() && scales.time.is_none(),
+                "--sigma and, with one r, no more; with several r give --damping and --stiffness in its place",
+            ),
+            ("--damping", damping.is_some() && scales.time.is_none(), "--stiffness"),
+            ("--slope-force", slope_force.is_some() && height.is_none(), "--stiffness and --sigma"),
+            (
+                "--stiffness",
+                stiffness.is_some() && scales.time.is_none() && force.is_none(),
+                "--sigma",
+            ),
+        ];
+        match unused.iter().find(|(_, is_unused, _)| *is_unused) {
+            Some((option, _, needs)) => {
+                Err(Failure::input(*option, format!("tells nothing by itself: it needs {needs}")))
+            }
+            None => Ok(scales),
+        }
+    }
+}
+
+fn quantity(option: &str, text: Option<&str>, unit: Unit) -> Result<Option<f64>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    let named = || format!("{option} {text}");
+    let value = unit.parse(text).map_err(|error| Failure::input(named(), error))?;
+    if value > 0.0 {
+        return Ok(Some(value));
+    }
+    Err(Failure::input(named(), "must be above 0"))
+}
+
+/// What any document may tell of scales.
+#[derive(Deserialize)]
+struct Telling {
+    format: Option<String>,
+    scales: Option<KnownScales>,
+    sigma_metres: Option<f64>,
+    physical: Option<Told>,
+    parameters: Option<Fitted>,
+    numbers: Option<Vec<NumberFitted>>,
+    data: Option<serde_json::Value>,
+}
+
+#[derive(Deserialize)]
+struct Told {
+    scales: Option<KnownScales>,
+}
+
+#[derive(Deserialize)]
+struct Fitted {
+    unit: Option<String>,
+    known: Option<Vec<NumberHeld>>,
+}
+
+fn of_document(path: &Path) -> Result<KnownScales, Failure> {
+    let named = || format!("--units {}", path.display());
+    let telling: Telling = serde_json::from_reader(open("--units", path)?)
+        .map_err(|error| Failure::input(named(), format!("no document: {error}")))?;
+    let scales = match telling.format.as_deref() {
+        Some(UnitsDocument::FORMAT) => telling.scales,
+        Some(MeasuredTipDocument::FORMAT) => {
+            let length = telling.sigma_metres;
+            length.map(|_| KnownScales { length, ..KnownScales::default() })
+        }
+        Some(FitDocument::FORMAT) => telling.fitted(),
+        _ => telling.physical.and_then(|told| told.scales),
+    };
+    let Some(scales) = scales else {
+        let advice = "tells no scales: a document of `stickslip units` does, one of `tip` or `fit` from data with a \
+                      unit, and any that was written with --units or --sigma";
+        return Err(Failure::input(named(), advice));
+    };
+    let KnownScales { length, time, height, force } = scales;
+    let is_scale = |scale: f64| scale.is_finite() && scale > 0.0;
+    if [length, time, height, force].into_iter().flatten().all(is_scale) {
+        return Ok(scales);
+    }
+    Err(Failure::input(named(), "damaged: scales must be above 0"))
+}
+
+impl Telling {
+    /// σ is the width fitted, or held; kσ²/a follows from the heights of ripples.
+    fn fitted(self) -> Option<KnownScales> {
+        let Fitted { unit, known } = self.parameters?;
+        let metres = Unit::Length.one(&unit?)?;
+        let fitted = self.numbers?.into_iter().find(|number| number.name == "width");
+        let fitted =
+            fitted.map(|NumberFitted { estimate: EstimateDocument { value, .. }, .. }| value);
+        let held = known?.into_iter().find(|number| number.name == "width").map(|held| held.value);
+        let sigma = fitted.or(held)?;
+        let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
+        let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
+        Some(KnownScales {
+            length: Some(sigma * metres),
+            height: gain.map(|gain| gain * sigma * sigma * metres),
+            ..KnownScales::default()
+        })
+    }
+}

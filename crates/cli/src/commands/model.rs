@@ -1,0 +1,193 @@
+//! From the model's options to a model.
+
+use super::judged::judge_table;
+use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
+use crate::failure::{Failure, Typed};
+use crate::files::input::{GaussianEntry, TipFile, read_tip};
+use stickslip::{GaussianDocument, Indentation, Law, NamedTip, Refused, TipName, judge_details};
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
+
+/// Refuses what has no steady motion: without a support, or with a past that has no end.
+pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
+    if wider.no_spring {
+        let message = "nothing drags the tip: there is no steady motion behind a support";
+        return Err(Failure::input("--no-spring", message));
+    }
+    refuse_endless_past(tip, wider)
+}
+
+/// Refuses a past that has no end.
+pub(crate) fn refuse_endless_past(
+    tip: &TipArguments,
+    wider: &WiderArguments,
+) -> Result<(), Failure> {
+    if tip.tip == Some(TipName::Cosine) && wider.healing_time.is_none() {
+        let message =
+            "goes on for ever, and so does what it left in steady motion: give --healing-time";
+        return Err(Failure::input("--tip cosine", message));
+    }
+    Ok(())
+}
+
+/// What is added to the basic law, in a question.
+pub(crate) fn law(arguments: &WiderArguments) -> Law {
+    wider(arguments).into()
+}
+
+/// What the options ask for of the wider law.
+pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
+    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *arguments;
+    Wider { depth_limit, healing_time, inertia, spring: !no_spring }
+}
+
+/// The model that the options ask for, under the wider law too.
+pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
+    let (wider, no_spring) = (wider(&arguments.wider), arguments.wider.no_spring);
+    let tip = tip(&arguments.tip)?;
+    if let Some(above) = arguments.alpha_above.filter(|_| no_spring) {
+        return Err(Failure::input(
+            format!("--alpha-above {}", Typed(above)),
+            "without a spring there is no onset: give --alpha",
+        ));
+    }
+    if let Some(r) = arguments.r.filter(|_| no_spring) {
+        return Err(Failure::input(
+            format!("--r {}", Typed(r)),
+            "without a spring there is no support that could move: leave it out",
+        ));
+    }
+    let r = if no_spring { 0.0 } else { r(arguments)? };
+    model_under((wider, tip), r, (arguments.alpha, arguments.alpha_above))
+}
+
+/// α, or αc(r) + D.
+pub(crate) fn indentation(arguments: &ModelArguments) -> Result<Indentation, Failure> {
+    one_of(arguments.alpha, arguments.alpha_above)
+}
+
+fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
+    if alpha.is_some() && alpha_above.is_some() {
+        return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));
+    }
+    Ok(Indentation { alpha, alpha_above })
+}
+
+/// The model under a law at this r, α given as such or as αc(r) + D.
+pub(crate) fn model_under(
+    (wider, tip): (Wider, TipFunction),
+    r: f64,
+    (alpha, alpha_above): (Option<f64>, Option<f64>),
+) -> Result<Model, Failure> {
+    let indentation = one_of(alpha, alpha_above)?.resolved(&tip, wider, r)?;
+    Ok(indentation.model(&tip, wider, r)?)
+}
+
+/// A parameter of the wider law that is refused, by its option.
+pub(crate) fn refused_wider(error: &WiderError) -> Failure {
+    Refused::from(*error).into()
+}
+
+/// The support velocity, which the question cannot do without.
+pub(crate) fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
+    arguments.r.ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))
+}
+
+/// The footprint that the options ask for.
+pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
+    tip_and_draws(arguments).map(|(tip, _)| tip)
+}
+
+/// The same, and the terms of those drawn within the error of a measured one.
+pub(crate) fn tip_and_draws(
+    arguments: &TipArguments,
+) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
+    let TipArguments { tip, beta, width, tip_file } = arguments;
+    let unused = |option: String, with: &str| {
+        Failure::input(option, format!("has no meaning with {with}: leave one of them out"))
+    };
+    if let Some(path) = tip_file {
+        let named = format!("--tip-file {}", path.display());
+        if tip.is_some() || beta.is_some() || width.is_some() {
+            return Err(unused(named, "--tip, --beta or --width"));
+        }
+        let mut file = read_tip(path)?;
+        let draws = match &mut file {
+            TipFile::Measured(measured) => std::mem::take(&mut measured.draws),
+            _ => vec![],
+        };
+        let table = match &file {
+            TipFile::Table(table) => Some(table.clone()),
+            TipFile::Table2d(columns) => Some(on_path(columns)),
+            _ => None,
+        };
+        let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
+        if let Some((x, f)) = table {
+            judge_table(path, (&x, &f), &tip)?;
+        }
+        return Ok((tip, draws));
+    }
+    Ok((NamedTip { name: *tip, beta: *beta, width: *width }.tip()?, vec![]))
+}
+
+/// The rows of f(x,y) with x ≥ 0 that are on the path of the tip, by ascending x.
+fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
+    let nearest = y.iter().fold(f64::INFINITY, |least: f64, y| least.min(y.abs()));
+    let rows = x.iter().zip(y).zip(f).filter(|((x, y), _)| **x >= 0.0 && y.abs() <= nearest);
+    let mut rows: Vec<(f64, f64)> = rows.map(|((x, _), f)| (*x, *f)).collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows.dedup_by_key(|row| row.0.to_bits());
+    rows.into_iter().unzip()
+}
+
+/// The footprint that a file describes.
+pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
+    let tip = match file {
+        TipFile::Table((x, f)) => TipFunction::table(&x, &f),
+        TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
+        TipFile::Measured(measured) if measured.image.is_some() => {
+            let widths = measured.image.iter().flat_map(|image| &image.widths);
+            let terms = measured.gaussians.iter().zip(widths).map(|(g, width_y)| Gaussian2d {
+                amplitude: g.amplitude,
+                center: g.center,
+                width: g.width,
+                center_y: 0.0,
+                width_y: *width_y,
+            });
+            let terms: Vec<Gaussian2d> = terms.collect();
+            if terms.len() < measured.gaussians.len() {
+                return Err("image: a width is missing".into());
+            }
+            Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
+        }
+        TipFile::Measured(measured) => {
+            let gaussians = measured.gaussians.iter().map(Gaussian::from).collect();
+            TipFunction::gaussian_sum(gaussians)
+        }
+        TipFile::Gaussians(entries) if entries.iter().any(is_2d) => {
+            let terms: Option<Vec<Gaussian2d>> = entries.iter().map(gaussian_2d).collect();
+            let terms =
+                terms.ok_or("width_y is given for some Gaussians: give it for all of them")?;
+            Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
+        }
+        TipFile::Gaussians(entries) => TipFunction::gaussian_sum(
+            entries
+                .iter()
+                .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })
+                .collect(),
+        ),
+    };
+    let tip = tip.map_err(|error| error.to_string())?;
+    judge_details(&tip).map_err(|error| error.to_string())?;
+    Ok(tip)
+}
+
+fn is_2d(entry: &GaussianEntry) -> bool {
+    entry.width_y.is_some() || entry.center_y.is_some()
+}
+
+/// Centered on the path unless told otherwise; `None` without a width in y.
+fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
+    let GaussianEntry { amplitude, center, width, .. } = *entry;
+    let center_y = entry.center_y.unwrap_or(0.0);
+    entry.width_y.map(|width_y| Gaussian2d { amplitude, center, width, center_y, width_y })
+}

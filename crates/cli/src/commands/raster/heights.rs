@@ -1,0 +1,26 @@
+//! Height maps of rasters, for Gwyddion.
+
+use crate::files::gsf::{Field, gsf};
+use stickslip::{HeightMap, RasterParameters};
+
+/// An evenly spaced map, in σ and kσ²/a times these.
+pub(in crate::commands) fn field(
+    parameters: &RasterParameters,
+    map: &HeightMap,
+    (length, height, unit): (f64, f64, &str),
+) -> Vec<u8> {
+    let spacing = |v: &[f64]| match v {
+        [first, .., last] => length * (last - first) / (v.len() - 1) as f64,
+        _ => length,
+    };
+    let first = |v: &[f64]| length * v.first().copied().unwrap_or(0.0);
+    let model = &parameters.model;
+    gsf(&Field {
+        title: &format!("u(x,y) of a raster, alpha {}, r {}", model.alpha, model.r),
+        first: [first(&map.x), first(&map.y)],
+        spacing: [spacing(&map.x), spacing(&map.y)],
+        unit,
+        rows: &map.u,
+        factor: height,
+    })
+}

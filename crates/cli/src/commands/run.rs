@@ -1,0 +1,129 @@
+//! `stickslip run`.
+
+pub(crate) mod checkpoint;
+pub(crate) mod disturbance;
+pub(crate) mod document;
+mod integration;
+pub(crate) mod limits;
+mod order;
+mod record;
+mod resume;
+pub(crate) mod samples;
+mod write;
+
+pub(crate) use disturbance::parse_pulses;
+pub(crate) use order::{explain, option_at_fault};
+
+use super::fields::Fields;
+use super::job::Job;
+use crate::arguments::{FieldArguments, Format, RunArguments};
+use crate::failure::Failure;
+use crate::files::place::{Place, Target as File, place};
+use crate::files::stream::Stream;
+use crate::interrupt::Interrupt;
+use checkpoint::Checkpoints;
+use integration::Integration;
+use record::{Record, SAMPLE_NUMBERS, Sink};
+use std::path::Path;
+use stickslip::{Order, RunDocument, RunEnd, RunFormat, Unusable};
+use stickslip_outcome::Watched;
+use stickslip_tip::{RunError, STEP_NUMBERS, Scenario};
+use write::Target;
+
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    match &arguments.resume {
+        None => start(arguments),
+        Some(path) => resume::resume(path, arguments),
+    }
+}
+
+fn start(arguments: &RunArguments) -> Result<(), Failure> {
+    let order = order::order(arguments)?;
+    let said = |error: Unusable| Failure::input("the run", error);
+    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
+    let scenario = order.parameters.scenario().map_err(said)?;
+    let surface = scenario.initial_surface().map_err(explained)?;
+    let running = Watched::new(&scenario, &surface).map_err(explained)?;
+    let interrupt = Interrupt::listen()?;
+    // All places are judged before the work, so that it is not in vain.
+    let checkpoint = arguments.checkpoint.as_deref();
+    let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
+    let (target, sink) = open(arguments, &order, checkpoint.as_ref().map(File::path))?;
+
+    let mut record = record(&order, &scenario, sink);
+    write::head(&mut record, &order, &scenario)?;
+    let start = scenario.start_time();
+    let mut integration = Integration {
+        running,
+        record,
+        checkpoints: checkpoint
+            .zip(order.checkpoint_every)
+            .map(|(file, every)| Checkpoints::new(file, &order, start, every, start)),
+        interrupt,
+        seconds: 0.0,
+    };
+    integration.checkpoint()?;
+    let integrated = integration.finish(&scenario)?;
+    write::all(&order, &scenario, &surface, integrated, target)
+}
+
+/// A place that must be a file.
+fn file(option: &str, path: &Path) -> Result<File, Failure> {
+    match place(option, path)? {
+        Place::File(file) => Ok(file),
+        Place::Stdout | Place::Special(_) => {
+            let message = "must be a file, which is replaced or goes on growing";
+            Err(Failure::input(format!("{option} {}", path.display()), message))
+        }
+    }
+}
+
+/// Opens what the run is written to.
+fn open(
+    arguments: &RunArguments,
+    order: &Order,
+    checkpoint: Option<&Path>,
+) -> Result<(Target, Sink), Failure> {
+    let (output, fields) = (arguments.output(), &arguments.fields);
+    if order.format == RunFormat::Jsonl {
+        let fields = Fields::asked::<RunEnd>(&fields.print)?;
+        let stream = Stream::open("--output", output, checkpoint.is_some())?;
+        if checkpoint.is_some() && !stream.is_file() {
+            return Err(Failure::input(
+                format!("--output {}", output.display()),
+                "cannot be gone on with from a checkpoint: lines that have left cannot be taken back; write \
+                 them to a file",
+            ));
+        }
+        return Ok((Target::Lines(fields), Sink::Lines(stream)));
+    }
+    let target = Target::Document(job(order, output, arguments.plot.as_deref(), fields)?);
+    let numbers = if keeps_history(order) { STEP_NUMBERS } else { SAMPLE_NUMBERS };
+    let journal = |path| record::journal(path, numbers);
+    Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
+}
+
+/// Where the document goes, and the figure.
+fn job(
+    order: &Order,
+    output: &Path,
+    plot: Option<&Path>,
+    fields: &FieldArguments,
+) -> Result<Job, Failure> {
+    let format = match order.format {
+        RunFormat::Json | RunFormat::Jsonl => Format::Json,
+        RunFormat::Csv => Format::Csv,
+        RunFormat::Npz => Format::Npz,
+        RunFormat::Text => Format::Text,
+    };
+    Job::of_format::<RunDocument>(format, output, fields, plot)
+}
+
+fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {
+    Record::new(scenario, order.samples.clone(), keeps_history(order), sink)
+}
+
+fn keeps_history(order: &Order) -> bool {
+    let is_written = order.history && matches!(order.format, RunFormat::Json | RunFormat::Npz);
+    is_written || order.plot.is_some() || order.verify
+}

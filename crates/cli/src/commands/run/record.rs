@@ -1,0 +1,201 @@
+//! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
+
+use crate::failure::Failure;
+use crate::files::place::taken;
+use crate::files::rows::{Rows, journal_of};
+use crate::files::stream::Stream;
+use std::io;
+use std::path::{Path, PathBuf};
+use stickslip::{Mark, SampleLine, Times};
+use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Scenario, Step, Support, Wider};
+
+/// The record of a run.
+pub(super) struct Record {
+    support: Support,
+    wider: Wider,
+    times: Times,
+    /// Place of each sample in the order asked for, where that is not the order of time.
+    places: Vec<usize>,
+    /// Samples taken.
+    pub(super) taken: u64,
+    pub(super) samples: Vec<SampleLine>,
+    /// The history, where it is kept.
+    pub(super) steps: Option<Vec<Step>>,
+    pub(super) sink: Sink,
+}
+
+/// Where what is kept goes as the run goes on.
+pub(super) enum Sink {
+    /// Nowhere but to memory.
+    Memory,
+    /// Samples go out as lines.
+    Lines(Stream),
+    /// Beside a checkpoint: steps where the history is kept, or else samples.
+    Journal(PathBuf, Rows),
+}
+
+/// Of a sample in a journal.
+pub(super) const SAMPLE_NUMBERS: usize = 7;
+
+/// A step may be as long as the run, and have all of its samples: so many are taken between two looks at the signals.
+const SAMPLES_PER_LOOK: u64 = 1024;
+
+impl Record {
+    pub(super) fn new(scenario: &Scenario, times: Times, keeps_history: bool, sink: Sink) -> Self {
+        let (support, wider) = (scenario.support(), *scenario.model.wider());
+        let (times, places) = times.in_order();
+        let steps = keeps_history.then(Vec::new);
+        Self { support, wider, times, places, taken: 0, samples: vec![], steps, sink }
+    }
+
+    /// Takes note of a step, unless it is told to stop amid its samples: whether it is done.
+    pub(super) fn take(
+        &mut self,
+        step: &Step,
+        is_stopped: impl Fn() -> bool,
+    ) -> Result<bool, Failure> {
+        if let Some(steps) = &mut self.steps {
+            if steps.len() == MOST_STEPS {
+                return Err(history_too_long(step.t));
+            }
+            steps.push(*step);
+            if let Sink::Journal(path, journal) = &mut self.sink {
+                journal.write(step.numbers()).map_err(|error| failed(path, error))?;
+            }
+        }
+        // A time at which one step ends is the next one's.
+        self.sample(step, |t| t < step.end(), is_stopped)
+    }
+
+    /// Takes the samples at the very end of the last step, if that was taken.
+    pub(super) fn end(&mut self, last: Option<&Step>) -> Result<(), Failure> {
+        if let Some(last) = last {
+            self.sample(last, |t| t <= last.end(), || false)?;
+        }
+        if !self.places.is_empty() {
+            let places = self.places.iter().copied().zip(self.samples.drain(..));
+            let mut placed: Vec<_> = places.collect();
+            placed.sort_by_key(|(place, _)| *place);
+            self.samples = placed.into_iter().map(|(_, sample)| sample).collect();
+        }
+        Ok(())
+    }
+
+    fn sample(
+        &mut self,
+        step: &Step,
+        is_due: impl Fn(f64) -> bool,
+        is_stopped: impl Fn() -> bool,
+    ) -> Result<bool, Failure> {
+        while let Some(t) = self.times.at(self.taken).filter(|t| is_due(*t)) {
+            if self.taken.is_multiple_of(SAMPLES_PER_LOOK) && is_stopped() {
+                return Ok(false);
+            }
+            let sample = SampleLine::of(step, (&self.support, &self.wider), t);
+            match &mut self.sink {
+                Sink::Lines(stream) => stream.line(&sample)?,
+                Sink::Journal(path, journal) if self.steps.is_none() => {
+                    journal.write(numbers_of(&sample)).map_err(|error| failed(path, error))?;
+                    self.samples.push(sample);
+                }
+                _ => self.samples.push(sample),
+            }
+            self.taken += 1;
+        }
+        Ok(true)
+    }
+
+    /// Keeps the lines written so far, though no end will follow; where they are.
+    pub(super) fn keep_part(&mut self) -> Option<&Path> {
+        match &mut self.sink {
+            Sink::Lines(stream) => stream.keep_part(),
+            Sink::Memory | Sink::Journal(..) => None,
+        }
+    }
+
+    /// Puts what was written on the disk, and says what that is.
+    pub(super) fn sync(&mut self) -> Result<Mark, Failure> {
+        match &mut self.sink {
+            Sink::Memory => Ok(Mark::default()),
+            Sink::Lines(stream) => stream.sync(),
+            Sink::Journal(path, journal) => journal.sync().map_err(|error| failed(path, error)),
+        }
+    }
+
+    /// Fills the record with what a journal holds up to a mark, which is all until time t, and goes on with it.
+    pub(super) fn resume(&mut self, path: &Path, mark: Mark, t: f64) -> Result<(), Failure> {
+        let unusable = |error: io::Error| {
+            taken("--resume", path, &error).unwrap_or_else(|| {
+                let needed = "the checkpoint cannot be resumed without it";
+                Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
+            })
+        };
+        let rows = if self.steps.is_some() {
+            let (rows, steps) = Rows::resume::<STEP_NUMBERS>(path, mark).map_err(unusable)?;
+            let steps: Vec<Step> = steps.into_iter().map(Step::from_numbers).collect();
+            if !follow_each_other(&steps, t) {
+                return Err(unusable(io::Error::other(OTHER_ROWS)));
+            }
+            for step in &steps {
+                self.take(step, || false)?;
+            }
+            rows
+        } else {
+            let (rows, samples) = Rows::resume::<SAMPLE_NUMBERS>(path, mark).map_err(unusable)?;
+            self.samples.extend(samples.into_iter().map(sample_of));
+            self.taken = self.samples.len() as u64;
+            let due = |(i, sample): (u64, &SampleLine)| self.times.at(i) == Some(sample.t);
+            if !(0..).zip(&self.samples).all(due) {
+                return Err(unusable(io::Error::other(OTHER_ROWS)));
+            }
+            rows
+        };
+        self.sink = Sink::Journal(path.into(), rows);
+        Ok(())
+    }
+}
+
+/// A sample as a row of a journal, NaN for what is not there.
+fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
+    let SampleLine { t, l, lag, x0, velocity, height, weight } = *sample;
+    let [l, lag, height, weight] = [l, lag, height, weight].map(|x| x.unwrap_or(f64::NAN));
+    [t, l, lag, x0, velocity, height, weight]
+}
+
+fn sample_of([t, l, lag, x0, velocity, height, weight]: [f64; SAMPLE_NUMBERS]) -> SampleLine {
+    let there = |x: f64| (!x.is_nan()).then_some(x);
+    let [l, lag, height, weight] = [l, lag, height, weight].map(there);
+    SampleLine { t, l, lag, x0, velocity, height, weight }
+}
+
+const OTHER_ROWS: &str = "its rows are not those of the run";
+
+/// Whether steps lead to time t, each beginning where the one before ends, round-off aside.
+fn follow_each_other(steps: &[Step], t: f64) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);
+    let follows = |pair: &[Step]| same(pair[1].t, pair[0].end());
+    let leads = steps.last().is_none_or(|last| same(last.end(), t));
+    steps.iter().all(Step::is_sound) && steps.windows(2).all(follows) && leads
+}
+
+/// A journal for the checkpoint at `path`, of rows of so many numbers.
+pub(super) fn journal(path: &Path, numbers: usize) -> Result<Sink, Failure> {
+    let journal = journal_of(path);
+    match Rows::create(&journal, path, numbers) {
+        Ok(rows) => Ok(Sink::Journal(journal, rows)),
+        Err(error) => {
+            Err(taken("--checkpoint", path, &error).unwrap_or_else(|| failed(&journal, error)))
+        }
+    }
+}
+
+fn failed(path: &Path, error: io::Error) -> Failure {
+    Failure::Write { target: path.display().to_string(), error }
+}
+
+fn history_too_long(t: f64) -> Failure {
+    Failure::Run(format!(
+        "at t = {t} the history has {MOST_STEPS} steps, more than is kept in memory: write the samples as \
+         lines (-o FILE.jsonl), leave the history out (--history none), or end the run earlier (--until {t})"
+    ))
+}

@@ -1,0 +1,141 @@
+//! A run taken up where a checkpoint was made.
+
+use super::checkpoint::{self, Checkpoints};
+use super::integration::Integration;
+use super::record::Sink;
+use super::samples::are_of;
+use super::write::{self, Target};
+use super::{file, job, record};
+use crate::arguments::RunArguments;
+use crate::commands::fields::Fields;
+use crate::failure::Failure;
+use crate::files::distinct::distinct;
+use crate::files::paths::{folder_of, resolved};
+use crate::files::rows::journal_of;
+use crate::files::stream::{Stream, part_of};
+use crate::files::within::found_from;
+use crate::interrupt::Interrupt;
+use crate::message::remark;
+use std::path::Path;
+use stickslip::{CheckpointHead, Order, RunEnd, RunFormat};
+use stickslip_outcome::Watched;
+use stickslip_tip::Scenario;
+
+/// Goes on where a checkpoint was made.
+pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failure> {
+    let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let checkpoint = file("--resume", path)?;
+    let (mut head, state) = checkpoint::read(path)?;
+    let before = folder_of(checkpoint.path()).join(&head.order.output);
+    redirect(&mut head.order, checkpoint.path(), arguments)?;
+    let scenario = head.order.parameters.scenario().map_err(|error| named(error.to_string()))?;
+    let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
+    let running = Watched::resumed(&scenario, &surface, &state);
+    let running = running.map_err(|error| named(error.to_string()))?;
+    judge(&head, running.t(), &scenario).map_err(|message| named(message.into()))?;
+    let order = head.order;
+    let interrupt = Interrupt::listen()?;
+    let (target, record) = if order.format == RunFormat::Jsonl {
+        let target = file("--output", &order.output)?;
+        // What the run has written may have its name by now, and have kept the one from before.
+        let others = [target.path().to_path_buf(), part_of(&before), before];
+        let stream = Stream::resume(target, head.written, &others)?;
+        let mut record = record(&order, &scenario, Sink::Lines(stream));
+        record.taken = head.samples;
+        (Target::Lines(Fields::asked::<RunEnd>(&arguments.fields.print)?), record)
+    } else {
+        let job = job(&order, &order.output, order.plot.as_deref(), &arguments.fields)?;
+        let mut record = record(&order, &scenario, Sink::Memory);
+        record.resume(&journal_of(checkpoint.path()), head.written, running.t())?;
+        (Target::Document(job), record)
+    };
+    let (t, until) = (running.t(), scenario.until);
+    remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
+    let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
+    let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, t));
+    let seconds = head.seconds;
+    let mut integration = Integration { running, record, checkpoints, interrupt, seconds };
+    if arguments.output.is_some() || arguments.plot.is_some() {
+        // From here on it is gone on with at the new places.
+        integration.checkpoint()?;
+    }
+    let integrated = integration.finish(&scenario)?;
+    write::all(&order, &scenario, &surface, integrated, target)
+}
+
+/// Where the run goes: to the places given now, or those that the checkpoint names. Whoever made that may be a
+/// stranger: it does not lead out of its folder.
+fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> Result<(), Failure> {
+    let named = format!("--resume {}", checkpoint.display());
+    let place = |option: &str, given: Option<&Path>, held: &Path| {
+        match given {
+        Some(path) => Ok(resolved(path)),
+        None => found_from(folder_of(checkpoint), held).ok_or_else(|| {
+            let held = held.display();
+            let message = format!(
+                "it would write {held}, which is not in its folder: give {option} {held} if that is right, or \
+                 another {option}"
+            );
+            Failure::input(&named, message)
+        }),
+    }
+    };
+    order.output = place("--output", arguments.output.as_deref(), &order.output)?;
+    let given = arguments.plot.as_deref();
+    order.plot = match (given, order.plot.take()) {
+        (_, Some(held)) => Some(place("--plot", given, &held)?),
+        (Some(path), None) => {
+            let message =
+                "the run was started without a picture, and may not have kept what it needs";
+            return Err(Failure::input(format!("--plot {}", path.display()), message));
+        }
+        (None, None) => None,
+    };
+    let written = [
+        ("--resume", Some(checkpoint)),
+        ("--output", Some(&*order.output)),
+        ("--plot", order.plot.as_deref()),
+    ];
+    distinct(&written, &[])?;
+    let is_other = arguments.output.as_deref().is_some_and(|path| is_of_other(path, order.format));
+    if is_other {
+        let message =
+            "the run is written in another format, which the checkpoint knows: give it that ending";
+        return Err(Failure::input(format!("--output {}", order.output.display()), message));
+    }
+    Ok(())
+}
+
+/// Whether the ending of a name promises another format.
+fn is_of_other(path: &Path, format: RunFormat) -> bool {
+    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    let promised = match ending.as_deref() {
+        Some("json") => RunFormat::Json,
+        Some("csv") => RunFormat::Csv,
+        Some("npz") => RunFormat::Npz,
+        Some("jsonl") => RunFormat::Jsonl,
+        _ => return false,
+    };
+    promised != format
+}
+
+/// Whether what a checkpoint says of time and samples is that of its state: a right checksum proves no more than
+/// that nothing was changed since it was made.
+fn judge(head: &CheckpointHead, t: f64, scenario: &Scenario) -> Result<(), &'static str> {
+    if head.t.to_bits() != t.to_bits() {
+        return Err("is damaged: its time is not that of its state");
+    }
+    let span = (scenario.start_time(), scenario.until);
+    if !are_of(&head.order.samples, span, head.order.format != RunFormat::Jsonl) {
+        return Err("is damaged: its samples are not those of its run");
+    }
+    let (times, _) = head.order.samples.clone().in_order();
+    let slack = 1e-9 * t.abs().max(1.0);
+    let next_is_due = times.at(head.samples).is_some_and(|next| next < t - slack);
+    let last = head.samples.checked_sub(1);
+    let last_was_due = last.is_none_or(|last| times.at(last).is_some_and(|last| last < t + slack));
+    if next_is_due || !last_was_due {
+        return Err("is damaged: it has not taken the samples until its time");
+    }
+    Ok(())
+}

@@ -1,0 +1,140 @@
+//! A run on its way out.
+
+use super::document;
+use super::integration::Integrated;
+use super::record::{Record, Sink};
+use crate::commands::fields::Fields;
+use crate::commands::job::{self, Job};
+use crate::commands::{told, verify};
+use crate::failure::Failure;
+use crate::host;
+use crate::made::pictured;
+use crate::message::remark;
+use serde::Serialize;
+use std::path::Path;
+use stickslip::{
+    Array, InUnits, Named, Order, Physical, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
+};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory, friction};
+
+/// What the run is written to.
+pub(super) enum Target {
+    /// A document at the end.
+    Document(Job),
+    /// Lines, which the record has; and the fields to print of the last.
+    Lines(Fields),
+}
+
+/// The first line, where lines are written.
+pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
+    match &mut record.sink {
+        Sink::Lines(stream) => {
+            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
+        }
+        Sink::Memory | Sink::Journal(..) => Ok(()),
+    }
+}
+
+/// The whole document, or the last line; and the figure.
+pub(super) fn all(
+    order: &Order,
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    mut integrated: Integrated,
+    target: Target,
+) -> Result<(), Failure> {
+    let end = document::end(scenario, initial, &integrated)?;
+    let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
+    let reached = signal.map(|_| end.end);
+    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
+        // Beside a file they are told with what was found.
+        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
+    }
+    let steps = integrated.record.steps.take();
+    let (wider, support) = (*scenario.model.wider(), scenario.support());
+    let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
+    let mut failure = None;
+    match target {
+        Target::Lines(fields) => {
+            let Sink::Lines(mut stream) = integrated.record.sink else {
+                unreachable!("lines are written to a stream")
+            };
+            stream.line(&end)?;
+            stream.finish()?;
+            let told = told::of_lines(&end);
+            job::after(&end, &told, &fields, order.output != Path::new("-"))?;
+        }
+        Target::Document(job) => {
+            let samples = &integrated.record.samples;
+            let mut document = RunDocument::new(
+                order.parameters.clone(),
+                SteadyState::of(&scenario.model),
+                samples,
+                trajectory.as_ref().filter(|_| order.history).map(Into::into),
+                end.clone(),
+            );
+            let on_path = trajectory.as_ref().filter(|_| scenario.path.is_some());
+            document.loops =
+                on_path.map(|t| friction::loops(t).into_iter().map(Into::into).collect());
+            let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
+            // What was computed is written even if a signal ends its verification.
+            let found =
+                asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
+            document.verification = found.as_ref().ok().cloned().flatten();
+            // From here on nothing is computed that would be lost: a signal ends the program.
+            let interrupt = integrated.interrupt;
+            let _keeps = interrupt.signal().is_some().then_some(interrupt);
+            let mut document = document.in_units(order.scales.as_ref());
+            let told = told::of_run(&document, &end).in_units(document.physical.as_ref());
+            let figure = job.write_told(&Written { document: &document, reached }, &told)?;
+            if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
+                // Drawn from the history, whether or not it is written.
+                document.history = Some(trajectory.into());
+                figure.draw(&document)?;
+                document.history.take_if(|_| !order.history);
+            }
+            host::give(|| told.of(pictured(document)));
+            failure = match found {
+                Err(failure) => Some(failure),
+                Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),
+            };
+        }
+    }
+    let interrupted = signal.map(Failure::Interrupted);
+    interrupted.or(failure).map_or(Ok(()), Err)
+}
+
+/// A document as it is written: what holds less than was asked for says so, in every format, JSON by its
+/// `interrupted`.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Written<'a> {
+    document: &'a RunDocument,
+    /// Time at which a signal ended the run.
+    #[serde(skip)]
+    reached: Option<f64>,
+}
+
+impl Tabular for Written<'_> {
+    fn columns(&self) -> Vec<Named<'_>> {
+        self.document.columns()
+    }
+
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let mut arrays = self.document.arrays();
+        let interrupted = self.reached.map(|t| ("interrupted", Array::vector(vec![t])));
+        // Behind the samples.
+        let place = self.columns().len();
+        arrays.splice(place..place, interrupted);
+        arrays
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.document.physical()
+    }
+
+    fn note(&self) -> Option<String> {
+        let until = self.document.parameters.until;
+        self.reached.map(|t| format!("interrupted at t = {t} of {until}"))
+    }
+}

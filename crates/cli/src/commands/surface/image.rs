@@ -1,0 +1,87 @@
+//! Surfaces in three dimensions: which f(x,y), and its images.
+
+use super::places::Places;
+use crate::arguments::SurfaceArguments;
+use crate::commands::footprint::footprint;
+use crate::failure::Failure;
+use crate::message::remark;
+use stickslip::{AcrossParameters, SurfaceImage};
+use stickslip_surface::Surface;
+use stickslip_tip::{Footprint, Model};
+
+/// Images asked for, and the footprint that carves them.
+#[derive(Debug)]
+pub(super) struct Images {
+    footprint: Footprint,
+    /// Where f(x,y) = f(x)h(y).
+    width_y: Option<f64>,
+    far_behind: bool,
+    /// k'/k above which y0 = 0 is certainly stable.
+    stiffness_needed: f64,
+}
+
+impl Images {
+    /// `None` without `--y-range`.
+    pub(super) fn asked(
+        arguments: &SurfaceArguments,
+        model: &Model,
+        places: &Places,
+    ) -> Result<Option<Self>, Failure> {
+        if places.y.is_empty() {
+            return Ok(None);
+        }
+        let (footprint, width_y) = footprint(arguments.width_y, model.tip())?;
+        let stiffness_needed = footprint.transverse_stiffness_needed(model.steady_density());
+        let far_behind = arguments.far_behind;
+        if arguments.plot.is_some() && (places.spacing.is_none() || places.x.len() < 2) {
+            let named = format!("--x with {} values", places.x.len());
+            let advice = "a height map needs evenly spaced columns: give --range and --spacing";
+            return Err(Failure::input(named, advice));
+        }
+        Ok(Some(Self { footprint, width_y, far_behind, stiffness_needed }))
+    }
+
+    /// Says so where the tip might not stay on its line. No refusal: y0 = 0 solves (54), (55) in any
+    /// case, a stiff enough k' makes it stable, and the paper's own tip (48) is of this kind.
+    pub(super) fn warn(&self) {
+        let needed = self.stiffness_needed;
+        if needed > 0.0 {
+            let bound = if needed.is_finite() {
+                format!("certain where the transverse spring k' is above {needed:.4} k")
+            } else {
+                "certain for no transverse spring k'".into()
+            };
+            remark(format_args!(
+                "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
+                 may push it off: in steady motion y0 = 0 is stable for {bound}"
+            ));
+        }
+    }
+
+    pub(super) fn parameters(&self) -> AcrossParameters {
+        let needed = self.stiffness_needed;
+        AcrossParameters {
+            width_y: self.width_y,
+            transverse_stiffness_needed: needed.is_finite().then_some(needed),
+        }
+    }
+
+    pub(super) fn reconstruct(
+        &self,
+        surface: &Surface,
+        places: &Places,
+    ) -> Result<Vec<SurfaceImage>, Failure> {
+        let Places { t, x, y, .. } = places;
+        let at = |t: &f64| {
+            let image = if self.far_behind {
+                surface.image_far_behind(&self.footprint, *t, x, y)
+            } else {
+                surface.image(&self.footprint, *t, x, y)
+            };
+            let image = image.map_err(|error| Failure::Run(error.to_string()))?;
+            let u = image.rows().into_iter().map(|row| row.to_vec()).collect();
+            Ok(SurfaceImage { t: *t, x: x.clone(), y: y.clone(), u })
+        };
+        t.iter().map(at).collect()
+    }
+}

@@ -1,0 +1,97 @@
+//! `stickslip surface`.
+
+mod image;
+mod of_raster;
+mod places;
+mod write;
+
+pub(crate) use places::evenly;
+
+use crate::arguments::SurfaceArguments;
+use crate::commands::in_units::{in_metres, scales};
+use crate::failure::Failure;
+use crate::files::distinct::distinct;
+use crate::files::input::{RunOrRaster, read_scanned};
+use image::Images;
+use places::Places;
+use stickslip::{
+    Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceParameters, Unusable,
+};
+use stickslip_surface::Surface;
+use write::SurfaceFormat;
+
+pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let format = SurfaceFormat::of(arguments)?;
+    let read =
+        [("RUN.json", Some(&*arguments.run)), ("--units", arguments.in_units.units.as_deref())];
+    let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
+    distinct(&written, &read)?;
+    let document = match read_scanned(&arguments.run)? {
+        RunOrRaster::Run(document) => document,
+        RunOrRaster::Raster(raster) => return of_raster::surface(arguments, &raster, format),
+    };
+    format.judge_of_run(arguments)?;
+    let damaged = |message: String| {
+        Failure::input(
+            format!("RUN.json {}", arguments.run.display()),
+            format!("damaged: {message}"),
+        )
+    };
+    let unusable = |error: Unusable| damaged(error.to_string());
+    let model = document.parameters.model.model().map_err(unusable)?;
+    let trajectory = document.trajectory().map_err(unusable)?;
+    let scenario = document.parameters.scenario().map_err(unusable)?;
+    let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
+    let places = Places::asked(arguments, &trajectory)?;
+    let scales = scales(&arguments.in_units, None, Some(model.r()))?;
+    let in_metres =
+        (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;
+    let images = Images::asked(arguments, &model, &places)?;
+    let job = format.job(arguments)?;
+
+    let surface = Surface::new(&model, &initial, &trajectory);
+    let result = match &images {
+        Some(images) => {
+            images.warn();
+            let pictures = images.reconstruct(&surface, &places)?;
+            SurfaceDocument { images: pictures, ..empty(arguments, &document, Some(images)) }
+        }
+        None => {
+            let surfaces = curves(arguments, &surface, &places)?;
+            SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
+        }
+    };
+    let result = result.in_units(scales.as_ref());
+    match in_metres {
+        None => job.finish(result),
+        Some(unit) => job.finish_bytes(&write::field(&result, &places, unit), result),
+    }
+}
+
+fn curves(
+    arguments: &SurfaceArguments,
+    surface: &Surface,
+    places: &Places,
+) -> Result<Vec<SurfaceCurve>, Failure> {
+    let x = places.x.as_slice();
+    let at = |t: &f64| {
+        let u =
+            if arguments.far_behind { surface.far_behind(*t, x) } else { surface.heights(*t, x) };
+        let u = u.map_err(|error| Failure::Run(error.to_string()))?.to_vec();
+        Ok(SurfaceCurve { t: *t, x: x.to_vec(), u })
+    };
+    places.t.iter().map(at).collect()
+}
+
+/// The document but for the surfaces.
+fn empty(
+    arguments: &SurfaceArguments,
+    run: &RunDocument,
+    images: Option<&Images>,
+) -> SurfaceDocument {
+    SurfaceDocument::new(SurfaceParameters {
+        model: run.parameters.model.clone(),
+        far_behind: arguments.far_behind,
+        across: images.map(Images::parameters),
+    })
+}

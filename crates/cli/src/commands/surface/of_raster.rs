@@ -1,0 +1,85 @@
+//! Heights of a raster: points, profiles and images.
+
+use super::places::{MOST_PIXELS, Places, evenly};
+use super::write::SurfaceFormat;
+use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::in_units::{in_metres, scales};
+use crate::commands::job::Job;
+use crate::commands::raster::field;
+use crate::failure::Failure;
+use stickslip::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
+
+pub(super) fn surface(
+    arguments: &SurfaceArguments,
+    raster: &RasterDocument,
+    format: SurfaceFormat,
+) -> Result<(), Failure> {
+    refuse_of_runs(arguments)?;
+    let damaged = |error: Unusable| {
+        Failure::input(
+            format!("RASTER.json {}", arguments.run.display()),
+            format!("damaged: {error}"),
+        )
+    };
+    let (plan, _) = raster.scanned().map_err(damaged)?;
+    let (low, high) = plan.area.ends();
+    let (from, to) = (low - plan.reach_across(), high + plan.reach_across());
+    let places = Places::over(arguments, vec![0.0], (from, to))?;
+    let y = match (&arguments.y, places.y.is_empty()) {
+        (Some(y), _) => y.clone(),
+        (None, false) => places.y.clone(),
+        (None, true) => {
+            let y = (0..plan.lines()).map(|n| plan.track(n).y);
+            let (first, last) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            });
+            if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
+        }
+    };
+    judge_size(&places, &y)?;
+    let scales = scales(&arguments.in_units, None, Some(plan.law.model.r()))?;
+    let (is_gsf, written) = match format {
+        SurfaceFormat::Document(format) => (false, format),
+        SurfaceFormat::Gsf => (true, Format::Json),
+    };
+    let (output, plot) = (&arguments.output, arguments.plot.as_deref());
+    let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;
+    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
+    let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
+    let document = document.in_units(scales.as_ref());
+    let Some(unit) = in_metres else { return job.finish(document) };
+    let bytes = field(&document.parameters, &document.surfaces[0], unit);
+    job.finish_bytes(&bytes, document)
+}
+
+/// Rows by default are the lines, of which there may be a million.
+fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
+    let (columns, rows) = (places.x.len() as f64, y.len() as f64);
+    if columns * rows <= MOST_PIXELS {
+        return Ok(());
+    }
+    let least = places.spacing.unwrap_or(1.0) * columns * rows / MOST_PIXELS;
+    Err(Failure::input(
+        "--spacing and --y",
+        format!(
+            "make {columns} columns of {rows} rows, more than fit in memory; --spacing {least:.3e} or above will do, or \
+             fewer rows by --y or --y-range"
+        ),
+    ))
+}
+
+/// What has no meaning after the last line.
+fn refuse_of_runs(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let given = [
+        ("--at", arguments.at.is_some()),
+        ("--far-behind", arguments.far_behind),
+        ("--width-y", arguments.width_y.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::input(
+            *option,
+            "a raster is shown as its last line left it, by its own footprint: leave the option out",
+        )),
+    }
+}

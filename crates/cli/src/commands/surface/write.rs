@@ -1,0 +1,87 @@
+//! Surfaces to files.
+
+use super::places::Places;
+use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::job::{Job, format};
+use crate::failure::{Failure, Typed};
+use crate::files::gsf::{Field, gsf};
+use stickslip::SurfaceDocument;
+
+/// What is written: a document, or an image alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SurfaceFormat {
+    Document(Format),
+    /// Gwyddion Simple Field.
+    Gsf,
+}
+
+impl SurfaceFormat {
+    /// A .gsf file of a run holds an image.
+    pub(super) fn judge_of_run(self, arguments: &SurfaceArguments) -> Result<(), Failure> {
+        if let Some(y) = arguments.y.as_ref().and_then(|y| y.first()) {
+            let advice = "is for rasters: a run has --y-range LO:HI";
+            return Err(Failure::input(format!("--y {}", Typed(*y)), advice));
+        }
+        if self == Self::Gsf && arguments.y_range.is_none() {
+            let named = format!("--output {}", arguments.output.display());
+            let advice = "a .gsf file holds an image: give --y-range LO:HI too";
+            return Err(Failure::input(named, advice));
+        }
+        Ok(())
+    }
+
+    /// By the extension of the output, refused where that does not go with the other options.
+    pub(super) fn of(arguments: &SurfaceArguments) -> Result<Self, Failure> {
+        let path = &arguments.output;
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let refused = |what: String, advice: &str| Err(Failure::input(what, advice));
+        if extension.as_deref() != Some("gsf") || arguments.format.is_some() {
+            return format(arguments.format, path, ", .gsf").map(Self::Document);
+        }
+        let named = format!("--output {}", path.display());
+        if arguments.y.is_some() {
+            return refused(named, "a .gsf image has evenly spaced rows: give --y-range, not --y");
+        }
+        if arguments.x.is_some() {
+            let advice =
+                "a .gsf image has evenly spaced columns: give --range and --spacing, not --x";
+            return refused(named, advice);
+        }
+        match arguments.at.as_deref() {
+            Some(times) if times.len() != 1 => {
+                refused(named, "a .gsf file holds one image: give one time with --at")
+            }
+            _ => Ok(Self::Gsf),
+        }
+    }
+}
+
+impl SurfaceFormat {
+    /// Where surfaces go.
+    pub(super) fn job(self, arguments: &SurfaceArguments) -> Result<Job, Failure> {
+        let format = match self {
+            Self::Document(format) => format,
+            Self::Gsf => Format::Json,
+        };
+        let (output, plot) = (&arguments.output, arguments.plot.as_deref());
+        Job::of_format::<SurfaceDocument>(format, output, &arguments.fields, plot)
+    }
+}
+
+/// The image, for Gwyddion.
+pub(super) fn field(
+    document: &SurfaceDocument,
+    places: &Places,
+    (length, height, unit): (f64, f64, &str),
+) -> Vec<u8> {
+    let image = &document.images[0];
+    let model = &document.parameters.model;
+    gsf(&Field {
+        title: &format!("u(x,y) at time {}, alpha {}, r {}", image.t, model.alpha, model.r),
+        first: [length * places.x[0], length * places.y[0]],
+        spacing: [length * places.spacing.unwrap_or(1.0), length * places.spacing_y],
+        unit,
+        rows: &image.u,
+        factor: height,
+    })
+}

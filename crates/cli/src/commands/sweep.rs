@@ -1,0 +1,86 @@
+//! `stickslip sweep`.
+
+mod axes;
+pub(crate) mod divided;
+mod grid;
+pub(crate) mod merge;
+mod point;
+mod raster;
+mod started;
+mod work;
+
+use super::finished::Finished;
+use super::job::{Job, judge_places};
+use crate::arguments::{SweepArguments, SweepThen};
+use crate::arithmetic::arithmetic;
+use crate::commands::in_units::scales;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use divided::Divided;
+use grid::Grid;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use stickslip::{Physical, SweepDocument, SweepPoint};
+use stickslip_figures::judge_sweep;
+use work::compute;
+
+const MOST_THREADS: usize = 4096;
+
+pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+    match &arguments.then {
+        Some(SweepThen::Merge(merged)) => return merge::merge(merged),
+        Some(SweepThen::Raster(rasters)) => return raster::sweep(rasters),
+        None => {}
+    }
+    let threads = threads(arguments.threads)?;
+    let read = [("--tip-file", arguments.tip_file.as_deref())];
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    let grid = Grid::asked(arguments)?;
+    let tip_file = arguments.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, grid.parameters.velocity())?;
+    if arguments.plot.is_some() {
+        // Before hours of work.
+        judge_sweep(&grid.parameters).map_err(|error| Failure::input("--plot", error))?;
+    }
+    let job = Job::open::<SweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let indices: Vec<usize> = grid.indices().collect();
+    let is_done = |file| merge::is_done::<SweepDocument>(file, &grid.parameters, &indices);
+    if arguments.if_needed && job.file().is_some_and(is_done) {
+        return Ok(());
+    }
+    let finished = match job.file() {
+        Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
+        None => Finished::in_memory(),
+    };
+    let interrupt = Interrupt::listen()?;
+    let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
+    let points = finished.in_order();
+    let document = SweepDocument::new(grid.parameters, points, Some(arithmetic()));
+    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
+    finished.remove();
+    Ok(())
+}
+
+/// 0: as many as there are cores.
+fn threads(asked: Option<usize>) -> Result<usize, Failure> {
+    match asked {
+        None => Ok(0),
+        Some(threads) if (1..=MOST_THREADS).contains(&threads) => Ok(threads),
+        Some(threads) => {
+            let message = format!("1 to {MOST_THREADS} will do");
+            Err(Failure::input(format!("--threads {threads}"), message))
+        }
+    }
+}
+
+/// A point; where a library panics, one that failed.
+fn judged(index: usize, grid: &Grid) -> SweepPoint {
+    let place = grid.place(index);
+    let empty = place.empty(index, None);
+    let point = AssertUnwindSafe(|| point::point(index, place, grid.parameters.tolerance));
+    catch_unwind(point).unwrap_or_else(|_| SweepPoint {
+        error: Some(
+            "the computation failed for a reason that it cannot tell: please report it".into(),
+        ),
+        ..empty
+    })
+}

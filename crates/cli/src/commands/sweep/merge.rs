@@ -1,0 +1,171 @@
+//! `stickslip sweep merge`.
+
+use super::divided::Divided;
+use crate::arguments::MergeArguments;
+use crate::commands::finished::Part;
+use crate::commands::in_units::scales;
+use crate::commands::job::{Job, judge_places};
+use crate::failure::Failure;
+use crate::files::distinct::Named;
+use crate::files::input::{format_of, read_document};
+use crate::message::{remark, say};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use stickslip::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
+
+const PART: &str = "PART.json";
+
+/// The whole from its parts, of which the first one tells what it is.
+pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+    let named: Vec<Named> = arguments.parts.iter().map(|part| (PART, Some(&**part))).collect();
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
+    let first = arguments.parts.iter().find(|part| *part != Path::new("-"));
+    let format = first.map_or(Ok(None), |path| format_of(PART, path, SweepDocument::FORMAT))?;
+    match format.as_deref() {
+        Some(RasterSweepDocument::FORMAT) => merged::<RasterSweepDocument>(arguments),
+        _ => merged::<SweepDocument>(arguments),
+    }
+}
+
+/// The whole from its parts, which must be all of it, once.
+fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
+    let read = |path: &PathBuf| read::<D>(path).map(|part| (path.clone(), part));
+    let mut parts = arguments.parts.iter().map(read);
+    let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
+        Failure::input(PART, "no part was given: name the documents of all of them")
+    })?;
+    let mut shards: Vec<ShardDocument> = whole.held().shard.take().into_iter().collect();
+    for part in parts {
+        let (path, mut part) = part?;
+        shards.extend(part.held().shard.take());
+        if !part.is_of(&whole) {
+            return Err(Failure::input(
+                format!("{PART} {}", path.display()),
+                "is of another sweep, or another version, than the first one",
+            ));
+        }
+        let (part, all) = (part.held(), whole.held());
+        if part.arithmetic != all.arithmetic && all.arithmetic.take().is_some() {
+            let path = path.display();
+            say(format_args!(
+                "stickslip: {path} was computed by a machine that rounds otherwise: one machine alone would give other \
+                 last digits"
+            ));
+        }
+        all.points.append(part.points);
+    }
+    whole.held().points.sort_by_key(Part::index);
+    judge_parts(&shards)?;
+    complete(&whole)?;
+    if arguments.plot.is_some() {
+        whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
+    }
+    let scales = scales(&arguments.in_units, None, whole.velocity())?;
+    let job = Job::open::<D>(&arguments.outlet, arguments.plot.as_deref())?;
+    job.finish(whole.sealed()?.in_units(scales.as_ref()))
+}
+
+/// Names the parts that are missing, as an array job of Slurm takes them.
+fn judge_parts(shards: &[ShardDocument]) -> Result<(), Failure> {
+    let Some(of) = shards.first().map(|shard| shard.of) else { return Ok(()) };
+    let there: HashSet<usize> = shards.iter().map(|shard| shard.index).collect();
+    // What is there twice, or of another division, is told point by point.
+    let is_odd = there.len() < shards.len() || shards.iter().any(|shard| shard.of != of);
+    if is_odd || there.len() >= of {
+        return Ok(());
+    }
+    let missing: Vec<usize> = (1..=of).filter(|index| !there.contains(index)).collect();
+    let array = runs(&missing);
+    let message = format!(
+        "of {of} parts {} are missing: --shard {}/{of} and so on, or an array job with --array={array} and --shard slurm/{of}, computes \
+         them; then name the documents of all parts",
+        missing.len(),
+        missing[0]
+    );
+    Err(Failure::input(PART, message))
+}
+
+/// Rising numbers as `1,4-6`.
+fn runs(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        run => run.iter().map(usize::to_string).collect(),
+    });
+    runs.collect::<Vec<_>>().join(",")
+}
+
+/// Whether a file is a complete document of the requested sweep; `indices` are those of its points. A remark says what another
+/// file is.
+pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &[usize]) -> bool {
+    if !path.exists() {
+        return false;
+    }
+    let is_asked = |found: &D| {
+        let points = found.points().iter().map(Part::index);
+        found.parameters() == asked
+            && *found.software() == Software::this()
+            && points.eq(indices.iter().copied())
+    };
+    let name = path.display();
+    match read::<D>(path) {
+        Ok(found) if is_asked(&found) => return true,
+        Ok(_) => remark(format_args!("stickslip: {name} is of another sweep: computed anew")),
+        Err(error) => remark(format_args!("stickslip: {error}: computed anew")),
+    }
+    false
+}
+
+fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
+    let mut part: D = read_document(PART, path, D::FORMAT)?;
+    let refused = |message| Err(Failure::input(format!("{PART} {}", path.display()), message));
+    let kept = *part.held().crc32;
+    match kept {
+        Some(sum) if sum == part.checksum()? => Ok(part),
+        Some(_) => refused("was changed since it was written: its checksum does not match"),
+        None => {
+            refused("has no checksum `crc32`: it is not as this version writes it, sweep it again")
+        }
+    }
+}
+
+/// Every point of the grid, once.
+pub(crate) fn complete(whole: &impl Divided) -> Result<(), Failure> {
+    let refused = |message: String| Err(Failure::input(PART, message));
+    let points = whole.points();
+    if let Some(pair) = points.windows(2).find(|pair| pair[0].index() == pair[1].index()) {
+        return refused(format!("point {} is in more than one part", pair[0].index()));
+    }
+    let count = whole.count();
+    if let Some(missing) = (0..count).find(|i| points.get(*i).map(Part::index) != Some(*i)) {
+        let (found, advice) = (points.len(), "name the documents of all parts");
+        return refused(format!(
+            "point {missing} is missing ({found} of {count} are there): {advice}"
+        ));
+    }
+    if points.len() > count {
+        return refused(format!("there are {} points, the grid has {count}", points.len()));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_parts_are_named_as_an_array_job_takes_them() {
+        let refused = |there: &[usize], of| {
+            let shards: Vec<_> = there.iter().map(|i| ShardDocument { index: *i, of }).collect();
+            judge_parts(&shards).err().map(|failure| failure.to_string()).unwrap_or_default()
+        };
+        assert!(
+            refused(&[1, 3, 8], 8).contains("--array=2,4-7 and --shard slurm/8,"),
+            "{}",
+            refused(&[1, 3, 8], 8)
+        );
+        assert!(refused(&[1, 2], 3).contains("of 3 parts 1 are missing: --shard 3/3"));
+        assert_eq!(refused(&[3, 1, 2], 3), "");
+        assert_eq!(refused(&[], 3), "");
+        assert_eq!(runs(&[1, 2, 3, 7, 9, 10]), "1-3,7,9-10");
+    }
+}

@@ -1,0 +1,161 @@
+//! What is told of periodic motion: cycles, branches of them, sweeps.
+
+use super::{Told, again, digits};
+use crate::commands::job::Product;
+use stickslip::{
+    ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
+    SpecialName, StatisticsDocument, SweepDocument, to_its_digits,
+};
+
+impl Product for CycleDocument {
+    fn told(&self) -> Told {
+        let stable = if self.stable { "stable" } else { "unstable" };
+        let slips = match self.slips {
+            1 => "one slip".into(),
+            n => format!("{n} slips"),
+        };
+        let held = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
+        let period = held(self.period, self.period_error);
+        let amplitude = held(self.amplitude_x0, self.amplitude_x0_error);
+        let told = Told::new(format!(
+            "{stable} cycle of {slips}, period {period}, amplitude of x0 {amplitude}"
+        ));
+        let shift = self.floquet.iter().map(|m| (m.re - 1.0).hypot(m.im));
+        let shift = shift.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i);
+        // But the one that stands for a shift in time.
+        let leading = self.floquet.iter().enumerate().find(|(i, _)| Some(*i) != shift);
+        let leading = leading.map(|(_, m)| {
+            let [re, im] = [m.re, m.im].map(|part| digits(part, 6));
+            format!("{re} + {im} i, ± {:.0e}", self.floquet_error)
+        });
+        told.row("period", format!("{period} Γ/k"))
+            .row("wavelength", format!("{} σ", held(self.wavelength, self.wavelength_error)))
+            .row("amplitude of x0", format!("{amplitude} σ"))
+            .row(
+                "amplitude of u",
+                format!("{} kσ²/a", held(self.amplitude_u, self.amplitude_u_error)),
+            )
+            .maybe("largest multiplier", leading)
+            .row("residual of (18)", format!("{:.0e} kσ/Γ", self.residual))
+            .next(again("-o cycle.json --plot cycle.svg"))
+    }
+}
+
+impl Product for ContinueDocument {
+    fn told(&self) -> Told {
+        let over = self.parameters.over;
+        let branches = self.branches.iter().enumerate();
+        let lines: Vec<String> =
+            branches.map(|(i, branch)| format!("branch {i}: {}", line(branch, over))).collect();
+        let mut told = Told::new(lines.join("\n"));
+        for special in &self.special {
+            let at = if over == OverName::Alpha { ("α", special.alpha) } else { ("r", special.r) };
+            let place =
+                format!("{} = {}, period {}", at.0, digits(at.1, 10), digits(special.period, 10));
+            told = told.row(name(special.kind), format!("{place}, branch {}", special.branch));
+        }
+        told.maybe("trapped for ever at", self.trapping.map(|value| digits(value, 7)))
+            .remarks(&self.remarks)
+            .next(again("-o branches.json --plot branches.svg"))
+    }
+}
+
+fn line(branch: &CycleBranch, over: OverName) -> String {
+    let (name, values) = match over {
+        OverName::Alpha => ("alpha", &branch.alpha),
+        OverName::R => ("r", &branch.r),
+    };
+    let end = |value: Option<&f64>| value.map_or(String::new(), |value| digits(*value, 7));
+    let (first, last) = (end(values.first()), end(values.last()));
+    format!("{} cycles, {name} from {first} to {last}, {}", values.len(), why(branch.end))
+}
+
+fn why(end: EndName) -> &'static str {
+    match end {
+        EndName::Reached => "the value of --to",
+        EndName::LongPeriod => "where the period exceeds --longest-period",
+        EndName::Steady => "where the cycle has shrunk to steady motion",
+        EndName::Halved => "where it joins the branch of half the period",
+        EndName::ManyPoints => "with --most-points",
+        EndName::Lost => "where no further cycle was found",
+        EndName::Interrupted => "where a signal ended it",
+    }
+}
+
+fn name(kind: SpecialName) -> &'static str {
+    match kind {
+        SpecialName::Hopf => "onset (Hopf)",
+        SpecialName::Fold => "fold",
+        SpecialName::PeriodDoubling => "period doubling",
+        SpecialName::PeriodHalving => "period halving",
+        SpecialName::BranchPoint => "branch point",
+        SpecialName::Torus => "torus",
+    }
+}
+
+impl Product for SweepDocument {
+    fn told(&self) -> Told {
+        let count = |regime: RegimeName| {
+            self.points.iter().filter(|point| point.regime == Some(regime)).count()
+        };
+        let failed = self.points.iter().filter(|point| point.error.is_some());
+        let regimes =
+            [RegimeName::Steady, RegimeName::StickSlip, RegimeName::Trapped, RegimeName::Transient];
+        let ensembles = self.ensembles.iter().flatten().collect::<Vec<_>>();
+        let counts = regimes.map(|regime| (regime.to_string(), count(regime)));
+        let found: Vec<String> = counts
+            .iter()
+            .filter(|(_, count)| *count > 0)
+            .map(|(regime, count)| format!("{count} {regime}"))
+            .chain(
+                (failed.clone().count() > 0).then(|| format!("{} failed", failed.clone().count())),
+            )
+            .collect();
+        let told = Told::new(format!("{} points: {}", self.points.len(), found.join(", ")));
+        let told =
+            counts.iter().fold(told, |told, (regime, count)| told.row(regime, count.to_string()));
+        let why = failed.clone().next().and_then(|point| {
+            let error = point.error.as_ref()?;
+            Some(format!("{}, the first at r = {}: {error}", failed.count(), digits(point.r, 7)))
+        });
+        statistics(told, &ensembles).maybe("failed", why).next(again("-o map.json --plot map.svg"))
+    }
+}
+
+/// Ensembles of which every number is listed; of more of them l alone.
+const IN_FULL: usize = 1;
+/// Ensembles that have a row.
+const LISTED: usize = 20;
+
+/// Means of ensembles with their standard errors, and how far members are apart.
+fn statistics(summary: Told, ensembles: &[&EnsembleDocument]) -> Told {
+    if ensembles.len() <= IN_FULL {
+        return ensembles.iter().fold(summary, |summary, ensemble| {
+            summary
+                .maybe("period", ensemble.period.as_ref().map(|s| spread(s, "Γ/k")))
+                .maybe("wavelength", ensemble.wavelength.as_ref().map(|s| spread(s, "σ")))
+                .maybe("amplitude of x0", ensemble.amplitude_x0.as_ref().map(|s| spread(s, "σ")))
+                .maybe("amplitude of u", ensemble.amplitude_u.as_ref().map(|s| spread(s, "kσ²/a")))
+                .maybe("mean of l", ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+                .maybe("deviation of l", ensemble.deviation_l.as_ref().map(|s| spread(s, "σ")))
+        });
+    }
+    let row = |summary: Told, ensemble: &&EnsembleDocument| {
+        let points =
+            format!("l, points {} to {}", ensemble.first, ensemble.first + ensemble.count - 1);
+        summary.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+    };
+    let summary = ensembles.iter().take(LISTED).fold(summary, row);
+    let more = ensembles.len().saturating_sub(LISTED);
+    summary.maybe("more ensembles", (more > 0).then(|| more.to_string()))
+}
+
+fn spread(of: &StatisticsDocument, unit: &str) -> String {
+    let mean = match of.error {
+        Some(error) => to_its_digits(of.mean, error),
+        None => digits(of.mean, 7),
+    };
+    let deviation = of.deviation.map_or(String::new(), |d| format!("spread {}, ", digits(d, 3)));
+    let [least, largest] = [of.least, of.largest].map(|value| digits(value, 5));
+    format!("mean of {}: {mean}, {deviation}{least} to {largest} {unit}", of.count)
+}

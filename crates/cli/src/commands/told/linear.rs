@@ -1,0 +1,146 @@
+//! What is told of linear theory: stability, boundary, response.
+
+use super::{Told, again, digits};
+use crate::commands::job::Product;
+use stickslip::{
+    BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
+    StabilityDocument, to_its_digits,
+};
+
+/// What holds of the numbers of a critical point.
+const CRITICAL: usize = 10;
+
+impl Product for StabilityDocument {
+    fn told(&self) -> Told {
+        let model = &self.parameters.model;
+        let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, CRITICAL));
+        let stable = if self.stable { "stable" } else { "unstable" };
+        let state = if self.parameters.at_critical_point { "critical" } else { stable };
+        let critical = self.critical.as_ref();
+        let headline = match critical {
+            Some(at) if self.parameters.at_critical_point => format!(
+                "stick-slip sets in at α = {alpha}, r = {r}, with ω = {}",
+                digits(at.omega, CRITICAL)
+            ),
+            Some(at) => format!(
+                "steady motion at α = {alpha}, r = {r} is {state}; it loses its stability at α = {}, r = {}",
+                digits(at.alpha, CRITICAL),
+                digits(at.r, CRITICAL)
+            ),
+            None => format!("steady motion at α = {alpha}, r = {r} is {state}"),
+        };
+        let told = Told::new(headline)
+            .maybe("critical α", critical.map(|at| digits(at.alpha, CRITICAL)))
+            .maybe("critical r", critical.map(|at| digits(at.r, CRITICAL)))
+            .maybe("ω there", critical.map(|at| format!("{} k/Γ", digits(at.omega, CRITICAL))))
+            .maybe(
+                "period there",
+                critical.map(|at| format!("{} Γ/k", digits(at.period, CRITICAL))),
+            )
+            .maybe(
+                "wavelength there",
+                critical.map(|at| format!("{} σ", digits(at.wavelength, CRITICAL))),
+            )
+            .maybe("onset", self.onset.as_ref().map(|onset| criticality(onset.criticality).into()))
+            .maybe(
+                "trapped for ever from",
+                self.trapping.alpha.map(|a| format!("α = {}", digits(a, 7))),
+            );
+        let error = self.certificate.largest_error;
+        let root = |root: &ComplexDocument| {
+            let [re, im] = [root.re, root.im].map(|part| to_its_digits(part, error));
+            format!("({re}) + ({im}) i k/Γ")
+        };
+        let certain =
+            if self.certificate.complete { "none is missing" } else { "some may be missing" };
+        let limits = self.limits.as_ref();
+        let least = limits.and_then(|limits| limits.least_depth_limit);
+        let length = limits.and_then(|limits| limits.memory_length);
+        let told = told
+            .maybe("always stable below", least.map(|b| format!("b = {}", digits(b, 7))))
+            .maybe(
+                "always stable below rT",
+                length.map(|l| format!("{} σ, without a depth limit", digits(l, 7))),
+            );
+        told.maybe("leading growth exponent", self.roots.first().map(root))
+            .row("growth exponents", format!("{}, {certain}", self.roots.len()))
+            .remarks(&self.remarks)
+            .next(again("-o stability.json --plot roots.svg"))
+    }
+}
+
+fn criticality(name: CriticalityName) -> &'static str {
+    match name {
+        CriticalityName::Supercritical => "supercritical: a small stable oscillation above",
+        CriticalityName::Subcritical => "subcritical: an unstable oscillation below",
+    }
+}
+
+impl Product for BoundaryDocument {
+    fn told(&self) -> Told {
+        let points = self.r.len();
+        let lowest = self.alpha.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = self.alpha.iter().copied().fold(0.0, f64::max);
+        let [low, high] = [lowest, highest].map(|alpha| digits(alpha, 7));
+        let [first, last] = self.parameters.r_range.map(|r| digits(r, 7));
+        let limits = self.limits.as_ref();
+        if points == 0 {
+            let stable = format!("steady motion is stable at every α and r from {first} to {last}");
+            return least(Told::new(stable), limits).remarks(&self.remarks);
+        }
+        let told =
+            Told::new(format!("αc from {low} to {high} at {points} r from {first} to {last}"));
+        let sub = self.onset.criticality.iter();
+        let sub = sub.filter(|c| **c == Some(CriticalityName::Subcritical)).count();
+        let told = told
+            .row("r", format!("{points} from {first} to {last}"))
+            .row("αc", format!("from {low} to {high}"));
+        let told = match limits {
+            Some(_) => least(told, limits),
+            None => told
+                .row("subcritical at", format!("{sub} of them"))
+                .row("stretches of the curve", self.branches.len().to_string()),
+        };
+        told.remarks(&self.remarks).next(again("-o boundary.csv --plot boundary.svg"))
+    }
+}
+
+/// What leaves nothing unstable.
+fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
+    let depths = limits.map(|limits| limits.least_depth_limit.iter().copied().flatten());
+    let depths: Vec<f64> = depths.into_iter().flatten().collect();
+    let lowest = depths.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = depths.iter().copied().fold(0.0, f64::max);
+    let [low, high] = [lowest, highest].map(|b| digits(b, 7));
+    let range = (!depths.is_empty()).then(|| format!("b = {low} to {high}, by r"));
+    told.maybe("always stable below", range).maybe(
+        "always stable below rT",
+        limits
+            .and_then(|limits| limits.memory_length)
+            .map(|length| format!("{} σ, without a depth limit", digits(length, 7))),
+    )
+}
+
+impl Product for ResponseDocument {
+    fn told(&self) -> Told {
+        let model = &self.parameters.model;
+        let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, 7));
+        let leading = self.modes.first().map(|mode| {
+            let [re, im] = [mode.lambda.re, mode.lambda.im].map(|part| digits(part, 7));
+            format!("{re} + {im} i k/Γ")
+        });
+        let from = digits(self.valid_from, 7);
+        let told = Told::new(format!(
+            "{} modes at α = {alpha}, r = {r}: from t = {from} on their sum holds to {:.0e} of the first",
+            self.modes.len(),
+            self.valid_to
+        ));
+        let deviations = self.samples.deviation.iter().flatten();
+        let largest = deviations.fold(0.0_f64, |most, d| most.max(d.abs()));
+        told.maybe("leading mode", leading)
+            .row("valid from", format!("t = {from}"))
+            .row("largest deviation", format!("{} σ", digits(largest, 7)))
+            .remarks(&self.remarks)
+            .next(again("-o response.csv --plot response.svg"))
+    }
+}

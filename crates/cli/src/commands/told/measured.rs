@@ -1,0 +1,88 @@
+//! What is told of measured data.
+
+use super::{Told, digits};
+use crate::commands::job::Product;
+use stickslip::{EstimateDocument, FitDocument, MeasuredTipDocument, NumberFitted};
+
+impl Product for MeasuredTipDocument {
+    fn told(&self) -> Told {
+        let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
+        let unit = unit.unwrap_or_default();
+        let r = digits(self.parameters.r, 6);
+        let headline = format!(
+            "a sum of {} Gaussian{} with σ = {}{unit}: critical α {} at r = {r}",
+            self.terms,
+            if self.terms == 1 { "" } else { "s" },
+            in_digits(&self.sigma),
+            with_interval(&self.critical_alpha),
+        );
+        let trapping = self.trapping_alpha.as_ref().map(with_interval);
+        Told::new(headline)
+            .row("σ", format!("{}{unit}", with_interval(&self.sigma)))
+            .row("centre", format!("{}{unit}", digits(self.centre, 6)))
+            .row("height", digits(self.apex, 5))
+            .row("noise from row to row", digits(self.noise, 3))
+            .row("residual", digits(self.residual, 3))
+            .row("critical α", with_interval(&self.critical_alpha))
+            .row("ω there", format!("{} k/Γ", with_interval(&self.critical_omega)))
+            .maybe("trapped for ever from α", trapping)
+            .remarks(&self.remarks)
+            .next(format!("stickslip stability --tip-file tip.json --r {r}"))
+    }
+}
+
+impl Product for FitDocument {
+    fn told(&self) -> Told {
+        let unit = |n: &NumberFitted| match &self.parameters.unit {
+            Some(unit) if n.name == "width" => format!(" {unit}"),
+            _ => String::new(),
+        };
+        let said = |n: &NumberFitted| format!("{}{}", with_interval(&n.estimate), unit(n));
+        let short = self.numbers.iter().map(|n| format!("{} = {}", n.name, said(n)));
+        let mut told = Told::new(short.collect::<Vec<String>>().join(", "));
+        for number in &self.numbers {
+            told = told.row(&number.name.replace('_', " "), said(number));
+        }
+        for (i, row) in self.correlations.iter().enumerate() {
+            for (j, correlation) in row.iter().enumerate().skip(i + 1) {
+                let name = format!("{}, {}", self.numbers[i].name, self.numbers[j].name);
+                told = told.row(&name, format!("correlation {correlation:.3}"));
+            }
+        }
+        for data in &self.data {
+            told = told
+                .row(
+                    &data.source,
+                    format!("{} rows, residual {}", data.y.len(), digits(data.residual, 3)),
+                )
+                .maybe("scan", data.scan.clone())
+                .maybe("noise", data.noise.map(|noise| digits(noise, 3)))
+                .maybe("probability of the misfit", data.misfit.map(|p| digits(p, 2)))
+                .maybe("gain", data.gain.map(|gain| digits(gain, 5)));
+        }
+        let at = self.critical_alpha.map(|alpha| digits(alpha, 6));
+        told.maybe("critical α at this r", at).remarks(&self.remarks)
+    }
+}
+
+/// Such as "1.879 (1.85 to 1.91)".
+fn with_interval(estimate: &EstimateDocument) -> String {
+    let value = in_digits(estimate);
+    let end = |end: f64| digits(end, 4);
+    match (estimate.low, estimate.high) {
+        (Some(low), Some(high)) => format!("{value} ({} to {})", end(low), end(high)),
+        (Some(low), None) => format!("{value} (above {})", end(low)),
+        (None, Some(high)) => format!("{value} (below {})", end(high)),
+        (None, None) => format!("{value} (no interval)"),
+    }
+}
+
+/// With one digit more than hold.
+fn in_digits(estimate: &EstimateDocument) -> String {
+    let width = estimate.high.zip(estimate.low).map(|(high, low)| 0.5 * (high - low));
+    let relative = width.map_or(0.0, |width| width / estimate.value.abs());
+    let count = if relative > 0.0 { 1.0 - relative.log10().floor() } else { 6.0 };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let count = count.clamp(2.0, 10.0) as usize;
+    digits(estimate.value, count)
+}

@@ -1,0 +1,228 @@
+//! What was found, for a person: a line or two, aligned values with their errors, and what to try next.
+
+mod cycles;
+mod linear;
+mod measured;
+mod others;
+mod raster;
+mod run;
+mod verify;
+mod walking;
+
+pub(in crate::commands) use run::{of_lines, of_run};
+
+use crate::made::{Document, Made};
+use crate::message::harmless;
+use std::fmt::Write;
+use stickslip::{Dimension, InUnits, KnownScales};
+
+/// What a person is told of a result.
+#[derive(Debug, Default)]
+pub(crate) struct Told {
+    headline: String,
+    rows: Vec<(String, String)>,
+    remarks: Vec<String>,
+    next: Vec<String>,
+}
+
+impl Told {
+    /// What was found, and whether what was promised is kept, in a line or two: all that is said beside a file.
+    pub(crate) fn new(headline: impl Into<String>) -> Self {
+        let headline = headline.into();
+        let lines = headline.split('\n').map(harmless);
+        Self { headline: lines.collect::<Vec<_>>().join("\n"), ..Self::default() }
+    }
+
+    /// A value under its name. Names of files come back here, as they do in remarks and commands.
+    #[must_use]
+    pub(crate) fn row(mut self, name: &str, value: impl Into<String>) -> Self {
+        self.rows.push((harmless(name).into(), harmless(&value.into()).into()));
+        self
+    }
+
+    /// The same, if there is one.
+    #[must_use]
+    pub(crate) fn maybe(self, name: &str, value: Option<String>) -> Self {
+        match value {
+            Some(value) => self.row(name, value),
+            None => self,
+        }
+    }
+
+    /// Each value with its unit in nm, s and nN beside the model's, where the document has these.
+    #[must_use]
+    pub(crate) fn in_units(mut self, physical: Option<&InUnits>) -> Self {
+        let Some(InUnits { scales, .. }) = physical else { return self };
+        for (_, value) in &mut self.rows {
+            if let Some(beside) = in_units(value, scales) {
+                value.push_str(&beside);
+            }
+        }
+        self
+    }
+
+    /// What a reader should know.
+    #[must_use]
+    pub(crate) fn remarks(mut self, remarks: &[String]) -> Self {
+        self.remarks.extend(remarks.iter().map(|remark| harmless(remark).into_owned()));
+        self
+    }
+
+    /// A command to try.
+    #[must_use]
+    pub(crate) fn next(mut self, command: impl Into<String>) -> Self {
+        self.next.push(harmless(&command.into()).into());
+        self
+    }
+
+    /// What is said beside a file: what was found, and what should be known of it.
+    pub(crate) fn in_short(&self) -> String {
+        let remarks = self.remarks.iter().map(|remark| format!("\nremark: {remark}"));
+        self.headline.clone() + &remarks.collect::<String>()
+    }
+
+    /// With what it tells of, but for commands to try: whoever takes a document in hand types none.
+    pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
+        let told = Self { next: vec![], ..self };
+        Made { document, text: told.text(), headline: told.headline }
+    }
+
+    /// All of it, in lines.
+    pub(crate) fn text(&self) -> String {
+        let width = self.rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        let mut text = format!("{}\n", self.headline.trim_end());
+        for (name, value) in &self.rows {
+            let gap = width - name.chars().count();
+            // A String takes all that is written to it.
+            writeln!(text, "  {name}{:gap$}  {value}", "").ok();
+        }
+        for remark in &self.remarks {
+            writeln!(text, "  remark: {remark}").ok();
+        }
+        for command in &self.next {
+            writeln!(text, "next: {command}").ok();
+        }
+        text
+    }
+}
+
+/// The command as it was typed, but for where its result goes, with more options in place of those of the same name.
+pub(crate) fn again(more: &str) -> String {
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    typed(words, more)
+}
+
+/// Of each, the value goes with the option.
+const OUTLET: [&str; 4] = ["-o", "--output", "--plot", "--format"];
+
+fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
+    let is_replaced = |name: &str| OUTLET.contains(&name) || more.split(' ').any(|m| m == name);
+    let mut kept = vec![];
+    while let Some(word) = words.next() {
+        let (name, value) = word.split_once('=').unwrap_or((&word, ""));
+        if !(name.starts_with('-') && is_replaced(name)) {
+            kept.push(quoted(word));
+        } else if value.is_empty() {
+            words.next();
+        }
+    }
+    format!("stickslip {} {more}", kept.join(" "))
+}
+
+fn quoted(word: String) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
+}
+
+/// ` = 212 nm` of `7.067(2) σ`, with as many digits.
+fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
+    let (number, unit) = value.rsplit_once(' ')?;
+    let dimension = Dimension::of_unit(unit)?;
+    let (digits_of, rest) = number.split_once('(').unwrap_or((number, ")"));
+    let exponent = rest.split_once(')')?.1;
+    let count = digits_of.chars().filter(char::is_ascii_digit).count();
+    let converted =
+        format!("{digits_of}{exponent}").parse::<f64>().ok()? * dimension.factor(scales)?;
+    Some(format!(" = {} {}", digits(converted, count.max(3)), dimension.unit()))
+}
+
+/// With so many digits that count, as few as it needs.
+pub(crate) fn digits(value: f64, count: usize) -> String {
+    let exponent = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    if !value.is_finite() || !(-5..15).contains(&exponent) {
+        let mantissa = format!("{value:.*e}", count - 1);
+        let Some((number, exponent)) = mantissa.split_once('e') else { return mantissa };
+        return format!("{}e{exponent}", without_zeros(number));
+    }
+    let decimals = usize::try_from(count as i32 - 1 - exponent).unwrap_or(0);
+    without_zeros(&format!("{value:.decimals$}")).into()
+}
+
+/// How many times one thing is another: two digits, of a quantity that no repetition gives more of.
+pub(crate) fn times(ratio: f64) -> String {
+    let rounded = format!("{ratio:.1e}").parse().unwrap_or(ratio);
+    digits(rounded, 2)
+}
+
+fn without_zeros(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_stand_below_each_other() {
+        let told =
+            Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
+        let told = told.remarks(&["few".into()]).next("stickslip units");
+        let text =
+            "steady: t = 5\n  α       1.2\n  period  6\n  remark: few\nnext: stickslip units\n";
+        assert_eq!(told.text(), text);
+    }
+
+    /// Whatever a file is called, or a document holds: ESC, C1, the right-to-left override, and lines of their own.
+    #[test]
+    fn nothing_that_moves_a_cursor_is_printed() {
+        let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\u{202e}b\rc\u{7f}\td";
+        let told =
+            Told::new(hostile).row(hostile, hostile).remarks(&[format!("{hostile}\n{hostile}")]);
+        let told = told.next(hostile);
+        for text in [told.text(), told.in_short()] {
+            assert!(
+                text.chars().all(|c| c == '\n' || harmless(&c.to_string()).len() == c.len_utf8())
+            );
+        }
+        assert_eq!(told.text().lines().count(), 4, "{}", told.text());
+    }
+
+    #[test]
+    fn digits_are_those_that_count() {
+        let cases = [(1.0690361749, 7), (0.0, 7), (2e-9, 3), (1234567.0, 7), (-0.5, 3), (1e300, 4)];
+        let shown = cases.map(|(value, count)| digits(value, count));
+        assert_eq!(shown, ["1.069036", "0", "2e-9", "1234567", "-0.5", "1e300"]);
+    }
+
+    #[test]
+    fn ratios_have_two_digits() {
+        let shown = [152_924.338, 3.1678, 0.0123, 99.6, 1e9, 0.0].map(times);
+        assert_eq!(shown, ["150000", "3.2", "0.012", "100", "1000000000", "0"]);
+    }
+
+    #[test]
+    fn a_value_with_an_exponent_is_converted_whole() {
+        let scales = KnownScales { length: Some(30e-9), ..KnownScales::default() };
+        assert_eq!(in_units("2.5(3)e-12 σ", &scales).unwrap(), " = 7.5e-11 nm");
+        assert_eq!(in_units("2.50(3) σ", &scales).unwrap(), " = 75 nm");
+    }
+
+    #[test]
+    fn a_command_is_typed_again_with_other_options() {
+        let words = ["run", "--alpha", "1.2", "--until", "40", "--format=text", "-o", "a b.json"];
+        let again = typed(words.map(String::from).into_iter(), "--until 160 --plot run.svg");
+        assert_eq!(again, "stickslip run --alpha 1.2 --until 160 --plot run.svg");
+        let again = typed(["surface", "a b.json"].map(String::from).into_iter(), "-o s.csv");
+        assert_eq!(again, "stickslip surface 'a b.json' -o s.csv");
+    }
+}

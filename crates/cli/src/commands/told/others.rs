@@ -1,0 +1,73 @@
+//! What is told of surfaces, comparisons and units.
+
+use super::{Told, again, digits, times};
+use crate::commands::job::Product;
+use stickslip::{CompareDocument, SurfaceDocument, UnitsDocument};
+
+impl Product for SurfaceDocument {
+    fn told(&self) -> Told {
+        let curves = self.surfaces.iter().map(|s| (s.t, &s.x, s.u.to_vec()));
+        let images = self.images.iter().map(|image| {
+            (image.t, &image.x, image.u.iter().flatten().copied().collect::<Vec<f64>>())
+        });
+        let all: Vec<(f64, &Vec<f64>, Vec<f64>)> = curves.chain(images).collect();
+        let line = |(t, x, u): &(f64, &Vec<f64>, Vec<f64>)| {
+            let low = digits(u.iter().copied().fold(f64::INFINITY, f64::min), 4);
+            let high = digits(u.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
+            let [first, last] = [x.first(), x.last()].map(|x| digits(x.copied().unwrap_or(0.0), 7));
+            let (count, t) = (u.len(), digits(*t, 10));
+            (
+                format!("t = {t}"),
+                format!("{count} heights from {low} to {high} kσ²/a, x from {first} to {last} σ"),
+            )
+        };
+        let rows: Vec<(String, String)> = all.iter().map(line).collect();
+        let headline = match rows.as_slice() {
+            [(t, heights)] => format!("u at {t}: {heights}"),
+            _ => format!("u at {} times", rows.len()),
+        };
+        let told = rows.into_iter().fold(Told::new(headline), |told, (t, row)| told.row(&t, row));
+        told.next(again("-o surface.csv --plot surface.svg"))
+    }
+}
+
+impl Product for CompareDocument {
+    fn told(&self) -> Told {
+        let Self { closed, grid, max_difference, speedup, .. } = self;
+        let told = Told::new(format!(
+            "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
+             {} times as fast per unit of time",
+            max_difference.x0,
+            max_difference.u,
+            1e3 * closed.work.seconds,
+            1e3 * grid.work.seconds,
+            times(*speedup),
+        ));
+        told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+            .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
+            .row(
+                "closed equation",
+                format!("{} steps, {:.2} ms", closed.work.steps, 1e3 * closed.work.seconds),
+            )
+            .row("grid", format!("{} steps, {:.2} ms", grid.work.steps, 1e3 * grid.work.seconds))
+            .row("speedup", format!("{} per unit of time simulated", times(*speedup)))
+            .next(again("-o compare.json --plot compare.svg"))
+    }
+}
+
+impl Product for UnitsDocument {
+    fn told(&self) -> Told {
+        let stable =
+            if self.stable { "steady motion is stable" } else { "steady motion is unstable" };
+        let [alpha, r] = [self.alpha, self.r].map(|value| digits(value, 7));
+        let told = Told::new(format!("α = {alpha}, r = {r}: {stable}"));
+        let rows = self.quantities().into_iter().fold(told, |told, (name, value, unit)| {
+            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+            told.maybe(&name.replace('_', " "), value.map(|v| format!("{}{unit}", digits(v, 7))))
+        });
+        let next = format!(
+            "stickslip run --alpha {alpha} --r {r} --kick 0.05 --until 400 -o run.json --plot run.svg"
+        );
+        rows.remarks(&self.remarks).next(next)
+    }
+}

@@ -1,0 +1,85 @@
+//! What is told of a run.
+
+use super::{Told, again, digits};
+use crate::commands::verify::kept;
+use stickslip::{
+    LoopDocument, ModelParameters, OscillationDocument, RegimeName, RunDocument, RunEnd,
+    to_its_digits,
+};
+
+/// What is told of a run that became what `end` says.
+pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told {
+    let verified = document.verification.as_ref().map_or(String::new(), kept);
+    let told = Told::new(summary(end) + &verified);
+    let told = told.row("α, r", parameters(&document.parameters.model));
+    let told = match &end.oscillation {
+        Some(found) => oscillation(told, found),
+        None => told,
+    };
+    let worked = |loops: &Vec<LoopDocument>| {
+        loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
+    };
+    let told = told.maybe("work of a loop", document.loops.as_ref().and_then(worked));
+    let velocity = end.drifting.as_ref().map(|d| to_its_digits(d.velocity, d.velocity_error));
+    let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
+    let told = told
+        .maybe("velocity", velocity.map(|v| format!("{v} kσ/Γ")))
+        .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
+        .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
+        .remarks(&end.remarks);
+    if end.regime != RegimeName::Transient {
+        return told.next(again("-o run.json --plot run.svg"));
+    }
+    let longer = end.transient.as_ref().and_then(|transient| transient.time);
+    let longer = longer.map_or(3.0 * end.end.abs(), |time| 1.5 * time);
+    told.next(again(&format!("--until {}", digits(end.end + longer, 2))))
+}
+
+/// What is told of a run written as lines.
+pub(in crate::commands) fn of_lines(end: &RunEnd) -> Told {
+    Told::new(summary(end)).remarks(&end.remarks)
+}
+
+fn parameters(model: &ModelParameters) -> String {
+    format!("{}, {}", digits(model.alpha, 10), digits(model.r, 10))
+}
+
+fn oscillation(told: Told, found: &OscillationDocument) -> Told {
+    let held = |value: f64, error: Option<f64>, unit: &str| {
+        format!("{} {unit}", to_its_digits(value, error.unwrap_or(0.0)))
+    };
+    told.row("period", held(found.period, found.period_error, "Γ/k"))
+        .row("wavelength", held(found.wavelength, found.wavelength_error, "σ"))
+        .row("amplitude of x0", held(found.amplitude_x0, found.amplitude_x0_error, "σ"))
+        .maybe(
+            "amplitude of u",
+            found.amplitude_u.map(|u| held(u, found.amplitude_u_error, "kσ²/a")),
+        )
+        .row("slips in a period", found.slips.to_string())
+}
+
+/// One line for a person who sent the run to a file.
+fn summary(end: &RunEnd) -> String {
+    let work = &end.work;
+    let digits = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
+    let motion = end.oscillation.as_ref().map(|o| {
+        let period = digits(o.period, o.period_error);
+        let amplitude = digits(o.amplitude_x0, o.amplitude_x0_error);
+        format!(", period {period}, amplitude of x0 {amplitude}")
+    });
+    let drift = end.drifting.as_ref();
+    let drift = drift.map(|d| format!(", velocity {}", digits(d.velocity, Some(d.velocity_error))));
+    let prospect = end.transient.as_ref().and_then(|transient| {
+        let time = transient.time.map_or(String::new(), |time| format!(" in about {time:.1e}"));
+        transient.towards.map(|towards| format!(", towards {towards}{time}"))
+    });
+    format!(
+        "{}{}: t = {} reached in {} steps with {}, {:.1} ms",
+        end.regime,
+        motion.or(drift).or(prospect).unwrap_or_default(),
+        end.end,
+        work.steps,
+        work.memory,
+        1e3 * work.seconds
+    )
+}

@@ -1,0 +1,232 @@
+//! `stickslip verify`, and `stickslip run --verify`.
+
+pub(in crate::commands) mod claims;
+mod lines;
+
+use super::job::{Job, on_standard_output};
+use super::progress::Progress;
+use crate::arguments::{Format, OutletArguments, VerifyArguments};
+use crate::failure::Failure;
+use crate::files::distinct::distinct;
+use crate::files::input::read_run_from;
+use crate::files::lines::{Written, open};
+use crate::interrupt::Interrupt;
+use std::ops::ControlFlow;
+use std::path::Path;
+use stickslip::{
+    ClaimDocument, LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
+};
+use stickslip_tip::{Scenario, Trajectory};
+use stickslip_verify::{
+    Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
+};
+
+pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
+    let path = &arguments.run;
+    let read = [("RUN", Some(&**path))];
+    distinct(&[("--output", Some(&*arguments.outlet.output))], &read)?;
+    match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
+        Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
+        Written::Lines(file) => lines::verify(path, &file, &arguments.outlet),
+    }
+}
+
+/// What is found is JSON whatever the name of the file, or text: there are no columns.
+fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
+    let format = match outlet.format {
+        Some(format @ (Format::Json | Format::Text)) => format,
+        Some(_) => return Err(Failure::input("--format", "json or text will do")),
+        None if outlet.output == Path::new("-") => on_standard_output(),
+        None => Format::Json,
+    };
+    Job::of_format::<VerifyDocument>(format, &outlet.output, &outlet.fields, None)
+}
+
+fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {
+    let damaged = |message: String| {
+        let named = format!("RUN.json {}", arguments.run.display());
+        Failure::input(named, format!("damaged: {message}"))
+    };
+    let unusable = |error: Unusable| damaged(error.to_string());
+    let scenario = run.parameters.scenario().map_err(unusable)?;
+    let memory = &run.work.memory;
+    let trajectory =
+        run.history.is_some().then(|| run.trajectory().map_err(unusable)).transpose()?;
+    let samples = match &trajectory {
+        Some(trajectory) => {
+            is_of(&scenario, trajectory).map_err(damaged)?;
+            samples(&run, &scenario).map_err(damaged)?
+        }
+        None => samples_alone(&run, &scenario).map_err(damaged)?,
+    };
+    begins_as(&scenario, trajectory.as_ref(), &samples).map_err(damaged)?;
+    let job = job(&arguments.outlet)?;
+    let verification = match &trajectory {
+        Some(trajectory) => of_history(&scenario, memory, trajectory)?,
+        None => of_samples(&scenario, memory, &samples)?,
+    };
+    let differences = claims::of_document(&run, &scenario, trajectory.as_ref())?;
+    let failure = failure_of(broken_in(&verification, scenario.tolerance), &differences);
+    let job = job.silent_if(failure.is_some());
+    job.write(VerifyDocument::new(run.parameters, verification, differences, None))?;
+    failure.map_or(Ok(()), Err)
+}
+
+/// What is said of a run that does not keep its tolerance, or says what does not follow.
+fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<Failure> {
+    let said: Vec<String> = broken.into_iter().chain(claims::said_of(differences)).collect();
+    (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
+}
+
+/// Whether the motion begins where the parameters have it: what does not is not worth a repetition.
+fn begins_as(
+    scenario: &Scenario,
+    trajectory: Option<&Trajectory>,
+    samples: &[Sample],
+) -> Result<(), String> {
+    let (start, wanted) = (scenario.start_time(), scenario.start_position - scenario.kick);
+    let first = samples.first().filter(|sample| sample.t <= start).map(|sample| sample.x0);
+    let Some(found) = trajectory.map(|t| t.x0(t.start())).or(first) else { return Ok(()) };
+    let allowed = TOLERANCES_ALLOWED * scenario.tolerance + 1e-9 * (1.0 + wanted.abs());
+    if (found - wanted).abs() <= allowed {
+        return Ok(());
+    }
+    Err(format!("the motion begins at x0 = {found}, the run at start_position - kick = {wanted}"))
+}
+
+/// Whether the history begins and ends as the scenario does.
+fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
+    let (start, end) = (trajectory.start(), trajectory.end());
+    let same = (start - scenario.start_time()).abs() <= 1e-9 * start.abs().max(1.0);
+    if same && end <= scenario.until && end > start {
+        return Ok(());
+    }
+    Err(format!(
+        "history: it lasts from {start} to {end}, the run from {} to {}",
+        scenario.start_time(),
+        scenario.until
+    ))
+}
+
+/// The samples in the order of time.
+fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
+    let (t, x0) = (&run.samples.t, &run.samples.x0);
+    let l = run.samples.l.as_ref().or(run.samples.lag.as_ref()).unwrap_or(x0);
+    let span = scenario.start_time()..=scenario.until;
+    if l.len() != t.len() || !run.samples.are_even() || t.iter().any(|t| !span.contains(t)) {
+        return Err("samples: their columns do not match each other, or the run".into());
+    }
+    let rows = t.iter().zip(l).zip(x0);
+    let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
+    samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    Ok(samples)
+}
+
+/// Those that stand for a run of which no history is left: some must be after the start.
+fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
+    let samples = samples(run, scenario)?;
+    match samples.last().is_some_and(|last| last.t > scenario.start_time()) {
+        true => Ok(samples),
+        false => Err("samples: there are none after the start, and no history".into()),
+    }
+}
+
+/// The dense history of a run against its repetition.
+pub(super) fn of_history(
+    scenario: &Scenario,
+    memory: &str,
+    trajectory: &Trajectory,
+) -> Result<VerificationDocument, Failure> {
+    let found =
+        repeated(|observe| stickslip_verify::verify(scenario, memory, trajectory, observe))?;
+    Ok((&found).into())
+}
+
+/// Samples in the order of time, of which there are some, against the repetition of their run.
+fn of_samples(
+    scenario: &Scenario,
+    memory: &str,
+    samples: &[Sample],
+) -> Result<VerificationDocument, Failure> {
+    let until = samples.last().map_or(scenario.until, |last| last.t);
+    let each = || samples.iter().copied();
+    let found = repeated(|observe| verify_samples(scenario, memory, each, until, observe))?;
+    Ok((&found).into())
+}
+
+/// Does the work before the eyes of a person, who may stop it.
+fn repeated(
+    work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
+) -> Result<Verification, Failure> {
+    let interrupt = Interrupt::of_host();
+    let mut progress = Progress::new(0.0, 1.0);
+    let found = work(&mut |part| {
+        progress.reached(part);
+        if interrupt.signal().is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    found.map_err(|error| match error {
+        VerificationError::Interrupted => {
+            interrupt.signal().map_or(Failure::Run(error.to_string()), Failure::Stopped)
+        }
+        error => Failure::Run(error.to_string()),
+    })
+}
+
+/// What is said after the summary of a run that keeps its promise; else nothing.
+pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
+    if !found.kept {
+        return String::new();
+    }
+    let (memory, largest, allowed) = (&found.memory, found.l.largest, found.l.allowed);
+    format!("; verified with {memory}: l is off by {largest:.1e} at most, {allowed:.1e} is allowed")
+}
+
+/// What is said, and the exit status, where the promise is broken.
+pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Failure> {
+    broken_in(found, tolerance).map(Failure::Run)
+}
+
+fn broken_in(found: &VerificationDocument, tolerance: f64) -> Option<String> {
+    said_of(found, tolerance, None)
+}
+
+/// What is said where the promise is broken; of lines, with their numbers.
+fn said_of(
+    found: &VerificationDocument,
+    tolerance: f64,
+    lines: Option<&LinesDocument>,
+) -> Option<String> {
+    if found.kept {
+        return None;
+    }
+    let l = &found.l;
+    let difference = match &found.u {
+        Some(u) if l.largest <= l.allowed => {
+            format!("u is off by {:.1e} at x = {}, {:.1e} is allowed", u.largest, u.at, u.allowed)
+        }
+        _ => {
+            // Of a history, l alone; samples say x0 too.
+            let what = if found.u.is_some() { "l" } else { "l or x0" };
+            let on_line = lines.map_or(String::new(), |lines| format!(", line {}", lines.line));
+            format!(
+                "{what} is off by {:.1e} at t = {}{on_line}, {TOLERANCES_ALLOWED} tolerances of {tolerance:e} are allowed",
+                l.largest, l.at
+            )
+        }
+    };
+    let from = |t: f64| match lines {
+        Some(LinesDocument { first_wrong_line: Some(line), wrong, samples, .. }) => {
+            format!("; trust it until t = {t}, line {line} ({wrong} of {samples} samples are off)")
+        }
+        _ => format!("; trust it until t = {t}"),
+    };
+    let until = found.trusted_until.map_or(String::new(), from);
+    let growth = format!("the motion amplifies errors {:.1e} times", found.amplification);
+    Some(format!(
+        "the tolerance is not kept: {difference}{until}; {growth}: ask for a smaller --tolerance"
+    ))
+}

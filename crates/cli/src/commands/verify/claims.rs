@@ -1,0 +1,437 @@
+//! What a run says of itself beside its motion: every value that follows from the parameters and the motion is computed
+//! once more.
+//!
+//! Samples are read off the dense history, or off the same run made again where none was kept; what became of the run is
+//! judged anew by that run.
+
+use crate::commands::model::model_under;
+use crate::commands::progress::Progress;
+use crate::commands::run::document::became;
+use crate::failure::Failure;
+use crate::message::say;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use stickslip::{
+    ClaimDocument, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
+    SampleLine, SteadyState,
+};
+use stickslip_outcome::Watched;
+use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
+use stickslip_verify::TOLERANCES_ALLOWED;
+
+/// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
+const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+/// Machines round sums and functions otherwise: parts of a value that may be off.
+const DIGITS: f64 = 1e-9;
+/// Errors that a document states may be off by so many times themselves.
+const ERRORS: f64 = 9.0;
+/// A slope within a step is off by so many tolerances over its length, at most.
+const SLOPES: f64 = 200.0;
+
+/// What is left in words of a remark: its numbers have the last digits of a machine.
+fn words(remark: &str) -> String {
+    remark.chars().filter(|c| !(c.is_ascii_digit() || "+-.e".contains(*c))).collect()
+}
+
+/// A column of samples beside what it should hold.
+struct Column {
+    field: &'static str,
+    /// How many times what is allowed.
+    excess: f64,
+    worst: Option<ClaimDocument>,
+}
+
+impl Column {
+    fn new(field: &'static str) -> Self {
+        Self { field, excess: 1.0, worst: None }
+    }
+
+    /// What a run does not say needs no proof.
+    fn see(&mut self, t: f64, claimed: Option<f64>, computed: Option<f64>, allowed: f64) {
+        let Some(claimed) = claimed else { return };
+        let excess =
+            computed.map_or(f64::INFINITY, |computed| (claimed - computed).abs() / allowed);
+        if excess <= 1.0 {
+            return;
+        }
+        let count = self.worst.as_ref().map_or(0, |worst| worst.count) + 1;
+        if self.worst.is_none() || excess > self.excess {
+            self.excess = excess;
+            self.worst = Some(ClaimDocument {
+                field: self.field.into(),
+                t: Some(t),
+                claimed: json!(claimed),
+                computed: json!(computed),
+                allowed: Some(allowed),
+                count,
+            });
+        }
+        self.worst.iter_mut().for_each(|worst| worst.count = count);
+    }
+}
+
+/// The columns of the samples of one run.
+pub(super) struct Columns {
+    support: Support,
+    wider: Wider,
+    tolerance: f64,
+    columns: [Column; 6],
+}
+
+impl Columns {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let names = ["l", "x0", "lag", "velocity", "height", "weight"];
+        let fields = names.map(|name| match name {
+            "l" => "samples.l",
+            "x0" => "samples.x0",
+            "lag" => "samples.lag",
+            "velocity" => "samples.velocity",
+            "height" => "samples.height",
+            _ => "samples.weight",
+        });
+        Self {
+            support: scenario.support(),
+            wider: *scenario.model.wider(),
+            tolerance: scenario.tolerance,
+            columns: fields.map(Column::new),
+        }
+    }
+
+    /// A sample that was read off this step.
+    fn of_history(&mut self, sample: &SampleLine, step: &Step) {
+        let rounding = ROUNDINGS * (1.0 + step.extension.abs() + sample.x0.abs());
+        let [l, x0, lag, ..] = &mut self.columns;
+        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+        let allowed = self.tolerance + rounding;
+        l.see(sample.t, sample.l, found.l, allowed);
+        x0.see(sample.t, Some(sample.x0), Some(found.x0), allowed);
+        lag.see(sample.t, sample.lag, found.lag, allowed);
+        self.see(sample, &found, (DIGITS + rounding / step.h, DIGITS));
+    }
+
+    /// A sample of a run to the same tolerance. Whether l and x0 are right another run says; the lag goes with x0.
+    fn of_repetition(&mut self, sample: &SampleLine, step: &Step) {
+        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+        let support = self.support.position(sample.t);
+        let rounding = ROUNDINGS * (1.0 + support.abs() + sample.x0.abs());
+        let lag = found.lag.map(|_| support - sample.x0);
+        let [_, _, lags, ..] = &mut self.columns;
+        lags.see(sample.t, sample.lag, lag, TOLERANCES_ALLOWED * self.tolerance + rounding);
+        let off = SLOPES * self.tolerance;
+        self.see(sample, &found, (DIGITS + off / step.h, DIGITS + off));
+    }
+
+    /// Velocity and height may be off by so much, and by some digits of themselves; the weight is that of the height.
+    fn see(&mut self, sample: &SampleLine, found: &SampleLine, (velocity, height): (f64, f64)) {
+        let t = sample.t;
+        let [_, _, _, velocities, heights, weights] = &mut self.columns;
+        let allowed = velocity + DIGITS * found.velocity.abs();
+        velocities.see(t, Some(sample.velocity), Some(found.velocity), allowed);
+        let allowed = height + DIGITS * found.height.unwrap_or(0.0).abs();
+        heights.see(t, sample.height, found.height, allowed);
+        let limited = sample.height.filter(|_| found.height.is_some());
+        weights.see(t, sample.weight, limited.map(|height| self.wider.weight(height)), DIGITS);
+    }
+
+    fn worst(self) -> impl Iterator<Item = ClaimDocument> {
+        self.columns.into_iter().filter_map(|column| column.worst)
+    }
+}
+
+/// What does not follow.
+#[derive(Default)]
+pub(super) struct Claims(Vec<ClaimDocument>);
+
+impl Claims {
+    /// A value beside the one computed: numbers within what is allowed, all else the same.
+    fn judge(
+        &mut self,
+        field: &str,
+        claimed: &Value,
+        computed: &Value,
+        allowed: &impl Fn(&str, f64) -> f64,
+    ) {
+        match (claimed, computed) {
+            (Value::Object(ours), Value::Object(theirs)) => {
+                let names: std::collections::BTreeSet<&String> =
+                    ours.keys().chain(theirs.keys()).collect();
+                for name in names {
+                    let inner = format!("{field}.{name}");
+                    self.judge(&inner, &claimed[name], &computed[name], allowed);
+                }
+            }
+            (Value::Array(ours), Value::Array(theirs)) if ours.len() == theirs.len() => {
+                let before = self.0.len();
+                for (ours, theirs) in ours.iter().zip(theirs) {
+                    self.judge(field, ours, theirs, allowed);
+                }
+                // Of a list one entry stands for all.
+                let count = self.0.len() - before;
+                self.0.truncate(before + usize::from(count > 0));
+                self.0[before..].iter_mut().for_each(|first| first.count = count as u64);
+            }
+            _ => {
+                let numbers = claimed.as_f64().zip(computed.as_f64());
+                let bound = numbers.map(|(_, computed)| allowed(field, computed));
+                let follows = match (numbers, bound) {
+                    (Some((claimed, computed)), Some(bound)) => (claimed - computed).abs() <= bound,
+                    _ => claimed == computed,
+                };
+                if !follows {
+                    self.0.push(ClaimDocument {
+                        field: field.into(),
+                        t: None,
+                        claimed: claimed.clone(),
+                        computed: computed.clone(),
+                        allowed: bound,
+                        count: 1,
+                    });
+                }
+            }
+        }
+    }
+
+    /// The same of what may be left out: then nothing is claimed.
+    fn judge_if<T: Serialize>(
+        &mut self,
+        field: &str,
+        claimed: Option<&T>,
+        computed: Option<&T>,
+        allowed: &impl Fn(&str, f64) -> f64,
+    ) {
+        let value = |part: Option<&T>| json!(part);
+        if claimed.is_some() || computed.is_some() {
+            self.judge(field, &value(claimed), &value(computed), allowed);
+        }
+    }
+
+    /// What follows from the parameters alone.
+    fn of_parameters(
+        &mut self,
+        parameters: &ModelParameters,
+        scenario: &Scenario,
+        steady: Option<&SteadyState>,
+    ) {
+        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
+        let computed = SteadyState::of(&scenario.model);
+        self.judge_if("steady_state", steady, computed.as_ref(), &digits);
+        let law = (*scenario.model.wider(), scenario.model.tip().clone());
+        let above = parameters.alpha_above.filter(|_| law.0.spring);
+        let model = above.and_then(|d| model_under(law, parameters.r, (None, Some(d))).ok());
+        if let Some(model) = model {
+            let (claimed, computed) = (json!(parameters.alpha), json!(model.alpha()));
+            self.judge("parameters.alpha", &claimed, &computed, &digits);
+        }
+    }
+
+    /// What became of the run.
+    fn of_end(&mut self, claimed: &RunEnd, computed: &RunEnd, tolerance: f64) {
+        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
+        let names = (&claimed.work.memory, &computed.work.memory);
+        self.judge("work.memory", &json!(names.0), &json!(names.1), &digits);
+        // A run that was stopped may have had no time to judge its motion.
+        if claimed.interrupted && claimed.regime == RegimeName::Transient {
+            return;
+        }
+        self.judge("regime", &json!(claimed.regime), &json!(computed.regime), &digits);
+        let oscillation = computed.oscillation.as_ref();
+        let amplitude = oscillation.map_or(1.0, |o| o.amplitude_x0);
+        let errors = json!(oscillation);
+        let within = |field: &str, value: f64| {
+            let name = field.trim_start_matches("oscillation.");
+            match name {
+                _ if name.ends_with("_error") => ERRORS * value.abs() + DIGITS,
+                "slips" => 0.0,
+                "drift" => DIGITS + 0.01 * value.abs() + SLOPES * tolerance / amplitude,
+                _ => {
+                    let error = errors[format!("{name}_error")].as_f64().unwrap_or(0.0);
+                    2.0 * error + DIGITS * (1.0 + value.abs())
+                }
+            }
+        };
+        self.judge_if("oscillation", claimed.oscillation.as_ref(), oscillation, &within);
+        let creep = |field: &str, value: f64| match field {
+            "creep.rate" => 1e-3 * value.abs(),
+            _ => 1e-6 * value.abs(),
+        };
+        self.judge_if("creep", claimed.creep.as_ref(), computed.creep.as_ref(), &creep);
+        let error = computed.drifting.as_ref().map_or(0.0, |drifting| drifting.velocity_error);
+        let velocity = |field: &str, value: f64| match field {
+            "drifting.velocity" => 2.0 * error,
+            _ => ERRORS * value.abs() + DIGITS,
+        };
+        self.judge_if("drifting", claimed.drifting.as_ref(), computed.drifting.as_ref(), &velocity);
+        // An extrapolation.
+        let rough = |_: &str, value: f64| 1.0 + 0.1 * value.abs();
+        self.judge_if("transient", claimed.transient.as_ref(), computed.transient.as_ref(), &rough);
+        let (ours, theirs) = (&claimed.remarks, &computed.remarks);
+        let said = |remarks: &[String]| remarks.iter().map(|r| words(r)).collect::<Vec<_>>();
+        if said(ours) != said(theirs) {
+            self.judge("remarks", &json!(ours.join("; ")), &json!(theirs.join("; ")), &digits);
+        }
+    }
+
+    /// What is read off the history of a document, and the same numbers in other units.
+    fn of_document(&mut self, run: &RunDocument, trajectory: Option<&Trajectory>) {
+        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
+        if let Some(trajectory) = trajectory {
+            let steps = trajectory.steps().len();
+            self.judge("work.steps", &json!(run.work.steps), &json!(steps), &|_, _| 0.0);
+            let on_path = run.parameters.support_path.is_some();
+            let loops: Option<Vec<LoopDocument>> =
+                on_path.then(|| friction::loops(trajectory).into_iter().map(Into::into).collect());
+            self.judge_if("loops", run.loops.as_ref(), loops.as_ref(), &digits);
+            let ended = trajectory.end() < run.parameters.until * (1.0 - DIGITS);
+            let ended = ended && run.parameters.until - trajectory.end() > DIGITS;
+            self.judge("interrupted", &json!(run.interrupted), &json!(ended), &digits);
+        }
+        if let Some(physical) = &run.physical {
+            let again = run.clone().in_units(Some(&physical.scales)).physical;
+            let digits = |_: &str, value: f64| DIGITS * value.abs();
+            self.judge_if("physical", Some(physical), again.as_ref(), &digits);
+        }
+    }
+}
+
+/// A run made again as it was asked for: what became of it, and its steps, each shown to `witness`.
+///
+/// # Errors
+/// It cannot be repeated, or was stopped.
+fn again(
+    scenario: &Scenario,
+    until: f64,
+    mut witness: impl FnMut(&Step) -> Result<(), Failure>,
+) -> Result<RunEnd, Failure> {
+    let failed = |error: stickslip_tip::RunError| Failure::Run(error.to_string());
+    let surface = scenario.initial_surface().map_err(failed)?;
+    let mut running = Watched::new(scenario, &surface).map_err(failed)?;
+    let mut progress = Progress::new(scenario.start_time(), until);
+    let mut is_cut = until < scenario.until;
+    while let Some(step) = running.step().map_err(failed)? {
+        witness(&step)?;
+        progress.reached(step.end());
+        if stop::is_asked() {
+            return Err(Failure::Run("the verification was interrupted".into()));
+        }
+        if is_cut && step.end() >= until * (1.0 - ROUNDINGS) {
+            break;
+        }
+    }
+    is_cut &= running.t() < scenario.until;
+    // As a run that a signal ended was judged.
+    became(scenario, &surface, &running, &Arc::new(AtomicBool::new(is_cut)))
+}
+
+/// Of a document.
+///
+/// # Errors
+/// As [`again`].
+pub(super) fn of_document(
+    run: &RunDocument,
+    scenario: &Scenario,
+    trajectory: Option<&Trajectory>,
+) -> Result<Vec<ClaimDocument>, Failure> {
+    let mut claims = Claims::default();
+    claims.of_parameters(&run.parameters.model, scenario, run.steady_state.as_ref());
+    claims.of_document(run, trajectory);
+    let mut columns = Columns::of(scenario);
+    let mut samples: Vec<SampleLine> = run.samples.lines().collect();
+    samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    if let Some(trajectory) = trajectory {
+        let steps = trajectory.steps();
+        for sample in samples.drain(..) {
+            let after = steps.partition_point(|step| step.t <= sample.t);
+            columns.of_history(&sample, &steps[after.max(1) - 1]);
+        }
+    }
+    let last = samples.last().map(|sample| sample.t);
+    let until = match trajectory {
+        Some(trajectory) => trajectory.end(),
+        None if run.interrupted => last.unwrap_or(scenario.until),
+        None => scenario.until,
+    };
+    let mut due = samples.iter().peekable();
+    let computed = again(scenario, until, |step| {
+        while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
+            columns.of_repetition(sample, step);
+        }
+        Ok(())
+    })?;
+    claims.0.extend(columns.worst());
+    // Of a run that was stopped, and of which no history says when, only the samples can be judged.
+    if trajectory.is_some() || !run.interrupted {
+        claims.of_end(&end_of(run), &computed, scenario.tolerance);
+    }
+    Ok(claims.0)
+}
+
+/// Of lines.
+///
+/// # Errors
+/// As [`again`]; the lines cannot be read.
+pub(super) fn of_lines(
+    scenario: &Scenario,
+    (parameters, steady): (&ModelParameters, Option<&SteadyState>),
+    samples: impl Iterator<Item = SampleLine>,
+    (until, end): (f64, Option<&RunEnd>),
+) -> Result<Vec<ClaimDocument>, Failure> {
+    let mut claims = Claims::default();
+    claims.of_parameters(parameters, scenario, steady);
+    let mut columns = Columns::of(scenario);
+    let mut due = samples.peekable();
+    let computed = again(scenario, end.map_or(until, |end| end.end.min(scenario.until)), |step| {
+        while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
+            columns.of_repetition(&sample, step);
+        }
+        Ok(())
+    })?;
+    claims.0.extend(columns.worst());
+    if let Some(end) = end {
+        claims.of_end(end, &computed, scenario.tolerance);
+        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
+        let is_cut = computed.end < scenario.until && scenario.until - computed.end > DIGITS;
+        claims.judge("interrupted", &json!(end.interrupted), &json!(is_cut), &digits);
+        if !end.interrupted {
+            claims.judge("end", &json!(end.end), &json!(computed.end), &digits);
+        }
+    }
+    Ok(claims.0)
+}
+
+/// What a document says became of its run.
+fn end_of(run: &RunDocument) -> RunEnd {
+    RunEnd {
+        end: run.parameters.until,
+        regime: run.regime,
+        oscillation: run.oscillation.clone(),
+        creep: run.creep.clone(),
+        drifting: run.drifting.clone(),
+        transient: run.transient.clone(),
+        remarks: run.remarks.clone(),
+        interrupted: run.interrupted,
+        work: run.work.clone(),
+    }
+}
+
+/// Says of each value that does not follow what it is, on a line of its own; of all of them, their names.
+pub(super) fn said_of(differences: &[ClaimDocument]) -> Option<String> {
+    let first = differences.first()?;
+    let each = differences.iter().filter(|_| differences.len() > 1);
+    each.for_each(|d| say(format_args!("stickslip: does not follow: {}", said(d))));
+    let names: Vec<&str> = differences.iter().map(|d| &*d.field).collect();
+    Some(match names.len() {
+        1 => format!("a value does not follow from the run: {}", said(first)),
+        count => format!("{count} values do not follow from the run: {}", names.join(", ")),
+    })
+}
+
+/// Such as `samples.lag at t = 20: 3.2, computed 2.1, 1e-9 allowed (2 entries are off)`.
+pub(in crate::commands) fn said(difference: &ClaimDocument) -> String {
+    let ClaimDocument { field, t, claimed, computed, allowed, count } = difference;
+    let at = t.map_or(String::new(), |t| format!(" at t = {t}"));
+    let allowed = allowed.map_or(String::new(), |allowed| format!(", {allowed:.1e} allowed"));
+    let all = if *count > 1 { format!(" ({count} entries are off)") } else { String::new() };
+    format!("{field}{at}: {claimed}, computed {computed}{allowed}{all}")
+}

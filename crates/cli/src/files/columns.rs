@@ -1,0 +1,187 @@
+//! Tables of two or three columns that users give: none of their values may be missing.
+
+use super::heading::Heading;
+use super::in_model_units::in_model_units;
+use super::sheet::{Sheet, parse_sheet};
+use super::text::{LARGEST_TABLE, read_text};
+use crate::failure::Failure;
+use std::path::Path;
+use stickslip::KnownScales;
+use stickslip_raster::AreaLine;
+
+/// Two columns read from a file.
+pub(crate) type Columns = (Vec<f64>, Vec<f64>);
+
+/// Two columns of numbers, called as `heading` has it.
+pub(crate) fn read_columns(
+    option: &str,
+    path: &Path,
+    heading: &str,
+    scales: Option<&KnownScales>,
+) -> Result<Columns, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    parse_columns(&text, heading, scales)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+/// Lines of an area, y,start,length.
+pub(crate) fn read_area(
+    option: &str,
+    path: &Path,
+    scales: Option<&KnownScales>,
+) -> Result<Vec<AreaLine>, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    let [y, start, length] = parse_table(&text, "y,start,length", scales)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
+    let columns = y.into_iter().zip(start).zip(length);
+    Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
+}
+
+/// A profile x,u; or one surface t,x,u, as `surface` writes it.
+pub(crate) fn read_profile(
+    option: &str,
+    path: &Path,
+    scales: Option<&KnownScales>,
+) -> Result<Columns, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    parse_profile(&text, scales)
+        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+}
+
+pub(crate) fn parse_profile(text: &str, scales: Option<&KnownScales>) -> Result<Columns, String> {
+    let mut sheet = whole(text, &["x,u", "t,x,u"])?;
+    // The time only tells surfaces apart, in whatever unit.
+    if sheet.columns.len() == 3 {
+        let t = sheet.columns.remove(0);
+        sheet.headings.remove(0);
+        if let Some(row) = t.iter().position(|time| time.to_bits() != t[0].to_bits()) {
+            return Err(format!(
+                "holds surfaces at several times, {} and {}: write one with `surface --at T`",
+                t[0], t[row]
+            ));
+        }
+    }
+    let [x, u] = in_units(sheet, "x,u", scales)?;
+    Ok((x, u))
+}
+
+fn parse_columns(
+    text: &str,
+    heading: &str,
+    scales: Option<&KnownScales>,
+) -> Result<Columns, String> {
+    parse_table::<2>(text, heading, scales).map(|[first, second]| (first, second))
+}
+
+/// N columns of numbers, in the model's units where their heading has others.
+fn parse_table<const N: usize>(
+    text: &str,
+    names: &str,
+    scales: Option<&KnownScales>,
+) -> Result<[Vec<f64>; N], String> {
+    in_units(whole(text, &[names])?, names, scales)
+}
+
+fn in_units<const N: usize>(
+    mut sheet: Sheet,
+    names: &str,
+    scales: Option<&KnownScales>,
+) -> Result<[Vec<f64>; N], String> {
+    in_model_units(&mut sheet.columns, names, &sheet.headings, scales)?;
+    let count = sheet.columns.len();
+    sheet
+        .columns
+        .try_into()
+        .map_err(|_| format!("{count} columns of numbers; `{names}` are needed"))
+}
+
+/// A table without missing values, whose columns are these or those, such as `x,u` or `t,x,u`.
+pub(super) fn whole(text: &str, names: &[&str]) -> Result<Sheet, String> {
+    let counts: Vec<usize> = names.iter().map(|names| names.split(',').count()).collect();
+    let of = names.join("` or `");
+    let mut sheet =
+        parse_sheet(text, &counts).map_err(|error| format!("{error} (columns `{of}`)"))?;
+    if sheet.columns.is_empty() {
+        // What has no rows is judged by what is made of it.
+        sheet.columns = vec![vec![]; counts[0]];
+        sheet.headings = vec![Heading::default(); counts[0]];
+    }
+    if let Some(line) = sheet.missing.first() {
+        return Err(format!("line {line}: a value is missing (columns `{of}`)"));
+    }
+    let count = sheet.columns.len();
+    let names = names.iter().find(|names| names.split(',').count() == count).copied();
+    judge_order(&sheet.headings, names.unwrap_or_default())?;
+    Ok(sheet)
+}
+
+/// Refuses the same names in another order.
+fn judge_order(headings: &[Heading], names: &str) -> Result<(), String> {
+    let wanted: Vec<String> = names.split(',').map(str::to_lowercase).collect();
+    let found: Vec<String> = headings.iter().map(|heading| heading.name().to_lowercase()).collect();
+    let sorted = |names: &[String]| {
+        let mut names = names.to_vec();
+        names.sort();
+        names
+    };
+    if found != wanted && sorted(&found) == sorted(&wanted) {
+        return Err(format!("its columns are `{}`: `{names}` are needed", found.join(",")));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heading_and_comments_are_skipped() {
+        let (x, u) = parse_columns("# measured\nx,u\n0, 1\n2,3e-1\n", "x,u", None).unwrap();
+        assert_eq!(x.len(), 2);
+        assert!((u[1] - 0.3).abs() < 1e-16);
+    }
+
+    #[test]
+    fn a_line_that_is_not_two_numbers_is_named() {
+        for (text, line) in [
+            ("1,2\n3\n", 2),
+            ("1,2\n3,4,5\n", 2),
+            ("x,u\n1,2\nfoo,3\n", 3),
+            ("1,2e\n3,4\n", 1),
+            ("x,u\n1.5,2\n3,\n", 3),
+            ("x,u\n1.5,2\nNaN,2\n", 3),
+            ("x,u\nO.5,2\n1.5,2\n", 2),
+            ("x;u\r1,5;2\r3,5;1.5\r", 3),
+        ] {
+            let message = parse_columns(text, "x,u", None).unwrap_err();
+            assert!(message.contains(&format!("line {line}")), "{message}");
+        }
+    }
+
+    #[test]
+    fn columns_in_another_order_are_refused() {
+        for text in ["u,x\n0,1.5\n", "u_nm;x_nm\n0;1\n"] {
+            let message = parse_columns(text, "x,u", None).unwrap_err();
+            assert!(message.contains("`x,u` are needed"), "{message}");
+        }
+    }
+
+    /// Decimal commas between commas: never a table of their digits.
+    #[test]
+    fn commas_that_may_be_decimal_marks_are_refused() {
+        for text in
+            ["0,00\n0,25\n", "0,5\n0,7\n0,9\n1,2\n", "u\n1,5\n2,5\n", "1,05\n2,10\n", "0,-0\n1,5\n"]
+        {
+            let message = parse_columns(text, "x,u", None).unwrap_err();
+            assert!(message.contains("commas may be decimal marks"), "{text}: {message}");
+        }
+        for text in ["0,1,50\n1,1,48\n", "0,0,1,5\n0,5,1,25\n"] {
+            assert!(parse_profile(text, None).is_err(), "{text}");
+        }
+        assert!(parse_columns("0,1\n1,7\n", "x,u", None).is_ok());
+        assert!(parse_columns("x,u\n0,1\n1,7\n", "x,u", None).is_ok());
+        // Or groups of thousands.
+        assert!(parse_columns("x;u\n999;1\n1,001;2\n", "x,u", None).is_err());
+        assert!(parse_columns("x;u\n0,999;1\n1,001;2\n", "x,u", None).is_ok());
+    }
+}

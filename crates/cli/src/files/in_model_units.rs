@@ -1,0 +1,96 @@
+//! Columns that say in their heading that they are in nm, s or nN, as multiples of the model's units.
+
+use super::heading::Heading;
+use stickslip::{Dimension, KnownScales};
+use stickslip_units::Unit;
+
+/// What columns hold, by the names that the program gives them: in what it is read, how many nm, s or nN the SI unit has,
+/// and of what it is a multiple. `None` of what has no dimension.
+fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
+    const NANO: f64 = 1e9;
+    Some(match name {
+        "x" | "y" | "R" | "start" | "length" => (Unit::Length, NANO, "σ"),
+        "u" => (Unit::Length, NANO, "kσ²/a"),
+        "t" => (Unit::Time, 1.0, "Γ/k"),
+        "force" => (Unit::Force, NANO, "kσ"),
+        _ => return None,
+    })
+}
+
+/// The columns called `names`, where their headings have units, divided by the scales.
+///
+/// # Errors
+/// A unit of another quantity, or one that is not known, or one without the scale that it needs.
+pub(super) fn in_model_units(
+    columns: &mut [Vec<f64>],
+    names: &str,
+    headings: &[Heading],
+    scales: Option<&KnownScales>,
+) -> Result<(), String> {
+    for ((column, name), heading) in columns.iter_mut().zip(names.split(',')).zip(headings) {
+        let Some((unit, per_si, multiple)) = meant(name) else { continue };
+        let Some((_, one)) = heading.unit(unit)? else { continue };
+        let factor = Dimension::of_unit(multiple).and_then(|of| of.factor(scales?));
+        let factor = factor.ok_or_else(|| {
+            format!(
+                "the heading `{}` has a unit, and what {multiple} is in it is not known: give --units, or --sigma \
+                 and what goes with it; or the column in {multiple}, without a unit in its heading",
+                heading.text()
+            )
+        })?;
+        let factor = factor / (one * per_si);
+        column.iter_mut().for_each(|value| *value /= factor);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCALES: KnownScales = KnownScales {
+        length: Some(30e-9),
+        time: Some(0.02),
+        height: Some(18e-9),
+        force: Some(6e-9),
+    };
+
+    fn converted(names: &str, headings: [&str; 2], scales: Option<&KnownScales>) -> Vec<Vec<f64>> {
+        let mut columns = vec![vec![1.0, 60.0], vec![1.0, 36.0]];
+        in_model_units(&mut columns, names, &headings.map(Heading::of), scales).unwrap();
+        columns
+    }
+
+    #[test]
+    fn units_of_headings_are_turned_into_the_models() {
+        let close = |found: &[f64], wanted: f64| (found[1] / wanted - 1.0).abs() < 1e-14;
+        let found = converted("x,u", ["x_nm", "u (um)"], Some(&SCALES));
+        assert!(close(&found[0], 2.0) && close(&found[1], 2000.0), "{found:?}");
+        let found = converted("t,force", ["t_ms", "force_nN"], Some(&SCALES));
+        assert!(close(&found[0], 3.0) && close(&found[1], 6.0), "{found:?}");
+        // No unit, or nothing that is one: as it is.
+        for headings in [["x", "u"], ["x_0", "u_1"], ["", ""]] {
+            assert_eq!(converted("x,u", headings, Some(&SCALES)), [[1.0, 60.0], [1.0, 36.0]]);
+        }
+    }
+
+    #[test]
+    fn a_unit_of_something_else_is_refused() {
+        for headings in [["x (ms)", "u"], ["x", "u (V)"], ["x", "u (foo)"]] {
+            let mut columns = vec![vec![1.0], vec![1.0]];
+            let headings = headings.map(Heading::of);
+            assert!(in_model_units(&mut columns, "x,u", &headings, Some(&SCALES)).is_err());
+        }
+    }
+
+    #[test]
+    fn a_unit_without_a_scale_is_refused() {
+        let length = KnownScales { height: None, ..SCALES };
+        for scales in [None, Some(&length)] {
+            let mut columns = vec![vec![1.0], vec![1.0]];
+            let headings = ["x_nm", "u_nm"].map(Heading::of);
+            let refused = in_model_units(&mut columns, "x,u", &headings, scales).unwrap_err();
+            assert!(refused.contains("--sigma"), "{refused}");
+        }
+    }
+}

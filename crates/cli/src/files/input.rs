@@ -1,0 +1,176 @@
+//! Files that users give, or that a host supplies: tip functions, documents. All of it may be wrong.
+
+use super::columns::{Columns, whole};
+use super::text::{LARGEST_TABLE, read_text, unreadable};
+use crate::failure::Failure;
+use crate::host;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::fs::File;
+use std::io::{self, Cursor, Read};
+use std::path::Path;
+use stickslip::{self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable};
+
+/// A run of some ten million steps.
+const LARGEST_DOCUMENT: u64 = 4 << 30;
+
+/// A tip file: JSON {"gaussians":[…]}, CSV `x,f` or CSV `x,y,f`.
+pub(crate) enum TipFile {
+    Gaussians(Vec<GaussianEntry>),
+    Table(Columns),
+    Table2d([Vec<f64>; 3]),
+    /// What `stickslip tip` made of a profile.
+    Measured(Box<MeasuredTipDocument>),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TipJson {
+    gaussians: Vec<GaussianEntry>,
+}
+
+/// One Gaussian of a tip file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GaussianEntry {
+    pub(crate) amplitude: f64,
+    pub(crate) center: f64,
+    pub(crate) width: f64,
+    /// Center in y, for a tip in three dimensions.
+    #[serde(default)]
+    pub(crate) center_y: Option<f64>,
+    /// Width in y, for a tip in three dimensions.
+    #[serde(default)]
+    pub(crate) width_y: Option<f64>,
+}
+
+pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
+    const OPTION: &str = "--tip-file";
+    let text = read_text(OPTION, path, LARGEST_TABLE)?;
+    parse_tip(&text)
+        .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
+}
+
+pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
+    if !text.trim_start().starts_with('{') {
+        return table_of(text);
+    }
+    let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
+    if kind.is_ok_and(|kind| kind.format.is_some()) {
+        let measured = documents::read(text, MeasuredTipDocument::FORMAT);
+        return measured.map(|m| TipFile::Measured(Box::new(m))).map_err(|e| e.to_string());
+    }
+    let tip: TipJson = serde_json::from_str(text).map_err(|error| {
+        format!(
+            "{error}; expected {{\"gaussians\":[{{\"amplitude\":1,\"center\":0,\"width\":1}},…]}}"
+        )
+    })?;
+    Ok(TipFile::Gaussians(tip.gaussians))
+}
+
+/// Columns of a tip, which must be in its own σ.
+fn table_of(text: &str) -> Result<TipFile, String> {
+    let sheet = whole(text, &["x,f", "x,y,f"])?;
+    let positions = &sheet.headings[..sheet.headings.len() - 1];
+    if let Some(heading) = positions.iter().find(|heading| heading.written_unit().is_some()) {
+        return Err(format!(
+            "the heading `{}` has a unit, and a tip file is in σ: `stickslip tip` makes one of a profile in any unit and \
+             prints its σ",
+            heading.text()
+        ));
+    }
+    let [first, second, third] =
+        [0, 1, 2].map(|i| sheet.columns.get(i).cloned().unwrap_or_default());
+    Ok(if sheet.columns.len() == 3 {
+        TipFile::Table2d([first, second, third])
+    } else {
+        TipFile::Table((first, second))
+    })
+}
+
+/// What `stickslip run` or `stickslip raster` wrote.
+pub(crate) enum RunOrRaster {
+    Run(Box<RunDocument>),
+    Raster(Box<RasterDocument>),
+}
+
+/// A document that `stickslip run` or `stickslip raster` wrote.
+pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
+    if let Some(run) = host::document(path) {
+        return Ok(RunOrRaster::Run(Box::new(run)));
+    }
+    let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
+    let (kind, source) =
+        documents::told(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
+    if kind.format.as_deref() == Some(RasterDocument::FORMAT) {
+        let raster = documents::read_from(source, RasterDocument::FORMAT).map_err(refused)?;
+        return Ok(RunOrRaster::Raster(Box::new(raster)));
+    }
+    let run = documents::read_from(source, RunDocument::FORMAT).map_err(refused)?;
+    Ok(RunOrRaster::Run(Box::new(run)))
+}
+
+/// A document that `stickslip run` wrote, from a file that is open.
+pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
+    documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)
+        .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))
+}
+
+/// A document of this format, that of a command of the same name.
+pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
+    option: &str,
+    path: &Path,
+    wanted: &str,
+) -> Result<D, Failure> {
+    if let Some(document) = host::document(path) {
+        return Ok(document);
+    }
+    documents::read_from(open(option, path)?, wanted)
+        .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
+}
+
+/// What the document in a file says it is; `None` where it does not.
+pub(crate) fn format_of(
+    option: &str,
+    path: &Path,
+    wanted: &str,
+) -> Result<Option<String>, Failure> {
+    let kind = documents::kind_of(open(option, path)?, wanted);
+    let refused = |error| Failure::input(format!("{option} {}", path.display()), error);
+    kind.map(|kind| kind.format).map_err(refused)
+}
+
+/// The stream of a document (`-`: standard input), which ends where it would be larger than any.
+pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
+    if let Some(bytes) = host::bytes(path) {
+        return Ok(Box::new(Cursor::new(bytes)));
+    }
+    if path == Path::new("-") {
+        return Ok(Box::new(io::stdin().take(LARGEST_DOCUMENT)));
+    }
+    let file = File::open(path).map_err(|error| {
+        Failure::input(format!("{option} {}", path.display()), unreadable(error))
+    })?;
+    Ok(Box::new(file.take(LARGEST_DOCUMENT)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_nested_too_deep_is_refused() {
+        let nested = |depth: usize| format!("{}1{}", "[".repeat(depth), "]".repeat(depth));
+        for depth in [200, 1_000_000] {
+            let tip = format!("{{\"gaussians\":{}}}", nested(depth));
+            assert!(parse_tip(&tip).is_err());
+            let run = format!(
+                "{{\"format\":\"stickslip/run\",\"format_version\":1,\"software\":{}}}",
+                nested(depth)
+            );
+            let refused =
+                documents::read::<RunDocument>(&run, RunDocument::FORMAT).unwrap_err().to_string();
+            assert!(!refused.is_empty() && refused.len() < 300, "{refused}");
+        }
+    }
+}

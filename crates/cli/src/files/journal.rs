@@ -1,0 +1,163 @@
+//! A file that only grows, and knows what it holds: whoever takes it up again cuts it back to where a
+//! checkpoint says, and goes on.
+
+use super::beside;
+use super::replace::Looks;
+use crc32fast::Hasher;
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
+use std::path::Path;
+use stickslip::Mark;
+
+/// A growing file, locked.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    file: BufWriter<File>,
+    bytes: u64,
+    hasher: Hasher,
+}
+
+impl Journal {
+    /// A new one, which will begin with `magic`, in place of another such.
+    ///
+    /// # Errors
+    /// As [`beside::create`].
+    pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Self> {
+        let file = beside::create(path, magic, looks)?;
+        Ok(Self { file: BufWriter::new(file), bytes: 0, hasher: Hasher::new() })
+    }
+
+    /// The one at `path`, cut back to the mark.
+    ///
+    /// # Errors
+    /// As [`beside::ours`]; it does not begin with what the mark says.
+    pub(super) fn resume(path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
+        let mut file = beside::ours(path, magic)?.ok_or(io::ErrorKind::NotFound)?;
+        let hasher = verified(&file, mark)?;
+        if beside::has_other_names(&file)? {
+            // It is locked again under the name alone.
+            file.unlock()?;
+            return Self::copy(&file, path, magic, mark);
+        }
+        file.set_len(mark.bytes)?;
+        file.seek(io::SeekFrom::End(0))?;
+        Ok(Self { file: BufWriter::new(file), bytes: mark.bytes, hasher })
+    }
+
+    /// A new one that begins as another file does up to the mark.
+    ///
+    /// # Errors
+    /// As [`beside::create`]; the other does not begin with what the mark says.
+    pub(super) fn copy(from: &File, path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
+        verified(from, mark)?;
+        let looks = Looks::of_file(from);
+        // The other may be the one that is replaced.
+        let from = from.try_clone()?;
+        let mut journal = Self::create(path, magic, &looks)?;
+        (&from).rewind()?;
+        io::copy(&mut from.take(mark.bytes), &mut journal)?;
+        Ok(journal)
+    }
+
+    /// Puts all that was written on the disk.
+    pub(crate) fn sync(&mut self) -> io::Result<Mark> {
+        self.file.flush()?;
+        self.file.get_ref().sync_data()?;
+        Ok(Mark { bytes: self.bytes, crc32: self.hasher.clone().finalize() })
+    }
+}
+
+/// Whether a file begins with what the mark says.
+fn verified(mut file: &File, mark: Mark) -> io::Result<Hasher> {
+    file.rewind()?;
+    let mut hasher = Hasher::new();
+    let mut beginning = BufReader::new(file).take(mark.bytes);
+    let bytes = io::copy(&mut beginning, &mut Hashing(&mut hasher))?;
+    if (Mark { bytes, crc32: hasher.clone().finalize() }) == mark {
+        return Ok(hasher);
+    }
+    let message = "it does not begin with what was there at the checkpoint";
+    Err(io::Error::new(io::ErrorKind::InvalidData, message))
+}
+
+impl Write for Journal {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+struct Hashing<'a>(&'a mut Hasher);
+
+impl Write for Hashing<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    const MAGIC: &[u8] = b"journal ";
+
+    fn written(path: &Path) -> (Mark, Mark) {
+        let mut journal = Journal::create(path, MAGIC, &Looks::default()).unwrap();
+        journal.write_all(b"journal of a run").unwrap();
+        let mark = journal.sync().unwrap();
+        journal.write_all(b" that went on").unwrap();
+        (mark, journal.sync().unwrap())
+    }
+
+    #[test]
+    fn a_journal_is_cut_back_to_its_mark_and_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("journal");
+        let (mark, _) = written(&path);
+        let mut journal = Journal::resume(&path, MAGIC, mark).unwrap();
+        journal.write_all(b", resumed").unwrap();
+        let longer = journal.sync().unwrap();
+        drop(journal);
+        assert_eq!(fs::read(&path).unwrap(), b"journal of a run, resumed");
+        let other = Mark { crc32: mark.crc32 ^ 1, ..mark };
+        assert!(Journal::resume(&path, MAGIC, other).is_err());
+        assert!(Journal::resume(&path, MAGIC, Mark { bytes: 33, ..longer }).is_err());
+        Journal::resume(&path, MAGIC, longer).unwrap();
+    }
+
+    #[test]
+    fn its_beginning_may_come_from_another_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let [whole, part] = ["whole", "part"].map(|name| folder.path().join(name));
+        let (mark, _) = written(&whole);
+        Journal::copy(&File::open(&whole).unwrap(), &part, MAGIC, mark).unwrap().sync().unwrap();
+        assert_eq!(fs::read(&part).unwrap(), b"journal of a run");
+        assert_eq!(fs::read(&whole).unwrap(), b"journal of a run that went on");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_second_name_of_a_journal_keeps_what_it_has() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, backup] = ["journal", "backup"].map(|name| folder.path().join(name));
+        let (mark, _) = written(&path);
+        fs::hard_link(&path, &backup).unwrap();
+        let mut journal = Journal::resume(&path, MAGIC, mark).unwrap();
+        journal.write_all(b"!").unwrap();
+        journal.sync().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"journal of a run!");
+        assert_eq!(fs::read(&backup).unwrap(), b"journal of a run that went on");
+    }
+}

@@ -1,0 +1,94 @@
+//! Rows of numbers that grow beside a checkpoint: a line that says what they are, then their bits in little-endian
+//! order.
+
+use super::beside;
+use super::journal::Journal;
+use super::replace::Looks;
+use std::io::{self, Read, Write};
+use std::path::Path;
+use stickslip::Mark;
+
+/// How such a file begins.
+const MAGIC: &[u8] = b"stickslip/journal ";
+/// Bytes of the first line; rows of 7 and of 16 numbers alike fit into it.
+const HEAD: usize = 896;
+
+/// A journal of rows.
+#[derive(Debug)]
+pub(crate) struct Rows(Journal);
+
+impl Rows {
+    /// A new one in place of another such, as open to others as the file it belongs to.
+    pub(crate) fn create(path: &Path, owner: &Path, numbers: usize) -> io::Result<Self> {
+        let mut journal = Journal::create(path, MAGIC, &Looks::of(owner))?;
+        journal.write_all(&head(numbers))?;
+        Ok(Self(journal))
+    }
+
+    /// Takes one up, cut back to the mark, with the rows of N numbers that it holds.
+    pub(crate) fn resume<const N: usize>(
+        path: &Path,
+        mark: Mark,
+    ) -> io::Result<(Self, Vec<[f64; N]>)> {
+        let journal = Journal::resume(path, MAGIC, mark)?;
+        let damaged = || io::Error::new(io::ErrorKind::InvalidData, "it does not hold such rows");
+        let mut bytes = vec![];
+        let file = std::fs::File::open(path)?;
+        file.take(mark.bytes).read_to_end(&mut bytes)?;
+        let rows = bytes.strip_prefix(&*head(N)).ok_or_else(damaged)?;
+        let (words, rest) = rows.as_chunks::<8>();
+        let (rows, more) = words.as_chunks::<N>();
+        if !(rest.is_empty() && more.is_empty()) {
+            return Err(damaged());
+        }
+        Ok((Self(journal), rows.iter().map(|row| row.map(f64::from_le_bytes)).collect()))
+    }
+
+    /// One more row.
+    pub(crate) fn write<const N: usize>(&mut self, row: [f64; N]) -> io::Result<()> {
+        self.0.write_all(row.map(f64::to_le_bytes).as_flattened())
+    }
+
+    /// Puts all rows on the disk.
+    pub(crate) fn sync(&mut self) -> io::Result<Mark> {
+        self.0.sync()
+    }
+}
+
+/// The first line.
+fn head(numbers: usize) -> Vec<u8> {
+    let mut line = MAGIC.to_vec();
+    line.extend(
+        format!("1: rows of {numbers} numbers of 8 bytes, least significant first;").bytes(),
+    );
+    line.extend(b" a checkpoint says how many count");
+    line.resize(HEAD - 1, b' ');
+    line.push(b'\n');
+    line
+}
+
+/// The file of rows that belongs to a checkpoint.
+pub(crate) fn journal_of(checkpoint: &Path) -> std::path::PathBuf {
+    beside::with(checkpoint, ".journal")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back_to_the_last_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("journal");
+        let mut rows = Rows::create(&path, &path, 2).unwrap();
+        rows.write([1.0, -0.0]).unwrap();
+        let mark = rows.sync().unwrap();
+        rows.write([2.0, f64::INFINITY]).unwrap();
+        rows.sync().unwrap();
+        drop(rows);
+        assert!(Rows::resume::<4>(&path, mark).is_err());
+        let (_, found) = Rows::resume::<2>(&path, mark).unwrap();
+        let bits = |row: &[f64; 2]| row.map(f64::to_bits);
+        assert_eq!(found.iter().map(bits).collect::<Vec<_>>(), [bits(&[1.0, -0.0])]);
+    }
+}

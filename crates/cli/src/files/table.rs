@@ -1,0 +1,134 @@
+//! Tables on their way out: CSV and NumPy archives of whatever can be had as columns and arrays.
+
+use super::output::Output;
+use crate::failure::Failure;
+use crate::message::harmless;
+use ndarray::ArrayViewD;
+use ndarray_npy::NpzWriter;
+use std::io::{self, Cursor, Write};
+use stickslip::{Column, Tabular, arrays_in_units, columns_in_units};
+
+/// Writes the columns as CSV under their names, a line for each row.
+pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Failure> {
+    let columns = columns_in_units(table);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| &**name).collect();
+    let rows = columns.iter().filter_map(|(_, column)| rows(column)).min().unwrap_or(0);
+    let columns: Vec<Cells> = columns.iter().map(|(_, column)| Cells::of(column)).collect();
+    output.write_with(|out| {
+        writeln!(out, "{}", names.join(","))?;
+        let mut line = String::new();
+        (0..rows).try_for_each(|row| write_row(out, &mut line, &columns, row))?;
+        table.note().iter().try_for_each(|note| writeln!(out, "# {}", harmless(note)))
+    })
+}
+
+fn write_row(
+    out: &mut dyn Write,
+    line: &mut String,
+    columns: &[Cells],
+    row: usize,
+) -> io::Result<()> {
+    line.clear();
+    for (i, column) in columns.iter().enumerate() {
+        if i > 0 {
+            line.push(',');
+        }
+        column.append(row, line);
+    }
+    line.push('\n');
+    out.write_all(line.as_bytes())
+}
+
+/// `None` where it goes on for as long as the others do.
+fn rows(column: &Column) -> Option<usize> {
+    match column {
+        Column::Numbers(values) => Some(values.len()),
+        Column::Optional(values) => Some(values.len()),
+        Column::Words(words, _) => Some(words.len()),
+        Column::Repeated { .. } => None,
+    }
+}
+
+/// A column as text.
+enum Cells<'a> {
+    Numbers(&'a [f64]),
+    Optional(&'a [Option<f64>]),
+    Words(&'a [String]),
+    /// Written out once: shortest digits are what takes the time.
+    Repeated(Vec<String>, usize),
+}
+
+impl<'a> Cells<'a> {
+    fn of(column: &'a Column) -> Self {
+        match column {
+            Column::Numbers(values) => Self::Numbers(values),
+            Column::Optional(values) => Self::Optional(values),
+            Column::Words(words, _) => Self::Words(words),
+            Column::Repeated { values, each } => {
+                Self::Repeated(values.iter().map(f64::to_string).collect(), *each)
+            }
+        }
+    }
+
+    fn append(&self, row: usize, line: &mut String) {
+        match self {
+            Self::Numbers(values) => line.push_str(&values[row].to_string()),
+            Self::Optional(values) => {
+                line.push_str(&values[row].map(|value| value.to_string()).unwrap_or_default());
+            }
+            Self::Words(words) => line.push_str(&harmless(&words[row])),
+            Self::Repeated(texts, each) => line.push_str(&texts[row / each % texts.len()]),
+        }
+    }
+}
+
+/// Writes the arrays as a NumPy archive.
+pub(crate) fn write_npz(table: &impl Tabular, output: Output) -> Result<(), Failure> {
+    let bytes = npz(table)
+        .map_err(|error| Failure::Run(format!("cannot make the .npz archive: {error}")))?;
+    output.write_bytes(&bytes)
+}
+
+fn npz(table: &impl Tabular) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    let mut npz = NpzWriter::new(Cursor::new(vec![]));
+    for (name, array) in arrays_in_units(table) {
+        npz.add_array(&*name, &ArrayViewD::from_shape(array.shape, &array.values)?)?;
+    }
+    Ok(npz.finish()?.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+    use stickslip::Named;
+
+    struct Kinds;
+
+    impl Tabular for Kinds {
+        fn columns(&self) -> Vec<Named<'_>> {
+            vec![
+                ("a", vec![0.1, -2.0, 1e300].into()),
+                ("b", vec![Some(1.0), None, Some(3.5)].into()),
+                ("c", Column::Words(["x", "", "z"].map(String::from).into(), Some(vec![0.0; 3]))),
+                ("d", Column::Words(["p", "q", "r"].map(String::from).into(), None)),
+                ("e", Column::Repeated { values: vec![1.0, 2.0].into(), each: 2 }),
+            ]
+        }
+    }
+
+    #[test]
+    fn every_kind_of_column_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("kinds.csv");
+        write_csv(&Kinds, Output::open("--output", &path).unwrap()).unwrap();
+        let text = std::fs::read_to_string(Path::new(&path)).unwrap();
+        assert_eq!(text.lines().next(), Some("a,b,c,d,e"));
+        assert_eq!(text.lines().nth(1), Some("0.1,1,x,p,1"));
+        assert_eq!(text.lines().nth(2), Some("-2,,,q,1"));
+        assert!(text.lines().nth(3).unwrap().ends_with(",3.5,z,r,2"), "{text}");
+        let names: Vec<&str> = Kinds.arrays().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["a", "b", "c", "e"]);
+        assert!(!npz(&Kinds).unwrap().is_empty());
+    }
+}

@@ -1,0 +1,306 @@
+//! The program for another that holds it in its memory: the same commands and options, without files and processes.
+//!
+//! ```ignore
+//! let host = Arc::new(Host::new([]));
+//! let made = hosted::call(["run", "--alpha=1.2", "--r=1", "--until=60"], &host)?;
+//! ```
+
+pub use crate::host::{Host, Pace, Supply};
+pub use crate::made::{Document, Made};
+
+use crate::arguments::Cli;
+use crate::failure::Failure;
+use crate::files::input::open;
+use crate::message::harmless;
+use crate::{done, host, made};
+use clap::{ArgAction, CommandFactory, FromArgMatches};
+use serde::Serialize;
+use std::io::Read;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, read_from, told};
+use stickslip_figures::{Drawn, Taker, saved_as};
+use stickslip_tip::stop;
+
+/// Why there is no result.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Refusal {
+    /// Unusable input.
+    Input(String),
+    /// What failed at run time.
+    Run(String),
+    /// The host stopped it.
+    Stopped(String),
+}
+
+/// Carries out a command, such as `["stability", "--r=1"]`, on this thread. `None`: it has written its result to a file and
+/// keeps nothing. What a command has made before it failed, [`Host::take`] has.
+///
+/// # Errors
+/// The words of the program.
+pub fn call<'a>(
+    words: impl IntoIterator<Item = &'a str>,
+    host: &Arc<Host>,
+) -> Result<Option<Made>, Refusal> {
+    let cli = parse(words)?;
+    let _lent = Lent::to(host);
+    match stop::where_asked_by(host.stop(), || done(&cli.command)) {
+        Ok(()) => Ok(host.take()),
+        // Work that ends early has its own words for what it did not find.
+        Err(failure) if host.stop().load(Ordering::Relaxed) => {
+            Err(Refusal::Stopped(failure.to_string()))
+        }
+        Err(failure) => Err(failure.into()),
+    }
+}
+
+/// The host of a thread, until this goes.
+struct Lent;
+
+impl Lent {
+    fn to(host: &Arc<Host>) -> Self {
+        host::set(Some(Arc::clone(host)));
+        Self
+    }
+}
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        host::set(None);
+    }
+}
+
+impl From<Failure> for Refusal {
+    fn from(failure: Failure) -> Self {
+        // A host prints it, as it does the name of a file in it.
+        let said = harmless(&failure.to_string()).into_owned();
+        match failure.status() {
+            2 => Self::Input(said),
+            1 | 3 => Self::Run(said),
+            _ => Self::Stopped(said),
+        }
+    }
+}
+
+/// The parser, made once: that takes longer than many a command.
+fn parser() -> &'static Mutex<clap::Command> {
+    static PARSER: OnceLock<Mutex<clap::Command>> = OnceLock::new();
+    PARSER.get_or_init(|| Mutex::new(Cli::command().no_binary_name(true)))
+}
+
+fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
+    let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+    let refused = |error: clap::Error| {
+        let said = error.render().to_string();
+        // The words that say what is wrong, without usage and advice for a shell.
+        let said = said.split("\n\nUsage:").next().unwrap_or_default();
+        let said = said.split("\n\nFor more information").next().unwrap_or_default();
+        Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
+    };
+    let matches = parser.try_get_matches_from_mut(words).map_err(refused)?;
+    Cli::from_arg_matches(&matches).map_err(refused)
+}
+
+/// An option of a command, as its help tells it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OptionTold {
+    /// Such as `alpha-above`; of what stands without a name, such as `RUN.json`, its place in small letters: `run`.
+    pub name: String,
+    /// Whether it stands without a name.
+    pub is_positional: bool,
+    /// What stands for its value in help, such as `FILE`; `None` for a switch.
+    pub value: Option<String>,
+    /// Between several values of one option.
+    pub delimiter: Option<char>,
+    /// Whether it may be there several times.
+    pub is_repeatable: bool,
+    /// What it means.
+    pub help: String,
+}
+
+/// The options of a command, or of one below it, such as `["sweep", "raster"]`; `None` where there is none of that name.
+pub fn options(path: &[&str]) -> Option<Vec<OptionTold>> {
+    let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+    parser.build();
+    let command = path.iter().try_fold(&*parser, |at, name| at.find_subcommand(name))?;
+    let told = |argument: &clap::Arg| OptionTold {
+        name: argument.get_long().unwrap_or(argument.get_id().as_str()).to_owned(),
+        is_positional: argument.is_positional(),
+        value: value_of(argument),
+        delimiter: argument.get_value_delimiter(),
+        is_repeatable: matches!(argument.get_action(), ArgAction::Append),
+        help: argument.get_help().map(ToString::to_string).unwrap_or_default(),
+    };
+    let own =
+        |argument: &&clap::Arg| !["help", "version", "quiet"].contains(&argument.get_id().as_str());
+    Some(command.get_arguments().filter(own).map(told).collect())
+}
+
+fn value_of(argument: &clap::Arg) -> Option<String> {
+    let takes = matches!(argument.get_action(), ArgAction::Set | ArgAction::Append);
+    let name = argument.get_value_names().and_then(|names| names.first());
+    takes.then(|| name.map(ToString::to_string).unwrap_or_default())
+}
+
+/// The names of all commands, and what each does.
+pub fn commands() -> Vec<(String, String)> {
+    let parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+    let told = |command: &clap::Command| {
+        let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+        (command.get_name().to_owned(), about)
+    };
+    parser.get_subcommands().map(told).collect()
+}
+
+/// The document of any kind that a file holds.
+///
+/// # Errors
+/// It cannot be read, or is no document of this program.
+pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
+    let refused = |error: Unusable| {
+        Refusal::from(Failure::input(format!("DOCUMENT.json {}", path.display()), error))
+    };
+    read(open("DOCUMENT.json", path)?).map_err(refused)
+}
+
+/// The document of any kind that a stream holds.
+///
+/// # Errors
+/// It is no document of this program.
+pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
+    let (kind, source) = told(source, "stickslip/COMMAND")?;
+    match kind.format.as_deref() {
+        Some(format @ UnitsDocument::FORMAT) => {
+            read_from::<UnitsDocument>(source, format).map(made::plain)
+        }
+        Some(format @ VerifyDocument::FORMAT) => {
+            read_from::<VerifyDocument>(source, format).map(made::plain)
+        }
+        _ => saved_as(source, Keep),
+    }
+}
+
+/// Keeps a document as it is.
+struct Keep;
+
+impl Taker for Keep {
+    type Taken = Box<dyn Document>;
+
+    fn take<D>(self, document: D) -> Box<dyn Document>
+    where
+        D: Drawn + Tabular + Serialize + Clone + Send + Sync + 'static,
+    {
+        made::pictured(document)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip::{RunDocument, SweepDocument};
+
+    fn host(supplies: impl IntoIterator<Item = (&'static str, Supply)>) -> Arc<Host> {
+        Arc::new(Host::new(supplies.into_iter().map(|(name, supply)| (name.into(), supply))))
+    }
+
+    fn run(words: &[&str], host: &Arc<Host>) -> RunDocument {
+        let made = call(words.iter().copied(), host).unwrap().unwrap();
+        made.document.any().downcast_ref::<RunDocument>().unwrap().clone()
+    }
+
+    #[test]
+    fn a_run_in_hand_is_the_one_written_to_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("run.json");
+        let output = format!("--output={}", file.display());
+        let words = ["run", "--alpha=1.2", "--r=1", "--kick=0.05", "--until=60", &output];
+        let host = host([]);
+        let in_hand = run(&words, &host);
+        let written = load(&file).unwrap();
+        let written = written.any().downcast_ref::<RunDocument>().unwrap();
+        let text = |run: &RunDocument| serde_json::to_string(run).unwrap();
+        assert_eq!(text(&in_hand), text(written));
+        assert!(in_hand.history.is_some());
+        assert!(host::current().is_none(), "the thread is its own again");
+    }
+
+    #[test]
+    fn files_from_memory_are_read_as_files_are() {
+        let tip = "{\"gaussians\":[{\"amplitude\":1,\"center\":0,\"width\":1}]}";
+        let host = host([("<tip>", Supply::Text(tip.into()))]);
+        let words = ["run", "--alpha=1", "--r=1", "--until=20", "--tip-file=<tip>"];
+        let own = run(&words, &host);
+        let usual = run(&["run", "--alpha=1", "--r=1", "--until=20", "--tip=gaussian"], &host);
+        assert_eq!(own.samples.l, usual.samples.l);
+        let refused = call(["run", "--alpha=1", "--r=1", "--until=20", "--tip-file=<tap>"], &host);
+        assert!(matches!(refused, Err(Refusal::Input(said)) if said.contains("--tip-file <tap>")));
+    }
+
+    #[test]
+    fn what_is_said_is_heard_and_what_is_wrong_is_told_in_the_programs_words() {
+        let host = host([]);
+        run(&["run", "--alpha=1", "--r=1", "--until=20", "--pulse=1,500,1"], &host);
+        let heard = host.heard().join("\n");
+        assert!(heard.contains("--pulse 1,500,1"), "{heard}");
+        for (words, said) in [
+            (["stability", "--r=-1"], "--r -1: "),
+            (["stability", "--r=one"], "invalid value 'one' for '--r <R>'"),
+            (["stability", "--spring"], "unexpected argument '--spring' found"),
+        ] {
+            match call(words, &host) {
+                Err(Refusal::Input(found)) => {
+                    assert!(found.starts_with(said) && !found.contains("Usage"), "{found}");
+                }
+                _ => panic!("{words:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_host_stops_what_it_asked_for() {
+        let host = host([]);
+        host.stop().store(true, Ordering::Relaxed);
+        let words = ["run", "--alpha=1.2", "--r=1", "--until=1e5"];
+        assert!(matches!(call(words, &host), Err(Refusal::Stopped(_))));
+        let words = ["sweep", "--r=1", "--alpha=1:2:10"];
+        assert!(matches!(call(words, &host), Err(Refusal::Stopped(_))));
+        host.stop().store(false, Ordering::Relaxed);
+        let made = call(["sweep", "--r=1", "--alpha=1:1.2:2"], &host).unwrap().unwrap();
+        let sweep = made.document.any().downcast_ref::<SweepDocument>().unwrap();
+        assert_eq!(sweep.points.len(), 2);
+        assert!(made.headline.contains("2 points"), "{}", made.headline);
+        assert_eq!(host.pace(), Some(Pace { part: Some(1.0), counted: "2 of 2 points".into() }));
+    }
+
+    #[test]
+    fn a_host_stops_a_comparison_within_either_grid() {
+        // Hours of work, were it not stopped, and nothing is shown before the grid marches.
+        for line in [
+            "compare --alpha=1.2 --r=1 --until=20 --grid=uniform --spacing=1e-3 --step=1e-5 --time-limit=1e9",
+            "compare --tip=gaussian --alpha=0.4 --r=1 --pitch=1 --length=1e3 --lines=2 --step=1e-6 --time-limit=1e9",
+        ] {
+            let host = host([]);
+            let raise = Arc::clone(&host);
+            let work = std::thread::spawn(move || call(line.split(' '), &host).map(drop));
+            while raise.pace().is_none() {
+                assert!(!work.is_finished(), "{line}: {:?}", work.join());
+                std::thread::sleep(std::time::Duration::from_millis(1));
+            }
+            raise.stop().store(true, Ordering::Relaxed);
+            assert!(matches!(work.join(), Ok(Err(Refusal::Stopped(_)))), "{line}");
+        }
+    }
+
+    #[test]
+    fn options_are_those_of_the_help() {
+        let told = options(&["run"]).unwrap();
+        let named = |name: &str| told.iter().find(|option| option.name == name).unwrap();
+        assert_eq!(named("tip-file").value.as_deref(), Some("FILE"));
+        assert_eq!(named("sample-at").delimiter, Some(','));
+        assert!(named("pulse").is_repeatable && named("no-spring").value.is_none());
+        assert!(options(&["surface"]).unwrap().iter().any(|o| o.is_positional && o.name == "run"));
+        assert!(options(&["sweep", "merge"]).is_some() && options(&["dance"]).is_none());
+        assert!(commands().iter().any(|(name, _)| name == "continue"));
+    }
+}

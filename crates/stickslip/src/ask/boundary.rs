@@ -1,0 +1,345 @@
+//! The question `boundary`, and its answer.
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{
+    Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
+    OnsetKindName, Refused, Tip, Typed,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+use stickslip_stability::{
+    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, WiderCritical,
+    critical_under, least_depth_limit, memory_length, onset_at,
+};
+use stickslip_tip::{TipFunction, Wider};
+
+/// The critical α over a range of r, and the oscillation that is born along it.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Boundary {
+    /// Footprint f(x) of the tip.
+    #[serde(default)]
+    pub tip: Tip,
+    /// First and last r, above 0.
+    pub r_range: [f64; 2],
+    /// Number of values of r, both ends included; from 2 to 100,000.
+    #[serde(default = "default_points")]
+    pub points: usize,
+    /// How that range is divided.
+    #[serde(default)]
+    pub spacing: SpacingName,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+}
+
+fn default_points() -> usize {
+    Boundary::DEFAULT_POINTS
+}
+
+/// A boundary and the question that it answers.
+pub type BoundaryDocument = Document<Boundary>;
+
+/// The stability boundary. `Omega`, `r`, `alpha` and the columns of `onset` have equal lengths.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryFound {
+    /// Ω = ω/r of the oscillation that is born, in 1/σ.
+    #[serde(rename = "Omega")]
+    pub wave_number: Vec<f64>,
+    /// r, ascending; those at which steady motion is stable for every α are left out.
+    pub r: Vec<f64>,
+    /// αc(r), the first crossing: steady motion is stable below.
+    pub alpha: Vec<f64>,
+    /// What is born there.
+    pub onset: OnsetColumns,
+    /// The whole curve (42), (43) within the range of r, by stretches on which Ω runs without a gap.
+    /// Where there are several, or where one turns back in r, its parts above αc(r) are where further
+    /// pairs of roots cross. None under a wider law.
+    pub branches: Vec<BranchDocument>,
+    /// Under a wider law: whether linear theory decides, for each r.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub kind: Vec<OnsetKindName>,
+    /// Under a wider law: what leaves nothing unstable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitColumns>,
+}
+
+impl Boundary {
+    /// Values of r where their number is not given.
+    pub const DEFAULT_POINTS: usize = 200;
+    /// More take hours, and no picture shows them.
+    pub const MOST_POINTS: usize = 100_000;
+
+    /// The boundary over a range of r, in 200 points, under the basic law.
+    pub fn new(tip: Tip, r_range: [f64; 2]) -> Self {
+        let (points, spacing) = (default_points(), SpacingName::default());
+        Self { tip, r_range, points, spacing, law: Law::default() }
+    }
+
+    /// A point of the boundary as a model.
+    pub fn at(&self, r: f64, alpha: f64) -> ModelParameters {
+        ModelParameters::asked(&self.tip, Indentation::given(alpha), r, self.law)
+    }
+
+    /// Refuses a range that is none, or of too few or too many points.
+    fn judged(&self) -> Result<(), Refused> {
+        let [low, high] = self.r_range;
+        let refused = |why: &str| Err(self.refused(why));
+        if !(low.is_finite() && high.is_finite() && low < high) {
+            return refused("must be two finite numbers, the first below the second");
+        }
+        if low <= 0.0 {
+            return refused("needs numbers above 0, such as 0.05 and 3");
+        }
+        if !(2..=Self::MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 2 to {}", Self::MOST_POINTS);
+            return Err(Refused::number("points", self.points as f64, why));
+        }
+        Ok(())
+    }
+
+    fn refused(&self, why: impl ToString) -> Refused {
+        let [low, high] = self.r_range.map(Typed);
+        let value = Some(format!("{low}:{high}:{}", self.points));
+        Refused { parameter: "r_range", value, why: why.to_string() }
+    }
+
+    /// Under the basic law: with criticality and all stretches of the curve.
+    fn basic(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
+        let tip = &self.tip.0;
+        let boundary = stability::Boundary::new(tip);
+        let steps = 2 * self.points;
+        let (mut along, mut left_out) = (vec![], vec![]);
+        for (n, r) in self.spacing.values(self.r_range, self.points).into_iter().enumerate() {
+            match boundary.at(r) {
+                Ok(found) => along.push(found),
+                Err(error) => left_out.push(error),
+            }
+            context.counted(n + 1, steps, "steps")?;
+        }
+        if let (true, Some(error)) = (along.is_empty(), left_out.first()) {
+            return Err(self.refused(error).into());
+        }
+        let [low, high] = self.r_range;
+        let branches = boundary.branches(low, high, self.points);
+        let branches = branches.map_err(|error| self.refused(error))?;
+        let mut onset = OnsetColumns::default();
+        for (n, at) in along.iter().enumerate() {
+            onset.push(tip, at);
+            context.counted(self.points + n + 1, steps, "steps")?;
+        }
+        let found = BoundaryFound {
+            branches: branches.into_iter().map(Into::into).collect(),
+            ..BoundaryFound::through(along.iter(), onset)
+        };
+        Ok((found, left_out_remark(&left_out).into_iter().collect()))
+    }
+
+    /// Under any other law. That nothing is unstable at all is an answer too.
+    fn extended(
+        &self,
+        law: &Wider,
+        context: &Context,
+    ) -> Result<(BoundaryFound, Vec<String>), Failure> {
+        let tip = &self.tip.0;
+        let values = self.spacing.values(self.r_range, self.points);
+        let (mut along, mut left_out, mut least) = (vec![], vec![], vec![]);
+        for (n, r) in values.iter().enumerate() {
+            match critical_under(law, tip, *r) {
+                Ok(found) => along.push(found),
+                Err(
+                    error @ (StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. }),
+                ) => {
+                    left_out.push(error);
+                }
+                Err(StabilityError::Wider(error)) => return Err(Refused::from(error).into()),
+                Err(error) => return Err(self.refused(error).into()),
+            }
+            least.push(least_depth_limit(law, tip, *r).ok());
+            context.counted(n + 1, self.points, "steps")?;
+        }
+        let critical = along.iter().map(|at| &at.critical);
+        let found = BoundaryFound {
+            kind: along.iter().map(|at| at.kind.into()).collect(),
+            limits: Some(LimitColumns {
+                r: values,
+                least_depth_limit: least,
+                memory_length: memory_length(tip).ok(),
+            }),
+            ..BoundaryFound::through(critical, OnsetColumns::unknown(along.len()))
+        };
+        Ok((found, remarks(&along, &left_out)))
+    }
+}
+
+impl Ask for Boundary {
+    const NAME: &'static str = "boundary";
+    const FORMAT: &'static str = "stickslip/boundary";
+    type Answer = BoundaryFound;
+
+    fn answer(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
+        self.judged()?;
+        let law = self.law.dragged(&self.tip.0)?;
+        if law.is_papers() && self.tip.0 != TipFunction::Cosine {
+            self.basic(context)
+        } else {
+            self.extended(&law, context)
+        }
+    }
+}
+
+fn left_out_remark(left_out: &[StabilityError]) -> Option<String> {
+    let first = left_out.first()?;
+    Some(format!("{} values of r are left out: {first}", left_out.len()))
+}
+
+fn remarks(along: &[WiderCritical], left_out: &[StabilityError]) -> Vec<String> {
+    let mut remarks: Vec<String> = left_out_remark(left_out).into_iter().collect();
+    if along.iter().any(|at| at.kind == OnsetKind::NonSmooth) {
+        let message = "kind non-smooth: the height under the tip is 0 in steady motion, where |h| of the depth limit \
+                       has a corner: alpha is where a small oscillation keeps its amplitude, and at finite amplitude \
+                       onset moves";
+        remarks.push(message.into());
+    }
+    if !along.is_empty() {
+        let message =
+            "onset: the leading order of small cycles is available for the basic law only";
+        remarks.push(message.into());
+    }
+    remarks
+}
+
+impl BoundaryFound {
+    /// The curve through these critical points.
+    fn through<'a>(along: impl Iterator<Item = &'a Critical> + Clone, onset: OnsetColumns) -> Self {
+        Self {
+            wave_number: along.clone().map(|at| TAU / at.wavelength).collect(),
+            r: along.clone().map(|at| at.r).collect(),
+            alpha: along.map(|at| at.alpha).collect(),
+            onset,
+            branches: vec![],
+            kind: vec![],
+            limits: None,
+        }
+    }
+}
+
+/// How a range is divided.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpacingName {
+    /// Equal differences.
+    #[default]
+    Linear,
+    /// Equal ratios.
+    Logarithmic,
+}
+
+impl SpacingName {
+    /// So many values from low to high, both exactly.
+    pub fn values(self, [low, high]: [f64; 2], points: usize) -> Vec<f64> {
+        let last = points.max(2) - 1;
+        let between = |i: usize| {
+            let part = i as f64 / last as f64;
+            match self {
+                Self::Linear => low + part * (high - low),
+                Self::Logarithmic => low * (high / low).powf(part),
+            }
+        };
+        (0..points).map(|i| if i == last { high } else { between(i) }).collect()
+    }
+}
+
+/// Depth limits and memories under which no α makes steady motion unstable.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitColumns {
+    /// Every r that was asked for, also those without a critical α.
+    pub r: Vec<f64>,
+    /// b_c of each, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
+    /// the inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady
+    /// tip is 0, the corner of |h|.
+    pub least_depth_limit: Vec<Option<f64>>,
+    /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null
+    /// where there is none for this tip.
+    pub memory_length: Option<f64>,
+}
+
+/// The small oscillation along the boundary, to leading order in α - αc. Null where that says nothing.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OnsetColumns {
+    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
+    pub criticality: Vec<Option<CriticalityName>>,
+    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
+    pub amplitude_squared_slope: Vec<Option<f64>>,
+    /// dT/dα along the branch, in Γ/k.
+    pub period_slope: Vec<Option<f64>>,
+    /// First Lyapunov coefficient, in k/(Γσ²).
+    pub lyapunov: Vec<Option<f64>>,
+}
+
+/// A stretch of the curve, evenly spaced in Ω.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BranchDocument {
+    /// Ω, ascending, in 1/σ.
+    #[serde(rename = "Omega")]
+    pub wave_number: Vec<f64>,
+    /// r, dimensionless, (42).
+    pub r: Vec<f64>,
+    /// α, dimensionless, (43).
+    pub alpha: Vec<f64>,
+}
+
+impl OnsetColumns {
+    /// What is born at each of these points of the boundary.
+    pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
+        let mut columns = Self::default();
+        boundary.iter().for_each(|at| columns.push(tip, at));
+        columns
+    }
+
+    /// Of so many points, none of which is known.
+    #[must_use]
+    pub fn unknown(points: usize) -> Self {
+        Self {
+            criticality: vec![None; points],
+            amplitude_squared_slope: vec![None; points],
+            period_slope: vec![None; points],
+            lyapunov: vec![None; points],
+        }
+    }
+
+    /// Adds what is born at a point of the boundary.
+    pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
+        let onset = onset_at(tip, *at).ok();
+        self.criticality.push(onset.map(|o| o.criticality.into()));
+        self.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
+        self.period_slope.push(onset.map(|o| o.period_slope));
+        self.lyapunov.push(onset.map(|o| o.lyapunov));
+    }
+}
+
+impl From<BoundaryBranch> for BranchDocument {
+    fn from(branch: BoundaryBranch) -> Self {
+        let BoundaryBranch { wave_number, r, alpha } = branch;
+        Self { wave_number, r, alpha }
+    }
+}
+
+impl Tabular for BoundaryFound {
+    /// The boundary, a row for each r.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let OnsetColumns { amplitude_squared_slope, period_slope, lyapunov, .. } = &self.onset;
+        vec![
+            ("Omega", Column::of(&self.wave_number)),
+            ("r", Column::of(&self.r)),
+            ("alpha", Column::of(&self.alpha)),
+            ("amplitude_squared_slope", Column::optional(amplitude_squared_slope)),
+            ("period_slope", Column::optional(period_slope)),
+            ("lyapunov", Column::optional(lyapunov)),
+        ]
+    }
+}

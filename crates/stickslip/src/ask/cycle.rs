@@ -1,0 +1,296 @@
+//! The question `cycle`, and its answer.
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{
+    Ask, ComplexDocument, Context, Document, Failure, History, Indentation, Law, ModelParameters,
+    Refused, Tip, Unusable,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_cycles as cycles;
+use stickslip_cycles::CycleError;
+use stickslip_tip::{Model, Step, Support, TipFunction, Trajectory};
+
+/// Intervals of the profile in a step of the mesh, at least: the largest velocity is then seen to 0.3 %, with one
+/// to 1.4 % (α from 1.2 to 2, the loosest tolerance).
+const FEWEST_PARTS: usize = 2;
+/// More do not fit in a picture, nor are they needed in a table.
+const MOST_POINTS: usize = 1_000_000;
+
+/// The periodic motion at given α and r, and its stability.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Cycle {
+    /// Footprint f(x) of the tip.
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    pub r: f64,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// Intervals of the profile, about, and not fewer; up to 1,000,000. They are uneven in time: each step of the cycle's
+    /// mesh, short where the motion is fast, is divided evenly, in two at least.
+    #[serde(default = "default_points")]
+    pub points: usize,
+    /// One period of a motion nearby from which Newton's method starts; without it the small oscillation at αc or a short
+    /// run.
+    #[serde(skip)]
+    pub start: Option<Trajectory>,
+}
+
+fn default_tolerance() -> f64 {
+    cycles::DEFAULT_TOLERANCE
+}
+
+fn default_points() -> usize {
+    400
+}
+
+/// A cycle and the question that it answers.
+pub type CycleDocument = Document<Cycle>;
+
+impl Cycle {
+    /// The cycle of a footprint at an indentation rate and a support velocity, under the basic law.
+    pub fn new(tip: Tip, indentation: Indentation, r: f64) -> Self {
+        Self {
+            tip,
+            indentation,
+            r,
+            law: Law::default(),
+            tolerance: default_tolerance(),
+            points: default_points(),
+            start: None,
+        }
+    }
+
+    /// The question of a document again, started from its answer. It is resolved: its α is a number.
+    ///
+    /// # Errors
+    /// The history of the document is damaged, or is not one of a cycle.
+    pub fn again(document: &CycleDocument) -> Result<Self, Unusable> {
+        let question = document.parameters.clone();
+        let support = Support::Moving(question.r);
+        let start = document.history.under(question.law.into(), support)?;
+        if start.start().abs() > 0.0 {
+            return Err(Unusable::new("history: a cycle starts at t = 0"));
+        }
+        Ok(Self { start: Some(start), ..question })
+    }
+
+    /// Footprint, law, α and r of a resolved question.
+    ///
+    /// # Errors
+    /// A number is out of its range.
+    pub fn model(&self) -> Result<Model, Refused> {
+        let law = self.law.dragged(&self.tip.0)?;
+        self.indentation.model(&self.tip.0, law, self.r)
+    }
+
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    /// The cycle of a resolved question.
+    ///
+    /// # Errors
+    /// A number is out of its range; no cycle was found.
+    pub fn solve(&self) -> Result<cycles::Cycle, Failure> {
+        let model = self.model()?;
+        let found = match &self.start {
+            Some(start) => cycles::cycle_near(&model, start, self.tolerance),
+            None => cycles::cycle(&model, self.tolerance),
+        };
+        Ok(found?)
+    }
+
+    /// Refuses a residual that cannot be reached, or is too large for a cycle.
+    ///
+    /// # Errors
+    /// The tolerance is outside [`cycles::TOLERANCES`].
+    pub fn judge_tolerance(tolerance: f64) -> Result<(), Refused> {
+        let (least, most) = cycles::TOLERANCES;
+        if (least..=most).contains(&tolerance) {
+            return Ok(());
+        }
+        Err(Refused::number("tolerance", tolerance, CycleError::Tolerance(tolerance)))
+    }
+
+    /// Refuses what no cycle can be computed for or shown with.
+    fn judged(&self) -> Result<(), Refused> {
+        Self::judge_tolerance(self.tolerance)?;
+        if matches!(self.tip.0, TipFunction::Bessel) {
+            let value = Some("bessel".into());
+            let why = CycleError::NeverFades.to_string();
+            return Err(Refused { parameter: "tip", value, why });
+        }
+        if !(1..=MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 1 to {MOST_POINTS}");
+            return Err(Refused::number("points", self.points as f64, why));
+        }
+        Ok(())
+    }
+}
+
+impl Ask for Cycle {
+    const NAME: &'static str = "cycle";
+    const FORMAT: &'static str = "stickslip/cycle";
+    type Answer = CycleFound;
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.judged()?;
+        let law = self.law.dragged(&self.tip.0)?;
+        let indentation = self.indentation.resolved(&self.tip.0, law, self.r)?;
+        let question = Self { indentation, ..self };
+        question.model()?;
+        Ok(question)
+    }
+
+    fn answer(&self, context: &Context) -> Result<(CycleFound, Vec<String>), Failure> {
+        let started = context.seconds();
+        let cycle = self.solve()?;
+        Ok((CycleFound::of(&cycle, self.points, context.seconds() - started), vec![]))
+    }
+}
+
+/// A periodic motion, l(t + T) = l(t). Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
+/// peak-to-peak.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CycleFound {
+    /// T, in Γ/k.
+    pub period: f64,
+    /// Error of `period`, in Γ/k.
+    #[serde(default)]
+    pub period_error: Option<f64>,
+    /// rT, that of the surface left behind, in σ.
+    pub wavelength: f64,
+    /// Error of `wavelength`, in σ.
+    #[serde(default)]
+    pub wavelength_error: Option<f64>,
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    pub amplitude_x0: f64,
+    /// Error of `amplitude_x0`, in σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    pub amplitude_u: f64,
+    /// Error of `amplitude_u`, in kσ²/a.
+    #[serde(default)]
+    pub amplitude_u_error: Option<f64>,
+    /// Maxima of l in one period.
+    pub slips: usize,
+    /// One period from where l is largest, sampled at uneven times: densely where the motion is fast.
+    pub profile: CycleProfile,
+    /// Floquet multipliers by falling modulus, down to 1e-6 (0.01 for footprints with much detail), the one above the
+    /// real axis first of each pair: a small deviation is multiplied by them in each period. One is 1, that of a shift
+    /// in time. In error by up to 5e-8 above 0.01, by up to 1e-6 below.
+    pub floquet: Vec<ComplexDocument>,
+    /// How far the multiplier that should be 1 is from it.
+    pub floquet_error: f64,
+    /// Whether every small deviation but a shift in time dies out.
+    pub stable: bool,
+    /// Estimate of the largest residual of (18) at any time, in kσ/Γ.
+    pub residual: f64,
+    /// One period, as it was solved for.
+    pub history: History,
+    /// What it took.
+    pub work: CycleWork,
+}
+
+impl CycleFound {
+    /// A cycle with about `points` intervals of its profile, and what it took to find it.
+    fn of(cycle: &cycles::Cycle, points: usize, seconds: f64) -> Self {
+        let multipliers = cycle.multipliers();
+        let distances = multipliers.iter().map(|m| (m - 1.0).norm());
+        Self {
+            period: cycle.period(),
+            period_error: Some(cycle.error()),
+            wavelength: cycle.wavelength(),
+            wavelength_error: Some(cycle.model().r() * cycle.error()),
+            amplitude_x0: cycle.amplitude_x0(),
+            amplitude_x0_error: Some(cycle.error()),
+            amplitude_u: cycle.amplitude_u(),
+            amplitude_u_error: Some(cycle.amplitude_u_error()),
+            slips: cycle.slips(),
+            profile: CycleProfile::of(cycle, points),
+            floquet: multipliers.iter().map(|m| ComplexDocument { re: m.re, im: m.im }).collect(),
+            floquet_error: distances.fold(1.0, f64::min),
+            stable: cycle.is_stable(),
+            residual: cycle.residual(),
+            history: cycle.motion().into(),
+            work: CycleWork {
+                steps: cycle.steps(),
+                newton_iterations: cycle.iterations(),
+                seconds,
+            },
+        }
+    }
+}
+
+/// Columns of equal length, at times that are uneven: each step of the cycle's mesh, short where the motion is fast,
+/// is divided evenly. The largest velocity is seen to a per cent.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CycleProfile {
+    /// From 0, where l is largest, to T, in Γ/k; ascending, at uneven distances.
+    pub t: Vec<f64>,
+    /// l = rt - r - x0, in σ.
+    pub l: Vec<f64>,
+    /// x0', in kσ/Γ.
+    pub velocity: Vec<f64>,
+    /// The height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<f64>>,
+}
+
+impl CycleProfile {
+    /// About `points` intervals. The steps are short where the motion is fast: times even over the period would pass
+    /// over its slips.
+    fn of(cycle: &cycles::Cycle, points: usize) -> Self {
+        let motion = cycle.motion();
+        let steps = motion.steps();
+        let parts = points.div_ceil(steps.len()).max(FEWEST_PARTS);
+        let within = |step: &Step| {
+            let (t, part) = (step.t, step.h / parts as f64);
+            (0..parts).map(move |i| t + part * i as f64)
+        };
+        let t: Vec<f64> = steps.iter().flat_map(within).chain([cycle.period()]).collect();
+        Self {
+            l: t.iter().map(|t| motion.l(*t)).collect(),
+            velocity: t.iter().map(|t| motion.velocity(*t)).collect(),
+            height: t.iter().map(|t| motion.height(*t)).collect(),
+            t,
+        }
+    }
+}
+
+/// Counts that depend on the input alone, and the time that it took.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CycleWork {
+    /// Steps of the mesh over one period.
+    pub steps: usize,
+    /// Newton iterations, on all meshes.
+    pub newton_iterations: usize,
+    /// Time that it took, in seconds: the one field that differs from run to run.
+    pub seconds: f64,
+}
+
+impl Tabular for CycleFound {
+    /// The profile.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let CycleProfile { t, l, velocity, height } = &self.profile;
+        let height = height.iter().map(|height| ("height", Column::of(height)));
+        let columns =
+            [("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))];
+        columns.into_iter().chain(height).collect()
+    }
+}

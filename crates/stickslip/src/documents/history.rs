@@ -1,0 +1,171 @@
+//! The dense history of a motion in a document.
+
+use crate::Unusable;
+use crate::documents::table::Array;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights};
+
+/// Positions beyond this are rounded by a thousandth of σ and more, a tenth of the largest tolerance.
+pub const FARTHEST: f64 = 1e13;
+
+/// No accepted step leaves the way between its ends by so many times that way, or so many σ.
+const LEAP: f64 = 1000.0;
+
+/// The accepted steps, each a polynomial: x0(t) at every t of the run.
+///
+/// In step i, from t[i] to t[i+1], x0(t) = R(t[i]) - extension[i] + p(τ), τ = (t - t[i])/(t[i+1] - t[i]),
+/// where R = rt, or the path of the support, and p is the polynomial through 0 at τ = 0 and displacement[i][j] at τ = nodes[j]. The tip's
+/// residence, from which `surface` works, is the time weights[j] (t[i+1] - t[i]) spent at each of the
+/// nodes.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct History {
+    /// Collocation nodes (Radau IIA), as parts of a step.
+    pub nodes: Vec<f64>,
+    /// Quadrature weights of the nodes, as parts of a step.
+    pub weights: Vec<f64>,
+    /// Start of each step, and the end of the last, in Γ/k.
+    pub t: Vec<f64>,
+    /// R - x0 at the start of each step, in σ.
+    pub extension: Vec<f64>,
+    /// x0 less its value at the start of the step, at the nodes, in σ.
+    pub displacement: Vec<Vec<f64>>,
+    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, where there is a
+    /// depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<Vec<f64>>>,
+}
+
+impl From<&Trajectory> for History {
+    fn from(trajectory: &Trajectory) -> Self {
+        let steps = trajectory.steps();
+        let (nodes, weights) = nodes_and_weights();
+        Self {
+            nodes: nodes.to_vec(),
+            weights: weights.to_vec(),
+            t: steps.iter().map(|s| s.t).chain([trajectory.end()]).collect(),
+            extension: steps.iter().map(|s| s.extension).collect(),
+            displacement: steps.iter().map(|s| s.displacement.to_vec()).collect(),
+            height: steps.iter().map(|s| s.height.map(row)).collect(),
+        }
+    }
+}
+
+/// Start and nodes.
+fn row(heights: Heights) -> Vec<f64> {
+    [heights.start].into_iter().chain(heights.nodes).collect()
+}
+
+impl History {
+    /// The trajectory that it tells of, under the paper's law, r being the velocity of the support.
+    ///
+    /// # Errors
+    /// As [`under`](Self::under).
+    pub fn trajectory(&self, r: f64) -> Result<Trajectory, Unusable> {
+        self.under(Wider::default(), Support::Moving(r))
+    }
+
+    /// The trajectory that it tells of.
+    ///
+    /// # Errors
+    /// It was not written by this program, or was damaged since: it is no sequence of steps each of which begins
+    /// where the last one ended.
+    pub fn under(&self, wider: Wider, support: Support) -> Result<Trajectory, Unusable> {
+        let steps = self.steps()?;
+        let far = |step: &Step| {
+            let ends = [step.t, step.end()].map(|t| support.position(t));
+            let heights = step.height.iter().flat_map(|h| h.nodes.iter().chain([&h.start]));
+            let sizes = [ends[0], ends[1], step.extension];
+            let mut numbers = sizes.iter().chain(&step.displacement).chain(heights);
+            // NaN is beyond too.
+            !numbers.all(|size| size.abs() <= FARTHEST)
+        };
+        if let Some(i) = steps.iter().position(far) {
+            return Err(unusable(format!("step {i} has numbers beyond {FARTHEST:e}")));
+        }
+        // As written, each step begins where the last one ended, to the last digit.
+        let breaks = |pair: &[Step]| {
+            let velocity = support.velocity(pair[0].t);
+            let (end, next) = (pair[0].extension_at_end(velocity), pair[1].extension);
+            (end - next).abs() > 1e-9 * end.abs().max(1.0)
+        };
+        if let Some(i) = steps.windows(2).position(breaks) {
+            let message = format!("step {} does not begin where step {i} ends", i + 1);
+            return Err(unusable(message));
+        }
+        let leaps = |step: &Step| {
+            let moved = support.advance(step.t, step.h).abs();
+            let ends = moved.max(step.displacement[STAGES - 1].abs()).max(1.0);
+            step.displacement.iter().any(|d| d.abs() > LEAP * ends)
+        };
+        if let Some(i) = steps.iter().position(leaps) {
+            return Err(unusable(format!(
+                "within step {i} the tip is {LEAP} times as far away as at its ends"
+            )));
+        }
+        if wider.depth_limit.is_some() != self.height.is_some() {
+            return Err(unusable("heights are there with a depth limit, and only then"));
+        }
+        Ok(Trajectory::under(wider, support, steps))
+    }
+
+    fn steps(&self) -> Result<Vec<Step>, Unusable> {
+        let Self { nodes, weights, t, extension, displacement, height } = self;
+        let same = |a: &[f64], b: &[f64]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
+        };
+        let ours = nodes_and_weights();
+        if !(same(nodes, &ours.0) && same(weights, &ours.1)) {
+            return Err(unusable("nodes and weights are not those of this program"));
+        }
+        let steps = extension.len();
+        if steps == 0 || t.len() != steps + 1 || displacement.len() != steps {
+            return Err(unusable("t, extension and displacement do not have matching lengths"));
+        }
+        if height.as_ref().is_some_and(|height| height.len() != steps) {
+            return Err(unusable("height does not have the length of extension"));
+        }
+        if t.windows(2).any(|t| t[1] <= t[0]) {
+            return Err(unusable("t does not increase"));
+        }
+        let step = |i: usize| {
+            let displacement = displacement[i].as_slice().try_into();
+            let displacement = displacement.map_err(|_| {
+                let (found, needed) = (self.displacement[i].len(), nodes.len());
+                unusable(format!("displacement {i} has {found} entries, {needed} are needed"))
+            })?;
+            let height = height.as_ref().map(|height| heights(&height[i])).transpose()?;
+            let (h, extension) = (t[i + 1] - t[i], extension[i]);
+            Ok(Step { t: t[i], h, extension, displacement, height })
+        };
+        (0..steps).map(step).collect()
+    }
+}
+
+fn heights(row: &[f64]) -> Result<Heights, Unusable> {
+    let parts = row.split_first().and_then(|(start, nodes)| Some((*start, nodes.try_into().ok()?)));
+    let (start, nodes) = parts.ok_or_else(|| unusable("a row of heights has no 7 entries"))?;
+    Ok(Heights { start, nodes })
+}
+
+fn unusable(message: impl std::fmt::Display) -> Unusable {
+    Unusable::new(format!("history: {message}"))
+}
+
+impl History {
+    /// Its arrays, each named after its field.
+    pub(crate) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let height = self.height.iter();
+        let height = height.map(|height| ("history_height", Array::matrix(height)));
+        let mut arrays = vec![
+            ("history_nodes", Array::vector(&self.nodes)),
+            ("history_weights", Array::vector(&self.weights)),
+            ("history_t", Array::vector(&self.t)),
+            ("history_extension", Array::vector(&self.extension)),
+            ("history_displacement", Array::matrix(&self.displacement)),
+        ];
+        arrays.extend(height);
+        arrays
+    }
+}

@@ -1,0 +1,31 @@
+//! What is written and read: documents field by field, their schemas, and their way from and to the types of the
+//! subjects.
+
+pub(crate) mod checkpoint;
+pub(crate) mod compare;
+pub(crate) mod continuation;
+pub(crate) mod figure;
+pub(crate) mod fit;
+pub(crate) mod history;
+pub(crate) mod in_units;
+pub(crate) mod measured_tip;
+pub(crate) mod outcome;
+pub(crate) mod physical;
+pub(crate) mod raster;
+pub(crate) mod raster_stability;
+pub(crate) mod read;
+pub(crate) mod reproduction;
+pub(crate) mod response;
+pub(crate) mod run;
+pub(crate) mod run_lines;
+pub(crate) mod scenario;
+pub(crate) mod schemas;
+pub(crate) mod software;
+pub(crate) mod stability;
+pub(crate) mod surface;
+pub(crate) mod sweep;
+pub(crate) mod table;
+pub(crate) mod units;
+pub(crate) mod verification;
+pub(crate) mod walking;
+pub(crate) mod work;

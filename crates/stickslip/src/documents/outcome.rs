@@ -1,0 +1,203 @@
+//! What the motion at the end of a run is, in its documents.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime};
+use stickslip_surface::Ripple;
+
+/// Kinds of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RegimeName {
+    /// l stays at l0, and linear theory has it that it does; without a spring, the tip stays at rest.
+    Steady,
+    /// A periodic motion that repeats itself.
+    StickSlip,
+    /// The tip creeps logarithmically in its own pit and will not come out.
+    Trapped,
+    /// A tip without a spring moves on at one velocity.
+    Drifting,
+    /// None of these yet.
+    Transient,
+}
+
+impl From<Regime> for RegimeName {
+    fn from(regime: Regime) -> Self {
+        match regime {
+            Regime::Steady => Self::Steady,
+            Regime::StickSlip => Self::StickSlip,
+            Regime::Trapped => Self::Trapped,
+            Regime::Drifting => Self::Drifting,
+            Regime::Transient => Self::Transient,
+        }
+    }
+}
+
+impl std::fmt::Display for RegimeName {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::Steady => "steady",
+            Self::StickSlip => "stick-slip",
+            Self::Trapped => "trapped",
+            Self::Drifting => "drifting",
+            Self::Transient => "transient",
+        })
+    }
+}
+
+/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak. What the motion goes to lies within
+/// the error of each figure.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OscillationDocument {
+    /// T, in Γ/k.
+    pub period: f64,
+    /// Error of the period, in Γ/k.
+    #[serde(default)]
+    pub period_error: Option<f64>,
+    /// r times the period, in σ.
+    pub wavelength: f64,
+    /// Error of the wavelength, in σ.
+    #[serde(default)]
+    pub wavelength_error: Option<f64>,
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    pub amplitude_x0: f64,
+    /// Error of `amplitude_x0`, in σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
+    /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
+    /// of reach of the tip, or f never fades. Where the surface heals, u at the distance D behind the support is
+    /// U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    pub amplitude_u: Option<f64>,
+    /// Error of `amplitude_u`, in kσ²/a; null where that is.
+    #[serde(default)]
+    pub amplitude_u_error: Option<f64>,
+    /// Maxima of l in one period.
+    pub slips: usize,
+    /// Largest change of a maximum of l from one period to the next, over the amplitude.
+    pub drift: f64,
+}
+
+impl OscillationDocument {
+    /// The motion, and the ripple that it leaves behind where that could be told.
+    pub fn of(motion: &Oscillation, ripple: Option<Ripple>) -> Self {
+        let amplitude_u = ripple.map(|ripple| ripple.amplitude);
+        Self {
+            period: motion.period,
+            period_error: Some(motion.period_error),
+            wavelength: motion.wavelength,
+            wavelength_error: Some(motion.wavelength_error),
+            amplitude_x0: motion.amplitude_x0,
+            amplitude_x0_error: Some(motion.amplitude_x0_error),
+            amplitude_u,
+            amplitude_u_error: amplitude_u.map(|u| motion.amplitude_u_error(u)),
+            slips: motion.slips,
+            drift: motion.drift,
+        }
+    }
+}
+
+/// The logarithmic creep of a trapped tip, x0 ~ (1/p) ln t.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CreepDocument {
+    /// p at the end of the run, the rate at which 1/x0' grows with time, in 1/σ.
+    pub rate: f64,
+    /// The p that it goes to, in 1/σ: `stability` lists it with all others.
+    pub attracting: f64,
+}
+
+impl From<Creeping> for CreepDocument {
+    fn from(Creeping { rate, attracting }: Creeping) -> Self {
+        Self { rate, attracting }
+    }
+}
+
+/// The velocity of a tip without a spring.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DriftDocument {
+    /// x0' at the end of the run, in kσ/Γ; below 0 to the left.
+    pub velocity: f64,
+    /// Its error, in kσ/Γ: the velocity that the run goes to lies within it.
+    pub velocity_error: f64,
+}
+
+impl From<Drift> for DriftDocument {
+    fn from(Drift { velocity, velocity_error }: Drift) -> Self {
+        Self { velocity, velocity_error }
+    }
+}
+
+/// What a run that has not settled seems to go to.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TransientDocument {
+    /// The regime; null where it cannot be told.
+    pub towards: Option<RegimeName>,
+    /// How much longer that would take, in Γ/k; null where it cannot be told.
+    pub time: Option<f64>,
+}
+
+impl From<Prospect> for TransientDocument {
+    fn from(Prospect { towards, time }: Prospect) -> Self {
+        Self { towards: towards.map(Into::into), time }
+    }
+}
+
+/// Significant digits of a double, less one.
+const DIGITS: i32 = 14;
+/// Powers of ten that are written without an exponent.
+const PLAIN: std::ops::Range<i32> = -5..15;
+
+/// A value to the digits that hold, with what the last of them may be off by in parentheses: 6.6936889(2). What is too
+/// small or too large to be read so has an exponent: 2.5(3)e-12.
+///
+/// ```
+/// use stickslip::to_its_digits;
+///
+/// assert_eq!(to_its_digits(6.693_688_892, 1.3e-7), "6.6936889(2)");
+/// assert_eq!(to_its_digits(0.196, 0.0099), "0.20(2)");
+/// assert_eq!(to_its_digits(1234.5, 30.0), "1230(40)");
+/// assert_eq!(to_its_digits(2.0, 0.0), "2.00000000000000(1)");
+/// assert_eq!(to_its_digits(2.5e-12, 2e-13), "2.5(3)e-12");
+/// assert_eq!(to_its_digits(0.0, 0.0), "0");
+/// ```
+pub fn to_its_digits(value: f64, error: f64) -> String {
+    let size = value.abs().max(error.abs());
+    if !(value.is_finite() && error.is_finite()) {
+        return format!("{value:e}(?)");
+    }
+    if size <= 0.0 {
+        return "0".into();
+    }
+    let exponent = place(size);
+    if PLAIN.contains(&exponent) {
+        return plainly(value, error.abs());
+    }
+    // In two steps: of the smallest numbers the power itself would overflow.
+    let half = exponent / 2;
+    let scaled = |number: f64| number * 10_f64.powi(-half) * 10_f64.powi(half - exponent);
+    format!("{}e{exponent}", plainly(scaled(value), scaled(error.abs())))
+}
+
+/// The power of ten of its first digit.
+#[expect(clippy::cast_possible_truncation, reason = "an exponent of ten")]
+fn place(size: f64) -> i32 {
+    size.abs().max(f64::MIN_POSITIVE).log10().floor() as i32
+}
+
+fn plainly(value: f64, error: f64) -> String {
+    let mut last = place(error).max(place(value) - DIGITS);
+    // Rounding takes half a unit of the last digit besides.
+    let off_by = |last: i32| (error / 10_f64.powi(last) + 0.5).ceil();
+    if off_by(last) >= 10.0 {
+        last += 1;
+    }
+    let off = off_by(last);
+    if last >= 0 {
+        let unit = 10_f64.powi(last);
+        return format!("{:.0}({:.0})", (value / unit).round() * unit, off * unit);
+    }
+    format!("{value:.*}({off:.0})", last.unsigned_abs() as usize)
+}

@@ -1,0 +1,113 @@
+//! Which documents can be told in nm, s and nN, and their tables so.
+
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::{Dimension, InUnits, KnownScales, RasterDocument, RunDocument, dimension};
+use serde::Serialize;
+use serde_json::Value;
+use std::borrow::Cow;
+
+/// A document that may hold its numbers in physical units too.
+pub trait Physical: Serialize + Sized {
+    /// Where these are.
+    fn physical_mut(&mut self) -> &mut Option<InUnits>;
+
+    /// Of what they are taken; what they do not mirror may be left out.
+    fn lean(&mut self) -> serde_json::Result<Value> {
+        serde_json::to_value(&*self)
+    }
+
+    /// With these, by the scales that are known.
+    #[must_use]
+    fn in_units(mut self, scales: Option<&KnownScales>) -> Self {
+        *self.physical_mut() = None;
+        // What has been serialised to be written is written, whether or not this fails.
+        let lean = scales.map(|scales| (scales, self.lean()));
+        let values = lean.and_then(|(scales, lean)| Some(InUnits::of(&lean.ok()?, scales)));
+        *self.physical_mut() = values;
+        self
+    }
+}
+
+macro_rules! physical {
+    ($($document:ident),+) => {
+        $(impl Physical for crate::$document {
+            fn physical_mut(&mut self) -> &mut Option<InUnits> {
+                &mut self.physical
+            }
+        })+
+    };
+}
+
+physical!(
+    CompareDocument,
+    ContinueDocument,
+    RasterBoundaryDocument,
+    RasterCompareDocument,
+    RasterStabilityDocument,
+    RasterSurfaceDocument,
+    RasterSweepDocument,
+    ResponseDocument,
+    StabilityDocument,
+    SurfaceDocument,
+    SweepDocument,
+    WalkingDocument
+);
+
+impl Physical for RunDocument {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
+    }
+
+    fn lean(&mut self) -> serde_json::Result<Value> {
+        let history = self.history.take();
+        let value = serde_json::to_value(&*self);
+        self.history = history;
+        value
+    }
+}
+
+impl Physical for RasterDocument {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
+    }
+}
+
+/// A column under its name, in the document's unit.
+pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
+
+/// The columns of a table: those with a dimension in nm, s and nN, and named so, as far as the document knows the
+/// scales.
+pub fn columns<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<InUnit<'a>> {
+    let columns = table.columns();
+    let Some(physical) = table.physical() else {
+        return columns.into_iter().map(|(name, column)| (name.into(), column)).collect();
+    };
+    let scales = &physical.scales;
+    let force = columns.iter().find(|(name, _)| *name == "lag").and_then(|(_, lag)| {
+        let factor = Dimension::FORCE.factor(scales)?;
+        Some(("lateral_force_nN".into(), lag.clone().times(factor)))
+    });
+    columns.into_iter().map(|column| in_unit(column, scales)).chain(force).collect()
+}
+
+fn in_unit<'a>((name, column): Named<'a>, scales: &KnownScales) -> InUnit<'a> {
+    match scaled(name, scales) {
+        Some((factor, name)) => (name.into(), column.times(factor)),
+        None => (name.into(), column),
+    }
+}
+
+/// The arrays of a document, in the same way.
+pub fn arrays<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<(Cow<'static, str>, Array<'a>)> {
+    let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
+    let in_unit = |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {
+        Some((factor, name)) => (name.into(), array.times(factor)),
+        None => (name.into(), array),
+    };
+    table.arrays().into_iter().map(in_unit).collect()
+}
+
+fn scaled(name: &str, scales: &KnownScales) -> Option<(f64, String)> {
+    let dimension = dimension("", name)?;
+    Some((dimension.factor(scales)?, format!("{name}_{}", dimension.suffix())))
+}

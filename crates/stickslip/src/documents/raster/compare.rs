@@ -1,0 +1,200 @@
+//! `stickslip/raster-compare`.
+
+use super::RasterParameters;
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::{DifferenceDocument, FORMAT_VERSION, GridName, GridWork, InUnits, Software};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Line, Plan, Scanned};
+
+/// A raster against the full PDE on rows of cells. Lengths in σ, times in Γ/k, heights in kσ²/a; times are counted from
+/// the start of each line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterCompareDocument {
+    /// "stickslip/raster-compare"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub parameters: RasterCompareParameters,
+    /// The lines in the order in which they were scanned.
+    pub lines: Vec<ComparedLine>,
+    /// Positions of the surfaces below, which are those after the last line, in σ.
+    pub x: Vec<f64>,
+    /// The rows, one at the y of every line, ascending, in σ.
+    pub y: Vec<f64>,
+    /// Heights by the closed equation, in kσ²/a: a row for each y.
+    pub closed_u: Vec<Vec<f64>>,
+    /// Heights of the cells, in kσ²/a.
+    pub grid_u: Vec<Vec<f64>>,
+    /// How far they are apart.
+    pub max_difference: DifferenceDocument,
+    /// What the closed equation took.
+    pub closed_work: RasterComparedWork,
+    /// What the cells took.
+    pub grid_work: GridWork,
+    /// Seconds of the grid over seconds of the closed equation. It differs from run to run, as `seconds` do.
+    pub speedup: f64,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+/// What was asked for.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct RasterCompareParameters {
+    /// The raster.
+    #[serde(flatten)]
+    pub raster: RasterParameters,
+    /// Discretisation: sinc or windowed.
+    pub grid: GridName,
+    /// Δx of the cells, in σ.
+    pub spacing: f64,
+    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null where all steps have one length.
+    pub grid_tolerance: Option<f64>,
+    /// That length, in Γ/k; null where steps are adaptive.
+    pub step: Option<f64>,
+}
+
+/// Both motions along one line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedLine {
+    /// Where it lies, in σ.
+    pub y: f64,
+    /// Times since its start, in Γ/k: those asked for, or the ends of the grid's own steps.
+    pub t: Vec<f64>,
+    /// x0 by the closed equation, in σ.
+    pub closed_x0: Vec<f64>,
+    /// x0 by the grid, in σ.
+    pub grid_x0: Vec<f64>,
+}
+
+/// Counts that depend on the input alone, and the time that it took.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterComparedWork {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated with a smaller length.
+    pub rejected: u64,
+    /// Newton iterations in all steps.
+    pub newton_iterations: u64,
+    /// Shortest time of as many repetitions as half a second allows, at least one, in seconds.
+    pub seconds: f64,
+}
+
+/// What a grid has to say of a raster.
+pub struct RasterCompared {
+    /// Positions along rows.
+    pub x: Vec<f64>,
+    /// Times since the start of each line, and x0.
+    pub motions: Vec<Vec<(f64, f64)>>,
+    /// The rows.
+    pub y: Vec<f64>,
+    /// Heights, a row for each y.
+    pub u: Vec<Vec<f64>>,
+    /// What it took.
+    pub work: GridWork,
+}
+
+impl RasterCompareDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/raster-compare";
+
+    /// Of a plan, its lines and the seconds they took; of a grid, its spacing, a tolerance or a step, and what became of
+    /// these.
+    #[must_use]
+    pub fn new(
+        raster: RasterParameters,
+        (plan, lines, seconds): (&Plan, &[Line], f64),
+        (name, spacing, grid_tolerance, step): (GridName, f64, Option<f64>, Option<f64>),
+        grid: RasterCompared,
+    ) -> Self {
+        let compared = |(line, motion): (&Line, &Vec<(f64, f64)>)| {
+            let (t, grid_x0): (Vec<f64>, Vec<f64>) = motion.iter().copied().unzip();
+            let closed_x0 = t.iter().map(|t| line.x0(*t)).collect();
+            ComparedLine { y: line.track().y, t, closed_x0, grid_x0 }
+        };
+        let compared: Vec<ComparedLine> = lines.iter().zip(&grid.motions).map(compared).collect();
+        let heights = Scanned::new(plan, lines).heights(&grid.x, &grid.y);
+        let closed_u: Vec<Vec<f64>> = heights.rows().into_iter().map(|row| row.to_vec()).collect();
+        let pairs = compared.iter().flat_map(|line| line.closed_x0.iter().zip(&line.grid_x0));
+        let max_difference = DifferenceDocument {
+            x0: largest(pairs),
+            u: largest(closed_u.iter().flatten().zip(grid.u.iter().flatten())),
+        };
+        let total = |of: fn(&Line) -> u64| lines.iter().map(of).sum();
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters: RasterCompareParameters {
+                raster,
+                grid: name,
+                spacing,
+                grid_tolerance,
+                step,
+            },
+            lines: compared,
+            x: grid.x,
+            y: grid.y,
+            closed_u,
+            grid_u: grid.u,
+            max_difference,
+            closed_work: RasterComparedWork {
+                steps: total(|line| line.work().steps),
+                rejected: total(|line| line.work().rejected),
+                newton_iterations: total(|line| line.work().newton_iterations),
+                seconds,
+            },
+            speedup: grid.work.seconds / seconds,
+            grid_work: grid.work,
+        }
+    }
+}
+
+/// NaN where any is.
+fn largest<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
+    let differences = pairs.map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
+}
+
+impl Tabular for RasterCompareDocument {
+    /// Both motions, line after line.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let joined = |of: fn(&ComparedLine) -> &Vec<f64>| -> Column {
+            self.lines.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+        };
+        let rows = |(n, line): (usize, &ComparedLine)| vec![n as f64 + 1.0; line.t.len()];
+        let numbers: Vec<f64> = self.lines.iter().enumerate().flat_map(rows).collect();
+        vec![
+            ("line", numbers.into()),
+            ("t", joined(|line| &line.t)),
+            ("closed", joined(|line| &line.closed_x0)),
+            ("grid", joined(|line| &line.grid_x0)),
+        ]
+    }
+
+    /// Motions one after the other, and both surfaces.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let columns = self.columns().into_iter();
+        let mut arrays: Vec<_> =
+            columns.filter_map(|(name, column)| Some((name, column.array()?))).collect();
+        arrays.extend([
+            ("x", Array::vector(&self.x)),
+            ("y", Array::vector(&self.y)),
+            ("closed_u", Array::matrix(&self.closed_u)),
+            ("grid_u", Array::matrix(&self.grid_u)),
+        ]);
+        arrays
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+}

@@ -1,0 +1,277 @@
+//! The lines of a raster.
+
+use crate::documents::table::Array;
+use crate::{History, Unusable};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Line, LineRegime, Plan, line_regime};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Work, nodes_and_weights};
+
+/// One line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterLine {
+    /// Where it lies, in σ.
+    pub y: f64,
+    /// The motion at the times asked for.
+    pub samples: RasterSamples,
+    /// The kind of motion.
+    pub regime: LineRegimeName,
+}
+
+/// Kinds of motion along a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineRegimeName {
+    /// The lag changes by less than 2 % between a fifth of the line and 85 % of it.
+    Steady,
+    /// It changes by more.
+    StickSlip,
+    /// The tip went less than half of the line: it stayed in a pit at an end of it.
+    StuckAtTheEdge,
+}
+
+/// Columns of equal length, on the surface: x0 falls and lags are negative where a line goes towards smaller x.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterSamples {
+    /// Times since the start of the line, in Γ/k.
+    pub t: Vec<f64>,
+    /// Position of the tip, in σ.
+    pub x0: Vec<f64>,
+    /// R - x0, by which the support is ahead in x, in σ; as a force, in kσ.
+    pub lag: Vec<f64>,
+    /// x0', in kσ/Γ: one order less accurate than x0.
+    pub velocity: Vec<f64>,
+    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<f64>>,
+}
+
+/// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and goes to
+/// larger x. On the way back of a zigzag the tip is at X - x0 on the surface.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterHistory {
+    /// Collocation nodes (Radau IIA), as parts of a step.
+    pub nodes: Vec<f64>,
+    /// Quadrature weights of the nodes, as parts of a step.
+    pub weights: Vec<f64>,
+    /// Each as in the history of a run.
+    pub lines: Vec<LineHistory>,
+}
+
+/// The steps of one line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LineHistory {
+    /// Start of each step, and the end of the last, in Γ/k.
+    pub t: Vec<f64>,
+    /// rt - x0 at the start of each step, in σ.
+    pub extension: Vec<f64>,
+    /// x0 less its value at the start of the step, at the nodes, in σ.
+    pub displacement: Vec<Vec<f64>>,
+    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, where there is a
+    /// depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Vec<Vec<f64>>>,
+}
+
+/// A finished line of a raster under way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptLine {
+    /// Counted from 0.
+    pub index: usize,
+    /// Start, duration, extension and displacements of each step, to the last bit.
+    pub steps: Vec<[f64; 3 + STAGES]>,
+    /// The heights of each step, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heights: Option<Vec<Vec<f64>>>,
+    /// Accepted steps, rejected ones, and Newton iterations.
+    pub work: [u64; 3],
+    /// Taylor series, and how often collocation took over from them.
+    #[serde(default)]
+    pub series: [u64; 2],
+}
+
+impl RasterLine {
+    /// Sampled at those of these times at which it lasts.
+    pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
+        let duration = line.trajectory().end();
+        let lasts = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12));
+        let times: Vec<f64> = lasts.copied().collect();
+        let column = |value: &dyn Fn(f64) -> f64| times.iter().map(|t| value(*t)).collect();
+        let samples = RasterSamples {
+            t: times.clone(),
+            x0: column(&|t| line.x0(t)),
+            lag: column(&|t| line.lag(t)),
+            velocity: column(&|t| line.velocity(t)),
+            height: times
+                .iter()
+                .map(|t| line.height(*t))
+                .collect::<Option<_>>()
+                .filter(|_| !times.is_empty()),
+        };
+        Self { y: line.track().y, samples, regime: line_regime(plan, line).into() }
+    }
+}
+
+impl LineHistory {
+    fn of(trajectory: &Trajectory) -> Self {
+        let History { t, extension, displacement, height, .. } = trajectory.into();
+        Self { t, extension, displacement, height }
+    }
+
+    /// Line `n` of a plan.
+    fn line(
+        &self,
+        (nodes, weights): (&[f64], &[f64]),
+        plan: &Plan,
+        n: usize,
+        work: Work,
+    ) -> Result<Line, Unusable> {
+        let Self { t, extension, displacement, height } = self.clone();
+        let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
+        let model = &plan.law.model;
+        let history = History { nodes, weights, t, extension, displacement, height };
+        let found = history.under(*model.wider(), Support::Moving(model.r()));
+        let found = found.map_err(|error| Unusable::new(format!("line {}: {error}", n + 1)))?;
+        let (start, end, duration) = (found.start(), found.end(), plan.duration(n));
+        if n >= plan.lines() || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
+            return Err(Unusable::new(format!("line {} is none of this raster", n + 1)));
+        }
+        Ok(Line::new(plan.track(n), model, found.steps().to_vec(), work))
+    }
+}
+
+impl RasterHistory {
+    pub(super) fn of(lines: &[Line]) -> Self {
+        let (nodes, weights) = nodes_and_weights();
+        let lines = lines.iter().map(|line| LineHistory::of(line.trajectory())).collect();
+        Self { nodes: nodes.to_vec(), weights: weights.to_vec(), lines }
+    }
+
+    /// The lines of a plan that it tells of; their counts are not known.
+    ///
+    /// # Errors
+    /// There are not as many as planned, or one was damaged.
+    pub(super) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
+        let (found, wanted) = (self.lines.len(), plan.lines());
+        if found != wanted {
+            return Err(Unusable::new(format!("history: {found} lines, {wanted} are needed")));
+        }
+        let rule = (&*self.nodes, &*self.weights);
+        let line = |(n, line): (usize, &LineHistory)| line.line(rule, plan, n, Work::default());
+        let lines: Vec<Line> = self.lines.iter().enumerate().map(line).collect::<Result<_, _>>()?;
+        let outside = lines.iter().map(outside).fold(0.0, f64::max);
+        plan.judge_memory(outside).map_err(Unusable::new)?;
+        Ok(lines)
+    }
+
+    pub(super) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let lines = || self.lines.iter();
+        let t: Vec<f64> = lines().flat_map(|line| &line.t).copied().collect();
+        let extension: Vec<f64> = lines().flat_map(|line| &line.extension).copied().collect();
+        let displacement: Vec<Vec<f64>> =
+            lines().flat_map(|line| line.displacement.clone()).collect();
+        let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();
+        let height: Vec<Vec<f64>> =
+            lines().filter_map(|line| line.height.as_ref()).flatten().cloned().collect();
+        let mut arrays = vec![
+            ("history_nodes", Array::vector(&self.nodes)),
+            ("history_weights", Array::vector(&self.weights)),
+            ("history_steps", Array::vector(steps)),
+            ("history_t", Array::vector(t)),
+            ("history_extension", Array::vector(extension)),
+            ("history_displacement", Array::matrix(&displacement)),
+        ];
+        if !height.is_empty() {
+            arrays.push(("history_height", Array::matrix(&height)));
+        }
+        arrays
+    }
+}
+
+/// How far the tip was outside of where its support goes, at most, in σ.
+fn outside(line: &Line) -> f64 {
+    let motion = line.trajectory();
+    let (positions, _) = motion.residence(motion.end());
+    positions.iter().map(|x| (-x).max(x - line.track().length)).fold(0.0, f64::max)
+}
+
+impl KeptLine {
+    /// Line `index`, counted from 0.
+    #[must_use]
+    pub fn of(index: usize, line: &Line) -> Self {
+        let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
+        let steps = line.trajectory().steps();
+        let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
+        Self {
+            index,
+            steps: steps.iter().map(numbers).collect(),
+            heights: steps.iter().map(heights).collect(),
+            work: [done, rejected, newton_iterations],
+            series: [series, switches],
+        }
+    }
+
+    /// The line again.
+    ///
+    /// # Errors
+    /// It is none of this plan.
+    pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
+        let steps = self.steps().ok_or_else(|| {
+            Unusable::new(format!("line {} has no steps, or no heights of them", self.index + 1))
+        })?;
+        let [done, rejected, newton_iterations] = self.work;
+        let [series, switches] = self.series;
+        let work = Work { steps: done, rejected, newton_iterations, series, switches };
+        let (nodes, weights) = nodes_and_weights();
+        let line = Line::new(plan.track(self.index), &plan.law.model, steps, work);
+        LineHistory::of(line.trajectory()).line((&nodes, &weights), plan, self.index, work)?;
+        Ok(line)
+    }
+
+    /// `None` if there are none, or not as many heights.
+    fn steps(&self) -> Option<Vec<Step>> {
+        let steps = self.steps.iter().map(step);
+        let steps: Vec<Step> = match &self.heights {
+            None => steps.collect(),
+            Some(heights) if heights.len() == self.steps.len() => {
+                let with = |(step, heights): (Step, &Vec<f64>)| {
+                    let (start, nodes) = heights.split_first()?;
+                    let nodes = nodes.try_into().ok()?;
+                    Some(Step { height: Some(Heights { start: *start, nodes }), ..step })
+                };
+                steps.zip(heights).map(with).collect::<Option<_>>()?
+            }
+            Some(_) => return None,
+        };
+        (!steps.is_empty()).then_some(steps)
+    }
+}
+
+/// All of a step but its heights.
+fn numbers(step: &Step) -> [f64; 3 + STAGES] {
+    let mut numbers = [0.0; 3 + STAGES];
+    numbers[..3].copy_from_slice(&[step.t, step.h, step.extension]);
+    numbers[3..].copy_from_slice(&step.displacement);
+    numbers
+}
+
+/// The step again.
+fn step(numbers: &[f64; 3 + STAGES]) -> Step {
+    let [t, h, extension, displacement @ ..] = *numbers;
+    Step { t, h, extension, displacement, height: None }
+}
+
+impl From<LineRegime> for LineRegimeName {
+    fn from(regime: LineRegime) -> Self {
+        match regime {
+            LineRegime::Steady => Self::Steady,
+            LineRegime::StickSlip => Self::StickSlip,
+            LineRegime::StuckAtTheEdge => Self::StuckAtTheEdge,
+        }
+    }
+}

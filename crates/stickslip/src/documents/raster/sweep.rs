@@ -1,0 +1,198 @@
+//! `stickslip/raster-sweep`.
+
+use super::{PathName, RasterRegimeName};
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{FORMAT_VERSION, InUnits, PatternDocument, ShardDocument, Software, TipDocument};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::Written;
+
+/// The pattern that a raster writes, over a grid of pitch and α. Lengths in σ, heights in kσ²/a.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterSweepDocument {
+    /// "stickslip/raster-sweep"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// The grid.
+    pub parameters: RasterSweepParameters,
+    /// The points, by rising index.
+    pub points: Vec<RasterSweepPoint>,
+    /// How the machine that computed the points rounds, as for `stickslip/sweep`.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
+    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
+    #[serde(default)]
+    pub crc32: Option<u32>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+impl RasterSweepDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/raster-sweep";
+
+    /// These points, as a machine that rounds like this found them; to be sealed.
+    pub fn new(
+        parameters: RasterSweepParameters,
+        points: Vec<RasterSweepPoint>,
+        arithmetic: Option<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            points,
+            arithmetic,
+            crc32: None,
+        }
+    }
+}
+
+/// Pitches times α, the last varying fastest, and what they share.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterSweepParameters {
+    /// Footprint f.
+    pub tip: TipDocument,
+    /// Dimensionless support velocity r (12).
+    pub r: f64,
+    /// b of (61), in kσ²/a.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T in which the surface heals, in Γ/k.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
+    pub width_y: Option<f64>,
+    /// How the support goes from one line to the next.
+    pub path: PathName,
+    /// Distances of the lines, in σ.
+    pub pitch: Vec<f64>,
+    /// Dimensionless indentation rates α (13).
+    pub alpha: Vec<f64>,
+    /// Lines of each raster.
+    pub lines: usize,
+    /// X, how far the support goes along each, in σ.
+    pub length: f64,
+    /// Error of x0 on each line asked for, in σ.
+    pub tolerance: f64,
+    /// Part of the points that is here, all without.
+    #[serde(default)]
+    pub shard: Option<ShardDocument>,
+}
+
+impl RasterSweepParameters {
+    /// The part that is here, be it the whole.
+    #[must_use]
+    pub fn part(&self) -> ShardDocument {
+        self.shard.unwrap_or(ShardDocument::WHOLE)
+    }
+
+    /// Points of the whole grid.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.pitch.len().saturating_mul(self.alpha.len())
+    }
+}
+
+/// One raster.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterSweepPoint {
+    /// Its place in the grid.
+    pub index: usize,
+    /// Distance of the lines, in σ.
+    pub pitch: f64,
+    /// α, dimensionless.
+    pub alpha: f64,
+    /// α above which ripples grow from line to line, by linear theory; null where that has none.
+    pub critical_alpha: Option<f64>,
+    /// What the lines have written; null where `error` says why.
+    pub regime: Option<RasterRegimeName>,
+    /// The ripple; null where there is none.
+    pub pattern: Option<PatternDocument>,
+    /// Lines on which the tip did not leave the pit at an end of them.
+    pub stuck_lines: Option<usize>,
+    /// Why something of the pattern is unknown, or may differ after more lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+    /// Why nothing is known.
+    pub error: Option<String>,
+}
+
+impl RasterSweepPoint {
+    /// Of which nothing is known yet.
+    #[must_use]
+    pub fn at(index: usize, (pitch, alpha): (f64, f64), critical_alpha: Option<f64>) -> Self {
+        Self {
+            index,
+            pitch,
+            alpha,
+            critical_alpha,
+            regime: None,
+            pattern: None,
+            stuck_lines: None,
+            remarks: vec![],
+            error: None,
+        }
+    }
+
+    /// The same with what was found.
+    #[must_use]
+    pub fn written(self, found: &Written, stuck: usize) -> Self {
+        Self {
+            regime: Some(found.regime.into()),
+            pattern: found.pattern.map(Into::into),
+            stuck_lines: Some(stuck),
+            remarks: found.doubts.iter().map(ToString::to_string).collect(),
+            ..self
+        }
+    }
+}
+
+impl Tabular for RasterSweepDocument {
+    /// A row for each point.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let of = |value: fn(&RasterSweepPoint) -> Option<f64>| -> Column {
+            self.points.iter().map(value).collect::<Vec<_>>().into()
+        };
+        let pattern = |value: fn(&PatternDocument) -> Option<f64>| -> Column {
+            let values = self.points.iter().map(|point| point.pattern.as_ref().and_then(value));
+            values.collect::<Vec<_>>().into()
+        };
+        let regime = |point: &RasterSweepPoint| {
+            point.regime.map_or(String::new(), |regime| regime.to_string())
+        };
+        vec![
+            ("pitch", of(|point| Some(point.pitch))),
+            ("alpha", of(|point| Some(point.alpha))),
+            ("critical_alpha", of(|point| point.critical_alpha)),
+            ("regime", Column::Words(self.points.iter().map(regime).collect(), None)),
+            ("q", pattern(|p| p.q)),
+            ("kappa", pattern(|p| p.kappa)),
+            ("wavelength", pattern(|p| p.wavelength)),
+            ("wavelength_error", pattern(|p| p.wavelength_error)),
+            ("crest_angle", pattern(|p| p.crest_angle)),
+            ("crest_angle_error", pattern(|p| p.crest_angle_error)),
+            ("coherence", pattern(|p| Some(p.coherence))),
+            ("coherence_error", pattern(|p| p.coherence_error)),
+            ("amplitude", pattern(|p| Some(p.amplitude))),
+            ("defects", pattern(|p| Some(p.defects as f64))),
+            ("stuck_lines", of(|point| point.stuck_lines.map(|lines| lines as f64))),
+        ]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+}

@@ -1,0 +1,285 @@
+//! `stickslip/stability`.
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind, Spectrum};
+
+/// Linear stability of steady motion. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StabilityDocument {
+    /// "stickslip/stability"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// What was asked for.
+    pub parameters: StabilityParameters,
+    /// Where the first root reaches the imaginary axis; null where none does, see `remarks`.
+    pub critical: Option<CriticalDocument>,
+    /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the
+    /// critical point itself, false.
+    pub stable: bool,
+    /// The logarithmic creep of a tip that never gets free.
+    pub trapping: TrappingDocument,
+    /// Growth exponents λ at the α and r of `parameters`, by falling real part, the one above the real
+    /// axis first of each pair.
+    pub roots: Vec<ComplexDocument>,
+    /// That none is missing.
+    pub certificate: CertificateDocument,
+    /// What is born at the critical point; null where the leading order says nothing, see `remarks`.
+    pub onset: Option<OnsetDocument>,
+    /// Under a wider law: what leaves nothing unstable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsDocument>,
+    /// Why something is null, short or inexact; empty if nothing is.
+    pub remarks: Vec<String>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+impl StabilityDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/stability";
+
+    /// What is known at any point; whether it is near a critical one is for others to add.
+    pub fn new(
+        parameters: StabilityParameters,
+        stable: bool,
+        trapping: TrappingDocument,
+        spectrum: &Spectrum,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            critical: None,
+            stable,
+            trapping,
+            roots: spectrum.roots.iter().map(|z| ComplexDocument { re: z.re, im: z.im }).collect(),
+            certificate: (&spectrum.certificate).into(),
+            onset: None,
+            limits: None,
+            remarks: vec![],
+        }
+    }
+}
+
+/// The point whose growth exponents are listed, and what was asked.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct StabilityParameters {
+    /// Footprint, α and r.
+    #[serde(flatten)]
+    pub model: ModelParameters,
+    /// Which of α and r the critical point was solved for, at the given value of the other.
+    pub solve_for: SolveFor,
+    /// Whether α and r are those of the critical point, for want of one of them.
+    pub at_critical_point: bool,
+    /// Number of roots asked for; null where a bound was.
+    pub roots: Option<usize>,
+    /// Bound of Re λ asked for, in k/Γ; null where a number was.
+    pub re_above: Option<f64>,
+}
+
+/// Which of α and r is varied to find a critical point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolveFor {
+    /// αc at the r of --r.
+    Alpha,
+    /// rc at the α of --alpha.
+    R,
+}
+
+/// A complex number.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComplexDocument {
+    /// Real part, in the unit of the number.
+    pub re: f64,
+    /// Imaginary part, in the same unit.
+    pub im: f64,
+}
+
+/// A point of the stability boundary with the oscillation that is born there.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalDocument {
+    /// αc, (43).
+    pub alpha: f64,
+    /// rc, (42).
+    pub r: f64,
+    /// Frequency ω in time, in k/Γ.
+    pub omega: f64,
+    /// 2π/ω, in Γ/k.
+    pub period: f64,
+    /// 2πr/ω, in σ.
+    pub wavelength: f64,
+    /// Under the wider law: whether linear theory decides there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<OnsetKindName>,
+}
+
+/// Depth limit and memory under which no α makes steady motion unstable.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsDocument {
+    /// b_c(r), in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and the
+    /// inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady tip
+    /// is 0, the corner of |h|.
+    pub least_depth_limit: Option<f64>,
+    /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit.
+    /// Null where there is none for this tip.
+    pub memory_length: Option<f64>,
+}
+
+/// What small deviations obey at the critical point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnsetKindName {
+    /// A linear law.
+    Smooth,
+    /// A law with the corner of |h| in it: alpha is where a small oscillation keeps its amplitude.
+    NonSmooth,
+}
+
+/// The motion x0 ~ (1/p) ln t for ever.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TrappingDocument {
+    /// The smallest α at which there is such a motion at this r; null if there is none at any α.
+    pub alpha: Option<f64>,
+    /// All such p at the α and r of `parameters`, in 1/σ, ascending; null where there is none.
+    pub creep_rates: Option<Vec<f64>>,
+    /// The one of them that a trapped tip comes to, in 1/σ; null where there is none, or where a complex root lies
+    /// right of them all: there every stick ends in a slip.
+    pub attracting: Option<f64>,
+    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null where they
+    /// could not be had, see `remarks`.
+    pub creep_roots: Option<Vec<ComplexDocument>>,
+}
+
+/// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, outside of which no root has a real part
+/// above re_min, and how many roots it holds.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CertificateDocument {
+    /// Left edge, in k/Γ.
+    pub re_min: f64,
+    /// Right edge, in k/Γ.
+    pub re_max: f64,
+    /// Upper edge, and the lower one with its sign changed, in k/Γ.
+    pub im_max: f64,
+    /// By the argument principle.
+    pub counted: usize,
+    /// Different ones among those listed that solve the equation.
+    pub found: usize,
+    /// Whether the two agree, and every listed root solves the equation.
+    pub complete: bool,
+    /// Largest residual of a listed root, relative to the terms of the equation.
+    pub largest_residual: f64,
+    /// Estimate of the largest error of a listed λ, in k/Γ.
+    pub largest_error: f64,
+}
+
+/// On which side of the boundary the small oscillation exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CriticalityName {
+    /// Stable and small, above the critical α.
+    Supercritical,
+    /// Unstable, below it.
+    Subcritical,
+}
+
+/// The small oscillation near the critical point, to leading order in α - αc.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OnsetDocument {
+    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
+    pub criticality: CriticalityName,
+    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
+    pub amplitude_squared_slope: f64,
+    /// dT/dα along the branch, in Γ/k.
+    pub period_slope: f64,
+    /// dω/dα along the branch, in k/Γ.
+    pub omega_slope: f64,
+    /// d(Re λ)/dα of the critical pair, in k/Γ.
+    pub growth_slope: f64,
+    /// First Lyapunov coefficient, in k/(Γσ²): A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
+    pub lyapunov: f64,
+}
+
+impl CriticalDocument {
+    /// A critical point, and of which kind it is under the wider law.
+    pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
+        let Critical { alpha, r, omega, period, wavelength } = *critical;
+        Self { alpha, r, omega, period, wavelength, kind: kind.map(OnsetKindName::from) }
+    }
+}
+
+impl From<OnsetKind> for OnsetKindName {
+    fn from(kind: OnsetKind) -> Self {
+        match kind {
+            OnsetKind::Smooth => Self::Smooth,
+            OnsetKind::NonSmooth => Self::NonSmooth,
+        }
+    }
+}
+
+impl From<&Certificate> for CertificateDocument {
+    fn from(certificate: &Certificate) -> Self {
+        Self {
+            re_min: certificate.region.re_min,
+            re_max: certificate.region.re_max,
+            im_max: certificate.region.im_max,
+            counted: certificate.counted,
+            found: certificate.found,
+            complete: certificate.is_complete(),
+            largest_residual: certificate.largest_residual,
+            largest_error: certificate.largest_error,
+        }
+    }
+}
+
+impl From<Criticality> for CriticalityName {
+    fn from(criticality: Criticality) -> Self {
+        match criticality {
+            Criticality::Supercritical => Self::Supercritical,
+            Criticality::Subcritical => Self::Subcritical,
+        }
+    }
+}
+
+impl From<&Onset> for OnsetDocument {
+    fn from(onset: &Onset) -> Self {
+        Self {
+            criticality: onset.criticality.into(),
+            amplitude_squared_slope: onset.amplitude_squared_slope,
+            period_slope: onset.period_slope,
+            omega_slope: onset.omega_slope,
+            growth_slope: onset.growth_slope,
+            lyapunov: onset.lyapunov,
+        }
+    }
+}
+
+impl Tabular for StabilityDocument {
+    /// The growth exponents.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let column = |of: fn(&ComplexDocument) -> f64| {
+            Column::from(self.roots.iter().map(of).collect::<Vec<_>>())
+        };
+        vec![("re", column(|root| root.re)), ("im", column(|root| root.im))]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+}

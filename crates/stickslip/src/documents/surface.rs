@@ -1,0 +1,145 @@
+//! `stickslip/surface`.
+
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Surfaces reconstructed from a run. Lengths in σ, times in Γ/k, heights in kσ²/a.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceDocument {
+    /// "stickslip/surface"
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// Of the run that they come from.
+    pub parameters: SurfaceParameters,
+    /// One curve per time; none where images were asked for.
+    pub surfaces: Vec<SurfaceCurve>,
+    /// One image per time, in three dimensions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<SurfaceImage>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+impl SurfaceDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/surface";
+
+    /// Without a surface yet.
+    pub fn new(parameters: SurfaceParameters) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            surfaces: vec![],
+            images: vec![],
+        }
+    }
+}
+
+/// What was reconstructed.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct SurfaceParameters {
+    /// Footprint, α and r of the run.
+    #[serde(flatten)]
+    pub model: ModelParameters,
+    /// Whether the initial surface was left out, (35).
+    pub far_behind: bool,
+    /// Of images.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<AcrossParameters>,
+}
+
+/// What images depend on besides the run.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AcrossParameters {
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
+    pub width_y: Option<f64>,
+    /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring (52);
+    /// null where no k' is certain to do.
+    pub transverse_stiffness_needed: Option<f64>,
+}
+
+/// u(x,y,t) at one t.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceImage {
+    /// Time, in Γ/k.
+    pub t: f64,
+    /// Positions along the way of the tip, in σ.
+    pub x: Vec<f64>,
+    /// Positions across it, in σ.
+    pub y: Vec<f64>,
+    /// Heights, in kσ²/a: a row for each y.
+    pub u: Vec<Vec<f64>>,
+}
+
+/// u(x,t) at one t.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceCurve {
+    /// Time, in Γ/k.
+    pub t: f64,
+    /// Positions, in σ.
+    pub x: Vec<f64>,
+    /// Heights there, in kσ²/a.
+    pub u: Vec<f64>,
+}
+
+impl Tabular for SurfaceDocument {
+    /// A row for each place, of all times one after the other.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let Self { surfaces, images, .. } = self;
+        let Some(first) = images.first() else {
+            let joined = |of: fn(&SurfaceCurve) -> &Vec<f64>| -> Column {
+                surfaces.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+            };
+            let t: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
+            return vec![("t", t.into()), ("x", joined(|s| &s.x)), ("u", joined(|s| &s.u))];
+        };
+        let (columns, rows) = (first.x.len(), first.y.len());
+        let t: Vec<f64> = images.iter().map(|image| image.t).collect();
+        vec![
+            ("t", Column::Repeated { values: t.into(), each: columns * rows }),
+            ("x", Column::Repeated { values: (&first.x).into(), each: 1 }),
+            ("y", Column::Repeated { values: (&first.y).into(), each: columns }),
+            ("u", heights(images).into()),
+        ]
+    }
+
+    /// `u` has an axis for t, one for y in an image, and one for x.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let Self { surfaces, images, .. } = self;
+        if let Some(first) = images.first() {
+            let t: Vec<f64> = images.iter().map(|image| image.t).collect();
+            let shape = vec![images.len(), first.y.len(), first.x.len()];
+            return vec![
+                ("t", Array::vector(t)),
+                ("x", Array::vector(&first.x)),
+                ("y", Array::vector(&first.y)),
+                ("u", Array { shape, values: heights(images).into() }),
+            ];
+        }
+        let x = surfaces.first().map(|surface| surface.x.as_slice()).unwrap_or_default();
+        let t: Vec<f64> = surfaces.iter().map(|surface| surface.t).collect();
+        let u: Vec<Vec<f64>> = surfaces.iter().map(|surface| surface.u.clone()).collect();
+        vec![("t", Array::vector(t)), ("x", Array::vector(x)), ("u", Array::matrix(&u))]
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+}
+
+fn heights(images: &[SurfaceImage]) -> Vec<f64> {
+    images.iter().flat_map(|image| image.u.iter().flatten().copied()).collect()
+}

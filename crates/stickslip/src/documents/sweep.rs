@@ -1,0 +1,209 @@
+//! The document of `stickslip sweep`.
+
+mod axis;
+mod ensemble;
+mod point;
+mod shard;
+mod start;
+
+pub use axis::{AxisDocument, AxisName};
+pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
+pub use point::{SourceName, SweepPoint};
+pub use shard::ShardDocument;
+pub use start::{SweepRunParameters, SweepStartName};
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{FORMAT_VERSION, InUnits, Software, TipDocument};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_tip::Wider;
+
+/// What the tip settles into, over a grid of parameters.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepDocument {
+    /// "stickslip/sweep"
+    pub format: String,
+    /// Version of the format.
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// The grid.
+    pub parameters: SweepParameters,
+    /// The points, by rising index.
+    pub points: Vec<SweepPoint>,
+    /// Points that differ in the seed of their noise alone, taken together, in the order of the points; where seeds vary and
+    /// all parts are here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ensembles: Option<Vec<EnsembleDocument>>,
+    /// How the machine that computed the points rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": one that rounds otherwise
+    /// gives other last digits. Null where parts came from machines that do not agree.
+    #[serde(default)]
+    pub arithmetic: Option<String>,
+    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, without spaces and with the shortest digits: tells `merge`
+    /// whether anything was changed.
+    #[serde(default)]
+    pub crc32: Option<u32>,
+    /// Numbers of it in nm, s and nN, where it was asked for these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+impl SweepDocument {
+    /// Its `format`.
+    pub const FORMAT: &'static str = "stickslip/sweep";
+
+    /// These points, as a machine that rounds like this found them; to be sealed.
+    pub fn new(
+        parameters: SweepParameters,
+        points: Vec<SweepPoint>,
+        arithmetic: Option<String>,
+    ) -> Self {
+        Self {
+            format: Self::FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            software: Software::this(),
+            physical: None,
+            parameters,
+            points,
+            ensembles: None,
+            arithmetic,
+            crc32: None,
+        }
+    }
+}
+
+/// The grid: footprints times r times α times further axes, the last varying fastest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepParameters {
+    /// Footprints f: widths times β, where they vary.
+    pub tips: Vec<TipDocument>,
+    /// Widths of the footprints, where several were given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<Vec<f64>>,
+    /// Side lobes of the footprints, where they were given.
+    pub beta: Option<Vec<f64>>,
+    /// Dimensionless support velocities r (12).
+    pub r: Vec<f64>,
+    /// Dimensionless indentation rates α (13), where they were given as such.
+    pub alpha: Option<Vec<f64>>,
+    /// D, where they were given as αc(r) + D.
+    pub alpha_above: Option<Vec<f64>>,
+    /// Largest residual of (18) on a cycle, kσ/Γ.
+    pub tolerance: f64,
+    /// Part of the points that is here, all without.
+    pub shard: Option<ShardDocument>,
+    /// b of (61), in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_limit: Option<f64>,
+    /// T, in Γ/k, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub healing_time: Option<f64>,
+    /// M, in Γ²/k, where the tip has inertia.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<f64>,
+    /// What else varies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub axes: Vec<AxisDocument>,
+    /// The run that each point is, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<SweepRunParameters>,
+}
+
+impl SweepParameters {
+    /// What a wider law adds.
+    #[must_use]
+    pub fn wider(&self) -> Wider {
+        let Self { depth_limit, healing_time, inertia, .. } = *self;
+        Wider { depth_limit, healing_time, inertia, spring: true }
+    }
+
+    /// The one r of all points, if there is one.
+    pub fn velocity(&self) -> Option<f64> {
+        if let [r] = self.r.as_slice() { Some(*r) } else { None }
+    }
+
+    /// The part that is here, be it the whole.
+    pub fn part(&self) -> ShardDocument {
+        self.shard.unwrap_or(ShardDocument::WHOLE)
+    }
+
+    /// Whether the point of this index is one of this part.
+    pub fn has(&self, index: usize) -> bool {
+        index < self.points() && self.part().has(index)
+    }
+
+    /// Points of the whole grid.
+    pub fn points(&self) -> usize {
+        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
+        let points = self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas);
+        points.saturating_mul(self.inner())
+    }
+
+    /// Points of one footprint, r and α.
+    pub fn inner(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
+    }
+
+    /// Values of the further axes at a point, by its index.
+    pub fn at(&self, index: usize) -> Vec<f64> {
+        let mut rest = index;
+        let last_first = self.axes.iter().rev().map(|axis| {
+            let count = axis.values.len().max(1);
+            let at = rest % count;
+            rest /= count;
+            axis.values.get(at).copied().unwrap_or(f64::NAN)
+        });
+        let mut values: Vec<f64> = last_first.collect();
+        values.reverse();
+        values
+    }
+}
+
+impl Tabular for SweepDocument {
+    /// A row for each point. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
+            self.points.iter().map(of).collect::<Vec<_>>().into()
+        };
+        let words = |of: fn(&SweepPoint) -> Option<String>| -> Vec<String> {
+            self.points.iter().map(|point| of(point).unwrap_or_default()).collect()
+        };
+        let regimes = self.points.iter().map(|p| p.regime.map_or(f64::NAN, |r| f64::from(r as u8)));
+        let regimes = Column::Words(
+            words(|p| p.regime.map(|regime| regime.to_string())),
+            Some(regimes.collect()),
+        );
+        let widths = self.parameters.width.as_ref().map(|_| ("width", number(|p| p.width)));
+        let place = vec![
+            ("beta", number(|p| p.beta)),
+            ("r", number(|p| Some(p.r))),
+            ("alpha", number(|p| p.alpha)),
+        ];
+        let axis = |(i, axis): (usize, &AxisDocument)| {
+            let values = self.points.iter().map(|point| point.at.get(i).copied());
+            (axis.name.column(), values.collect::<Vec<_>>().into())
+        };
+        let axes = self.parameters.axes.iter().enumerate().map(axis);
+        let found = vec![
+            ("critical_alpha", number(|p| p.critical_alpha)),
+            ("period", number(|p| p.period)),
+            ("wavelength", number(|p| p.wavelength)),
+            ("amplitude_x0", number(|p| p.amplitude_x0)),
+            ("amplitude_u", number(|p| p.amplitude_u)),
+            ("slips", number(|p| p.slips.map(|slips| slips as f64))),
+            ("multiplier", number(|p| p.multiplier)),
+            ("regime", regimes),
+            ("source", Column::Words(words(|p| p.source.map(|source| source.to_string())), None)),
+        ];
+        let of_runs = self.parameters.run.iter().flat_map(|_| {
+            [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
+        });
+        widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+}

@@ -1,0 +1,138 @@
+//! Stick-slip of an AFM tip on a soft surface: one closed delay equation instead of a PDE.
+//!
+//! This crate is what a program of one's own depends on. It has two parts.
+//!
+//! - The subjects, each a crate of its own: [`tip`], the closed equation with its memories and its integrator;
+//!   [`outcome`], the regime of a run; [`surface`], u(x,t) afterwards; [`stability`] and [`cycles`]; [`raster`];
+//!   [`measurement`]; [`units`]; [`verify`]; [`convolution`], sums of a kernel.
+//! - Questions and documents. A question, such as [`Cycle`], is data; [`Ask::ask`] answers it with a [`Document`]. The
+//!   other documents are what the program writes and reads as JSON, field by field, with their schemas.
+//!
+//! Nothing here knows files or arguments. All numbers are dimensionless (lengths in tip widths σ, times in Γ/k) unless
+//! they say otherwise.
+//!
+//! ```
+//! use stickslip::tip::{Model, Scenario, TipFunction};
+//! use stickslip::{RunDocument, RunParameters, read};
+//!
+//! let model = Model::new(TipFunction::gaussian(1.0)?, 1.2, 1.0)?; // α = 1.2, r = 1
+//! let parameters = RunParameters::of(&Scenario::new(model, 50.0), None, &[], None);
+//! assert!(parameters.scenario()?.until > 49.0);
+//! // What is not a whole document of the format asked for is refused with a reason.
+//! let refused = read::<RunDocument>("{}", RunDocument::FORMAT).unwrap_err();
+//! assert!(refused.to_string().contains("format is missing"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "t[i] is an entry, also in the descriptions of the schemas"
+)]
+
+mod ask;
+mod documents;
+
+pub use stickslip_convolution as convolution;
+pub use stickslip_cycles as cycles;
+pub use stickslip_measurement as measurement;
+pub use stickslip_outcome as outcome;
+pub use stickslip_raster as raster;
+pub use stickslip_stability as stability;
+pub use stickslip_surface as surface;
+pub use stickslip_tip as tip;
+pub use stickslip_units as units;
+pub use stickslip_verify as verify;
+
+pub use ask::boundary::{
+    Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
+    SpacingName,
+};
+pub use ask::context::Context;
+pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
+pub use ask::failure::{Failure, Refused, Typed};
+pub use ask::{Ask, Document};
+pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
+pub use documents::compare::{
+    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
+    GridDocument, GridName, GridWork,
+};
+pub use documents::continuation::{
+    ContinueDocument, ContinueParameters, CycleBranch, EndName, OverName, SpecialDocument,
+    SpecialName,
+};
+
+pub use ask::model::{
+    GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
+};
+pub use ask::question::{Indentation, NamedTip, Tip, TipName};
+pub use documents::figure::{
+    ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
+    FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
+};
+pub use documents::fit::{
+    AlternativeDocument, DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld,
+};
+pub use documents::history::{FARTHEST, History};
+pub use documents::in_units::{Dimension, InUnits, KnownScales, dimension};
+pub use documents::measured_tip::{
+    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
+    MeasuredTipParameters,
+};
+pub use documents::outcome::{
+    CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
+};
+pub use documents::physical::{
+    InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units,
+};
+pub use documents::raster::{
+    AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
+    PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,
+    RasterComparedWork, RasterDocument, RasterHistory, RasterLine, RasterParameters,
+    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
+    RasterSweepParameters, RasterSweepPoint, RasterWork,
+};
+pub use documents::raster_stability::{
+    RasterBoundaryDocument, RasterBoundaryParameters, RasterCertificateDocument,
+    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
+};
+pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
+pub use documents::reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
+pub use documents::response::{
+    ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples,
+};
+pub use documents::run::{LoopDocument, RunDocument, Samples};
+pub use documents::run_lines::{RunEnd, RunHead, RunLine, SampleLine};
+pub use documents::scenario::{
+    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
+    SupportPathParameters,
+};
+pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
+pub use documents::software::{FORMAT_VERSION, Software};
+pub use documents::stability::{
+    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
+    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityParameters,
+    TrappingDocument,
+};
+pub use documents::surface::{
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+};
+pub use documents::sweep::{
+    AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
+    StatisticsDocument, SweepDocument, SweepParameters, SweepPoint, SweepRunParameters,
+    SweepStartName,
+};
+pub use documents::table::{Array, Column, Named, Tabular};
+pub use documents::units::{
+    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
+};
+pub use documents::verification::{
+    ClaimDocument, EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
+    VerifyDocument,
+};
+pub use documents::walking::{WalkDocument, WalkingDocument, WalkingParameters};
+pub use documents::work::{SteadyState, WorkDocument};
+
+/// The README's example is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -8,7 +8,7 @@ mod printed;
 pub use markdown::page;
 
 use crate::failed::Failed;
-use stickslip::ReproductionDocument;
+use stickslip::{Document, ReproductionDocument, ReproductionFound, ReproductionParameters};
 
 /// The numbers.
 ///
@@ -18,5 +18,5 @@ pub fn table() -> Result<ReproductionDocument, Failed> {
     let mut entries = numbers::stability()?;
     entries.extend(numbers::formulas()?);
     entries.extend(oscillations::oscillations()?);
-    Ok(ReproductionDocument::new(entries))
+    Ok(Document::new(ReproductionParameters {}, ReproductionFound { numbers: entries }, vec![]))
 }

@@ -30,6 +30,7 @@
 )]
 
 mod ask;
+mod document;
 mod documents;
 
 pub use stickslip_convolution as convolution;
@@ -43,6 +44,7 @@ pub use stickslip_tip as tip;
 pub use stickslip_units as units;
 pub use stickslip_verify as verify;
 
+pub use ask::Ask;
 pub use ask::boundary::{
     Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
     SpacingName,
@@ -50,15 +52,15 @@ pub use ask::boundary::{
 pub use ask::context::Context;
 pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use ask::failure::{Failure, Refused, Typed};
-pub use ask::{Ask, Document};
+pub use document::{Document, Question};
 pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use documents::compare::{
-    ClosedDocument, ClosedWork, CompareDocument, CompareParameters, DifferenceDocument,
-    GridDocument, GridName, GridWork,
+    ClosedDocument, ClosedWork, CompareDocument, CompareFound, CompareParameters,
+    DifferenceDocument, GridDocument, GridName, GridWork,
 };
 pub use documents::continuation::{
-    ContinueDocument, ContinueParameters, CycleBranch, EndName, OverName, SpecialDocument,
-    SpecialName,
+    ContinueDocument, ContinueFound, ContinueParameters, CycleBranch, EndName, OverName,
+    SpecialDocument, SpecialName,
 };
 
 pub use ask::model::{
@@ -70,13 +72,13 @@ pub use documents::figure::{
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
 pub use documents::fit::{
-    AlternativeDocument, DataFitted, FitDocument, FitParameters, NumberFitted, NumberHeld,
+    AlternativeDocument, DataFitted, FitDocument, FitFound, FitParameters, NumberFitted, NumberHeld,
 };
 pub use documents::history::{FARTHEST, History};
 pub use documents::in_units::{Dimension, InUnits, KnownScales, dimension};
 pub use documents::measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
-    MeasuredTipParameters,
+    MeasuredTipFound, MeasuredTipParameters,
 };
 pub use documents::outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
@@ -86,19 +88,22 @@ pub use documents::physical::{
 };
 pub use documents::raster::{
     AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
-    PatternDocument, RasterCompareDocument, RasterCompareParameters, RasterCompared,
-    RasterComparedWork, RasterDocument, RasterHistory, RasterLine, RasterParameters,
-    RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
-    RasterSweepParameters, RasterSweepPoint, RasterWork,
+    PatternDocument, RasterCompareDocument, RasterCompareFound, RasterCompareParameters,
+    RasterCompared, RasterComparedWork, RasterDocument, RasterHistory, RasterLine,
+    RasterParameters, RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
+    RasterSweepFound, RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use documents::raster_stability::{
-    RasterBoundaryDocument, RasterBoundaryParameters, RasterCertificateDocument,
-    RasterCriticalDocument, RasterGrowth, RasterStabilityDocument, RasterStabilityParameters,
+    RasterBoundaryDocument, RasterBoundaryFound, RasterBoundaryParameters,
+    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStabilityDocument,
+    RasterStabilityFound, RasterStabilityParameters,
 };
 pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
-pub use documents::reproduction::{NumberDocument, ReproductionDocument, ReproductionParameters};
+pub use documents::reproduction::{
+    NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
+};
 pub use documents::response::{
-    ModeDocument, ResponseDocument, ResponseParameters, ResponseSamples,
+    ModeDocument, ResponseDocument, ResponseFound, ResponseParameters, ResponseSamples,
 };
 pub use documents::run::{LoopDocument, RunDocument, Samples};
 pub use documents::run_lines::{RunEnd, RunHead, RunLine, SampleLine};
@@ -110,15 +115,15 @@ pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
-    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityParameters,
+    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityFound, StabilityParameters,
     TrappingDocument,
 };
 pub use documents::surface::{
-    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceImage, SurfaceParameters,
+    AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceImage, SurfaceParameters,
 };
 pub use documents::sweep::{
     AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
-    StatisticsDocument, SweepDocument, SweepParameters, SweepPoint, SweepRunParameters,
+    StatisticsDocument, SweepDocument, SweepFound, SweepParameters, SweepPoint, SweepRunParameters,
     SweepStartName,
 };
 pub use documents::table::{Array, Column, Named, Tabular};
@@ -129,7 +134,7 @@ pub use documents::verification::{
     ClaimDocument, EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
     VerifyDocument,
 };
-pub use documents::walking::{WalkDocument, WalkingDocument, WalkingParameters};
+pub use documents::walking::{WalkDocument, WalkingDocument, WalkingFound, WalkingParameters};
 pub use documents::work::{SteadyState, WorkDocument};
 
 /// The README's example is compiled and run.

@@ -13,7 +13,8 @@ use crate::failure::{Failure, Typed};
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip::{
-    CompareDocument, CompareParameters, DifferenceDocument, KnownScales, Physical, RunParameters,
+    CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document, KnownScales,
+    Physical, RunParameters,
 };
 use stickslip_tip::Scenario;
 
@@ -117,7 +118,11 @@ fn document(
         return Err(Failure::Run(advice.into()));
     }
     let (parameters, speedup) = (parameters(arguments, asked), rates[0] / rates[1]);
-    Ok(CompareDocument::new(parameters, [t, x], closed_document, grid, max_difference, speedup))
+    Ok(Document::new(
+        parameters,
+        CompareFound { t, x, closed: closed_document, grid, max_difference, speedup },
+        vec![],
+    ))
 }
 
 /// NaN where either is.

@@ -43,8 +43,7 @@ pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
         (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
         (found, _) => found?,
     };
-    let mut document = document::of(arguments, &origin, &branches, remarks);
-    document.interrupted = signal.is_some();
+    let document = document::of(arguments, &origin, &branches, (remarks, signal.is_some()));
     // What is complete can be computed again: from here on a first signal ends the program at once.
     let _keeps = signal.map(|_| interrupt);
     job.finish(document.in_units(scales.as_ref()))?;

@@ -8,7 +8,7 @@ use crate::files::heading::Heading;
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
 use std::path::Path;
-use stickslip::{FitDocument, FitParameters, NumberHeld, TipName};
+use stickslip::{Document, FitDocument, FitFound, FitParameters, NumberHeld, TipName};
 use stickslip_measurement::{
     Data, Fit, FitError, FitRequest, Name, Scan, Shape, Track, Values, fit as fitted,
 };
@@ -53,7 +53,8 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
         scan: request.scan.map(|scan| scan.word().into()),
         footprints: request.footprints.len(),
     };
-    job.finish(FitDocument::of(&found, parameters, &data, critical_alpha.map(|at| at.alpha)))
+    let answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
+    job.finish::<FitDocument>(Document::new(parameters, answer, found.remarks))
 }
 
 /// Where no footprint is given.

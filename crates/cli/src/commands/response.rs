@@ -11,7 +11,8 @@ use crate::arguments::ResponseArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip::{
-    ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseParameters, ResponseSamples,
+    Document, ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseFound,
+    ResponseParameters, ResponseSamples,
 };
 use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::roots::bisected;
@@ -121,15 +122,16 @@ fn document(arguments: &ResponseArguments, asked: &Asked) -> Result<ResponseDocu
         start_position: arguments.start_position,
         until: arguments.until,
     };
-    Ok(ResponseDocument::new(
-        parameters,
-        model.into(),
-        response.modes.iter().map(mode).collect::<Result<_, _>>()?,
-        (asked.origin, valid_from, VALID_TO),
-        (&response.spectrum.certificate).into(),
+    let found = ResponseFound {
+        steady_state: model.into(),
+        modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
+        origin: asked.origin,
+        valid_from,
+        valid_to: VALID_TO,
+        certificate: (&response.spectrum.certificate).into(),
         samples,
-        said,
-    ))
+    };
+    Ok(Document::new(parameters, found, said))
 }
 
 fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {

@@ -11,8 +11,8 @@ use crate::arguments::{ModelArguments, StabilityArguments};
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use stickslip::{
-    CriticalDocument, ModelParameters, OnsetDocument, Physical, SolveFor, StabilityDocument,
-    StabilityParameters, TrappingDocument,
+    CriticalDocument, Document, ModelParameters, OnsetDocument, Physical, SolveFor,
+    StabilityDocument, StabilityFound, StabilityParameters, TrappingDocument,
 };
 use stickslip_stability::{
     Critical, OnsetKind, Spectrum, StabilityError, critical, critical_r, leading_roots, roots,
@@ -193,11 +193,11 @@ fn document(arguments: &StabilityArguments, point: &Point) -> Result<StabilityDo
         creep.ok().map(|creep| creep.roots.iter().map(|p| complex(p.re, p.im)).collect());
     let creep_rates = (!rates.is_empty()).then_some(rates);
     let trapping = TrappingDocument { alpha: trapping.ok(), creep_rates, attracting, creep_roots };
-    Ok(StabilityDocument {
+    let found = StabilityFound {
         critical: critical.as_ref().ok().map(|at| CriticalDocument::of(at, point.kind)),
         onset: onset.as_ref().ok().map(OnsetDocument::from),
         limits: wider::limits(model),
-        remarks: said,
-        ..StabilityDocument::new(parameters, point.is_stable()?, trapping, &spectrum)
-    })
+        ..StabilityFound::new(point.is_stable()?, trapping, &spectrum)
+    };
+    Ok(Document::new(parameters, found, said))
 }

@@ -19,7 +19,7 @@ use crate::interrupt::Interrupt;
 use divided::Divided;
 use grid::Grid;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use stickslip::{Physical, SweepDocument, SweepPoint};
+use stickslip::{Document, Physical, SweepDocument, SweepFound, SweepPoint};
 use stickslip_figures::judge_sweep;
 use work::compute;
 
@@ -54,7 +54,8 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
     let points = finished.in_order();
-    let document = SweepDocument::new(grid.parameters, points, Some(arithmetic()));
+    let found = SweepFound { points, ensembles: None, arithmetic: Some(arithmetic()), crc32: None };
+    let document: SweepDocument = Document::new(grid.parameters, found, vec![]);
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())

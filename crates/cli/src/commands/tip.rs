@@ -6,7 +6,7 @@ use crate::failure::{Failure, Typed};
 use crate::files::gsf::read_gsf;
 use crate::files::heading::Heading;
 use crate::files::measured::{one_of, read_measured};
-use stickslip::{MeasuredTipDocument, MeasuredTipParameters};
+use stickslip::{Document, MeasuredTipDocument, MeasuredTipFound, MeasuredTipParameters};
 use stickslip_measurement::{Image, Profile, Request, TipError, tip};
 use stickslip_units::Unit;
 
@@ -47,7 +47,8 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
         resamples: request.resamples,
         seed: request.seed,
     };
-    let document = MeasuredTipDocument::of(&found, parameters, metres);
+    let document: MeasuredTipDocument =
+        Document::new(parameters, MeasuredTipFound::of(&found, metres), found.remarks());
     let across = image.map(|image| image.across(&found)).transpose();
     let across = across.map_err(|error| Failure::input(named(), error))?;
     job.finish(match across {

@@ -3,7 +3,7 @@
 use crate::documents::table::{Column, Named, Tabular};
 use crate::{
     Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
-    OnsetKindName, Refused, Tip, Typed,
+    OnsetKindName, Question, Refused, Tip, Typed,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -173,11 +173,12 @@ impl Boundary {
     }
 }
 
-impl Ask for Boundary {
-    const NAME: &'static str = "boundary";
+impl Question for Boundary {
     const FORMAT: &'static str = "stickslip/boundary";
     type Answer = BoundaryFound;
+}
 
+impl Ask for Boundary {
     fn answer(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
         self.judged()?;
         let law = self.law.dragged(&self.tip.0)?;

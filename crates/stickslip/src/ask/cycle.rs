@@ -3,7 +3,7 @@
 use crate::documents::table::{Column, Named, Tabular};
 use crate::{
     Ask, ComplexDocument, Context, Document, Failure, History, Indentation, Law, ModelParameters,
-    Refused, Tip, Unusable,
+    Question, Refused, Tip, Unusable,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -138,11 +138,12 @@ impl Cycle {
     }
 }
 
-impl Ask for Cycle {
-    const NAME: &'static str = "cycle";
+impl Question for Cycle {
     const FORMAT: &'static str = "stickslip/cycle";
     type Answer = CycleFound;
+}
 
+impl Ask for Cycle {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         self.judged()?;
         let law = self.law.dragged(&self.tip.0)?;

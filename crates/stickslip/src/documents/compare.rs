@@ -1,22 +1,14 @@
 //! `stickslip/compare`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, RunParameters, Software};
+use crate::{Document, Question, RunParameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The closed equation against the full PDE. Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CompareDocument {
-    /// "stickslip/compare"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: CompareParameters,
+pub struct CompareFound {
     /// Times of the motions below, in Γ/k.
     pub t: Vec<f64>,
     /// Positions of the surfaces below, which are those at the last time, in σ.
@@ -30,38 +22,14 @@ pub struct CompareDocument {
     /// Seconds of the grid over seconds of the closed equation, each per unit of time simulated. It
     /// differs from run to run, as `work.seconds` does.
     pub speedup: f64,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl CompareDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/compare";
+/// The document of that.
+pub type CompareDocument = Document<CompareParameters>;
 
-    /// Both motions at the times t, both surfaces at the positions x.
-    pub fn new(
-        parameters: CompareParameters,
-        [t, x]: [Vec<f64>; 2],
-        closed: ClosedDocument,
-        grid: GridDocument,
-        max_difference: DifferenceDocument,
-        speedup: f64,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            t,
-            x,
-            closed,
-            grid,
-            max_difference,
-            speedup,
-        }
-    }
+impl Question for CompareParameters {
+    const FORMAT: &'static str = "stickslip/compare";
+    type Answer = CompareFound;
 }
 
 /// What was asked for.
@@ -168,7 +136,7 @@ pub struct DifferenceDocument {
     pub u: f64,
 }
 
-impl Tabular for CompareDocument {
+impl Tabular for CompareFound {
     /// Both motions.
     fn columns(&self) -> Vec<Named<'_>> {
         vec![
@@ -188,9 +156,5 @@ impl Tabular for CompareDocument {
             ("grid_x0", Array::vector(&self.grid.x0)),
             ("grid_u", Array::vector(&self.grid.u)),
         ]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

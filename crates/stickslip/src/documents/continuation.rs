@@ -1,7 +1,7 @@
 //! `stickslip/continue`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
+use crate::{Document, ModelParameters, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
@@ -10,15 +10,7 @@ use stickslip_cycles::{Branch, End, Parameter, Point, Special, SpecialKind};
 /// peak-to-peak.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ContinueDocument {
-    /// "stickslip/continue"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for; α and r are those of the first cycle.
-    pub parameters: ContinueParameters,
+pub struct ContinueFound {
     /// The first, and with --switch those of twice its period, of four times, ….
     pub branches: Vec<CycleBranch>,
     /// Where something happens to the cycles of a branch, in order of the branches.
@@ -27,38 +19,14 @@ pub struct ContinueDocument {
     pub trapping: Option<f64>,
     /// Whether a signal stopped it.
     pub interrupted: bool,
-    /// What could not be followed; empty if all was.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl ContinueDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/continue";
+/// The document of that.
+pub type ContinueDocument = Document<ContinueParameters>;
 
-    /// Branches with their special points, followed to their ends.
-    pub fn new(
-        parameters: ContinueParameters,
-        branches: Vec<CycleBranch>,
-        special: Vec<SpecialDocument>,
-        trapping: Option<f64>,
-        remarks: Vec<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            branches,
-            special,
-            trapping,
-            interrupted: false,
-            remarks,
-        }
-    }
+impl Question for ContinueParameters {
+    const FORMAT: &'static str = "stickslip/continue";
+    type Answer = ContinueFound;
 }
 
 /// What was asked for.
@@ -247,7 +215,7 @@ impl From<SpecialKind> for SpecialName {
     }
 }
 
-impl Tabular for ContinueDocument {
+impl Tabular for ContinueFound {
     /// The cycles of all branches, one after the other.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
@@ -280,9 +248,5 @@ impl Tabular for ContinueDocument {
         let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
         let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
         columns.chain(mark).collect()
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

@@ -1,7 +1,7 @@
 //! `stickslip/fit`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{EstimateDocument, FORMAT_VERSION, Software, TipDocument};
+use crate::{Document, EstimateDocument, Question, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{Alternative, Data, Fit, FittedNumber, Name, Part, Scan};
@@ -9,15 +9,7 @@ use stickslip_measurement::{Alternative, Data, Fit, FittedNumber, Name, Part, Sc
 /// Numbers of the law as measured data have them, with 95 % intervals by profile likelihood.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FitDocument {
-    /// "stickslip/fit"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was given.
-    pub parameters: FitParameters,
+pub struct FitFound {
     /// Each number fitted.
     pub numbers: Vec<NumberFitted>,
     /// Correlations of the logarithms of these, a row each.
@@ -43,8 +35,14 @@ pub struct FitDocument {
     /// the numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_depth_limit: Option<AlternativeDocument>,
-    /// What should be known before it is believed.
-    pub remarks: Vec<String>,
+}
+
+/// The document of that.
+pub type FitDocument = Document<FitParameters>;
+
+impl Question for FitParameters {
+    const FORMAT: &'static str = "stickslip/fit";
+    type Answer = FitFound;
 }
 
 /// Of documents written before this was judged.
@@ -176,23 +174,11 @@ impl From<&Alternative> for AlternativeDocument {
     }
 }
 
-impl FitDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/fit";
-
+impl FitFound {
     /// Of a fit to these data, [reduced](Data::reduced), each from the file named.
-    pub fn of(
-        found: &Fit,
-        parameters: FitParameters,
-        data: &[(String, Data)],
-        critical_alpha: Option<f64>,
-    ) -> Self {
+    pub fn of(found: &Fit, data: &[(String, Data)], critical_alpha: Option<f64>) -> Self {
         let each = data.iter().zip(&found.parts);
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            parameters,
             numbers: found.numbers.iter().map(NumberFitted::from).collect(),
             correlations: found.correlations.clone(),
             critical_alpha,
@@ -203,7 +189,6 @@ impl FitDocument {
             joint_misfit: found.joint,
             alternatives: found.alternatives.iter().map(AlternativeDocument::from).collect(),
             with_depth_limit: found.with_depth_limit.as_ref().map(AlternativeDocument::from),
-            remarks: found.remarks.clone(),
         }
     }
 }
@@ -256,7 +241,7 @@ impl DataFitted {
     }
 }
 
-impl Tabular for FitDocument {
+impl Tabular for FitFound {
     /// The numbers, a row each.
     fn columns(&self) -> Vec<Named<'_>> {
         let names = self.numbers.iter().map(|n| n.name.clone()).collect();

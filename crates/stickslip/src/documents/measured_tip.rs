@@ -1,7 +1,7 @@
 //! `stickslip/tip`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{FORMAT_VERSION, GaussianDocument, Software};
+use crate::{Document, GaussianDocument, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{Across, Candidate, Estimate, MeasuredTip};
@@ -9,15 +9,7 @@ use stickslip_measurement::{Across, Candidate, Estimate, MeasuredTip};
 /// A footprint from a measured profile, which is a tip file too: `gaussians` is f with f(0) = 1, lengths in σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MeasuredTipDocument {
-    /// "stickslip/tip"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What it was made of.
-    pub parameters: MeasuredTipParameters,
+pub struct MeasuredTipFound {
     /// f, with f(0) = 1 and lengths in σ.
     pub gaussians: Vec<GaussianDocument>,
     /// σ in the unit of the positions: the width of the Gaussian that is as wide at half of f(0), unless it was given.
@@ -59,8 +51,14 @@ pub struct MeasuredTipDocument {
     /// What an image tells beside the profile through its middle: f(x,y).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<AcrossDocument>,
-    /// What should be known before it is believed.
-    pub remarks: Vec<String>,
+}
+
+/// The document of that.
+pub type MeasuredTipDocument = Document<MeasuredTipParameters>;
+
+impl Question for MeasuredTipParameters {
+    const FORMAT: &'static str = "stickslip/tip";
+    type Answer = MeasuredTipFound;
 }
 
 /// What a tip was made of.
@@ -156,12 +154,9 @@ impl From<Estimate> for EstimateDocument {
     }
 }
 
-impl MeasuredTipDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/tip";
-
+impl MeasuredTipFound {
     /// Of a tip of which one unit of the positions is so many metres, if that is known.
-    pub fn of(found: &MeasuredTip, parameters: MeasuredTipParameters, metres: Option<f64>) -> Self {
+    pub fn of(found: &MeasuredTip, metres: Option<f64>) -> Self {
         let least = found.candidates[found.chosen].criterion;
         let candidate = |c: &Candidate| CandidateDocument {
             terms: c.terms,
@@ -172,10 +167,6 @@ impl MeasuredTipDocument {
         };
         let trapping = found.trapping_alpha;
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            parameters,
             gaussians: found.gaussians.iter().map(GaussianDocument::from).collect(),
             sigma: found.sigma.into(),
             sigma_metres: metres.map(|metres| found.sigma.value * metres),
@@ -203,10 +194,11 @@ impl MeasuredTipDocument {
                 .map(|draw| draw.iter().map(GaussianDocument::from).collect())
                 .collect(),
             image: None,
-            remarks: found.remarks(),
         }
     }
+}
 
+impl MeasuredTipDocument {
     /// With what the image tells that the profile is of.
     #[must_use]
     pub fn with_image(mut self, across: &Across) -> Self {
@@ -217,7 +209,7 @@ impl MeasuredTipDocument {
                 across.residual, across.noise
             ));
         }
-        self.image = Some(across.into());
+        self.answer.image = Some(across.into());
         self
     }
 }
@@ -225,7 +217,7 @@ impl MeasuredTipDocument {
 /// A residual so many times the noise is remarked on.
 const ABOVE_NOISE: f64 = 1.3;
 
-impl MeasuredTipDocument {
+impl MeasuredTipFound {
     /// The ground at a position.
     pub fn ground(&self, x: f64) -> f64 {
         let curved = self.bend.iter().rev().fold(0.0, |sum, c| sum * x + c);
@@ -240,7 +232,7 @@ impl FittedDocument {
     }
 }
 
-impl Tabular for MeasuredTipDocument {
+impl Tabular for MeasuredTipFound {
     /// The profile, the fit and what it leaves.
     fn columns(&self) -> Vec<Named<'_>> {
         let FittedDocument { x, f, fit } = &self.profile;

@@ -1,7 +1,9 @@
 //! Which documents can be told in nm, s and nN, and their tables so.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{Dimension, InUnits, KnownScales, RasterDocument, RunDocument, dimension};
+use crate::{
+    Dimension, InUnits, KnownScales, RasterDocument, RasterSurfaceDocument, RunDocument, dimension,
+};
 use serde::Serialize;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -28,31 +30,6 @@ pub trait Physical: Serialize + Sized {
     }
 }
 
-macro_rules! physical {
-    ($($document:ident),+) => {
-        $(impl Physical for crate::$document {
-            fn physical_mut(&mut self) -> &mut Option<InUnits> {
-                &mut self.physical
-            }
-        })+
-    };
-}
-
-physical!(
-    CompareDocument,
-    ContinueDocument,
-    RasterBoundaryDocument,
-    RasterCompareDocument,
-    RasterStabilityDocument,
-    RasterSurfaceDocument,
-    RasterSweepDocument,
-    ResponseDocument,
-    StabilityDocument,
-    SurfaceDocument,
-    SweepDocument,
-    WalkingDocument
-);
-
 impl Physical for RunDocument {
     fn physical_mut(&mut self) -> &mut Option<InUnits> {
         &mut self.physical
@@ -63,6 +40,12 @@ impl Physical for RunDocument {
         let value = serde_json::to_value(&*self);
         self.history = history;
         value
+    }
+}
+
+impl Physical for RasterSurfaceDocument {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
     }
 }
 

@@ -1,9 +1,7 @@
 //! `stickslip/raster-stability`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{
-    FORMAT_VERSION, InUnits, ModelParameters, PathName, Software, SpacingName, TipDocument,
-};
+use crate::{Document, ModelParameters, PathName, Question, SpacingName, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{RasterCertificate, RasterCritical};
@@ -11,15 +9,7 @@ use stickslip_stability::{RasterCertificate, RasterCritical};
 /// Linear stability of many scan lines beside each other. Lengths in σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RasterStabilityDocument {
-    /// "stickslip/raster-stability"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: RasterStabilityParameters,
+pub struct RasterStabilityFound {
     /// Where a ripple first does not fade from line to line; null for a line that is repeated, where every α makes some
     /// ripple grow.
     pub critical: Option<RasterCriticalDocument>,
@@ -27,37 +17,14 @@ pub struct RasterStabilityDocument {
     pub stable: Option<bool>,
     /// By how much ripples e^{iqx} change from line to line at the α of `parameters`; null where none was given.
     pub growth: Option<RasterGrowth>,
-    /// What a reader should know; empty if there is nothing.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl RasterStabilityDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/raster-stability";
+/// The document of that.
+pub type RasterStabilityDocument = Document<RasterStabilityParameters>;
 
-    /// What was found for these parameters, with remarks.
-    pub fn new(
-        parameters: RasterStabilityParameters,
-        critical: Option<&RasterCritical>,
-        stable: Option<bool>,
-        growth: Option<RasterGrowth>,
-        remarks: Vec<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            critical: critical.map(Into::into),
-            stable,
-            growth,
-            remarks,
-        }
-    }
+impl Question for RasterStabilityParameters {
+    const FORMAT: &'static str = "stickslip/raster-stability";
+    type Answer = RasterStabilityFound;
 }
 
 /// A raster, of which α need not be given.
@@ -148,7 +115,7 @@ impl From<&RasterCertificate> for RasterCertificateDocument {
     }
 }
 
-impl Tabular for RasterStabilityDocument {
+impl Tabular for RasterStabilityFound {
     /// The growth over wave numbers; without α the critical ripple.
     fn columns(&self) -> Vec<Named<'_>> {
         if let Some(RasterGrowth { q, factor, phase }) = &self.growth {
@@ -170,24 +137,12 @@ impl Tabular for RasterStabilityDocument {
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
         ]
     }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
-    }
 }
 
 /// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RasterBoundaryDocument {
-    /// "stickslip/raster-boundary"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: RasterBoundaryParameters,
+pub struct RasterBoundaryFound {
     /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
     pub pitch: Vec<f64>,
     /// Critical α of one-way lines.
@@ -200,34 +155,14 @@ pub struct RasterBoundaryDocument {
     pub crest_angle: Vec<f64>,
     /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
     pub alpha_zigzag: Vec<Option<f64>>,
-    /// What a reader should know; empty if there is nothing.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl RasterBoundaryDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/raster-boundary";
+/// The document of that.
+pub type RasterBoundaryDocument = Document<RasterBoundaryParameters>;
 
-    /// Without a pitch yet.
-    pub fn new(parameters: RasterBoundaryParameters) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            pitch: vec![],
-            alpha: vec![],
-            q: vec![],
-            kappa: vec![],
-            crest_angle: vec![],
-            alpha_zigzag: vec![],
-            remarks: vec![],
-        }
-    }
+impl Question for RasterBoundaryParameters {
+    const FORMAT: &'static str = "stickslip/raster-boundary";
+    type Answer = RasterBoundaryFound;
 }
 
 /// Pitches, and what scans.
@@ -260,7 +195,7 @@ pub struct RasterBoundaryParameters {
     pub length: Option<f64>,
 }
 
-impl Tabular for RasterBoundaryDocument {
+impl Tabular for RasterBoundaryFound {
     fn columns(&self) -> Vec<Named<'_>> {
         vec![
             ("pitch", Column::of(&self.pitch)),
@@ -270,9 +205,5 @@ impl Tabular for RasterBoundaryDocument {
             ("crest_angle", Column::of(&self.crest_angle)),
             ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
         ]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

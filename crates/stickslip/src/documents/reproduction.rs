@@ -1,39 +1,23 @@
 //! `stickslip/reproduction`.
 
-use crate::{FORMAT_VERSION, Software};
+use crate::{Document, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The numbers printed in the paper beside ours.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ReproductionDocument {
-    /// "stickslip/reproduction"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What the numbers depend on besides what each entry says: nothing.
-    pub parameters: ReproductionParameters,
+pub struct ReproductionFound {
     /// One row for each printed number.
     pub numbers: Vec<NumberDocument>,
 }
 
-impl ReproductionDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/reproduction";
+/// The document of that.
+pub type ReproductionDocument = Document<ReproductionParameters>;
 
-    /// These numbers.
-    pub fn new(numbers: Vec<NumberDocument>) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            parameters: ReproductionParameters {},
-            numbers,
-        }
-    }
+impl Question for ReproductionParameters {
+    const FORMAT: &'static str = "stickslip/reproduction";
+    type Answer = ReproductionFound;
 }
 
 /// None.

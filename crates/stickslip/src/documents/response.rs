@@ -2,8 +2,8 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{
-    CertificateDocument, ComplexDocument, FORMAT_VERSION, InUnits, ModelParameters,
-    PulseParameters, Software, SteadyState,
+    CertificateDocument, ComplexDocument, Document, ModelParameters, PulseParameters, Question,
+    SteadyState,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,15 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Linear response of steady motion to weak pulses. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ResponseDocument {
-    /// "stickslip/response"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: ResponseParameters,
+pub struct ResponseFound {
     /// The motion that the pulses disturb.
     pub steady_state: SteadyState,
     /// Terms of (A.9) by falling Re λ.
@@ -37,44 +29,14 @@ pub struct ResponseDocument {
     pub certificate: CertificateDocument,
     /// l at the times asked for.
     pub samples: ResponseSamples,
-    /// What is short or inexact; empty if nothing is.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl ResponseDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/response";
+/// The document of that.
+pub type ResponseDocument = Document<ResponseParameters>;
 
-    /// Modes whose phase is told from `origin`, and the response that they add up to: from `valid_from` on within the part
-    /// `valid_to`.
-    pub fn new(
-        parameters: ResponseParameters,
-        steady_state: SteadyState,
-        modes: Vec<ModeDocument>,
-        (origin, valid_from, valid_to): (f64, f64, f64),
-        certificate: CertificateDocument,
-        samples: ResponseSamples,
-        remarks: Vec<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            steady_state,
-            modes,
-            origin,
-            valid_from,
-            valid_to,
-            certificate,
-            samples,
-            remarks,
-        }
-    }
+impl Question for ResponseParameters {
+    const FORMAT: &'static str = "stickslip/response";
+    type Answer = ResponseFound;
 }
 
 /// What was asked for.
@@ -115,7 +77,7 @@ pub struct ResponseSamples {
     pub deviation: Vec<Option<f64>>,
 }
 
-impl Tabular for ResponseDocument {
+impl Tabular for ResponseFound {
     fn columns(&self) -> Vec<Named<'_>> {
         let ResponseSamples { t, l, deviation } = &self.samples;
         vec![
@@ -139,9 +101,5 @@ impl Tabular for ResponseDocument {
             of("residue_im", |m| m.residue.im),
         ];
         samples.chain(modes).collect()
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

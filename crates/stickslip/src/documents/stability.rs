@@ -1,7 +1,7 @@
 //! `stickslip/stability`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
+use crate::{Document, ModelParameters, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind, Spectrum};
@@ -9,15 +9,7 @@ use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind, 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct StabilityDocument {
-    /// "stickslip/stability"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: StabilityParameters,
+pub struct StabilityFound {
     /// Where the first root reaches the imaginary axis; null where none does, see `remarks`.
     pub critical: Option<CriticalDocument>,
     /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the
@@ -35,30 +27,20 @@ pub struct StabilityDocument {
     /// Under a wider law: what leaves nothing unstable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsDocument>,
-    /// Why something is null, short or inexact; empty if nothing is.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl StabilityDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/stability";
+/// The document of that.
+pub type StabilityDocument = Document<StabilityParameters>;
 
+impl Question for StabilityParameters {
+    const FORMAT: &'static str = "stickslip/stability";
+    type Answer = StabilityFound;
+}
+
+impl StabilityFound {
     /// What is known at any point; whether it is near a critical one is for others to add.
-    pub fn new(
-        parameters: StabilityParameters,
-        stable: bool,
-        trapping: TrappingDocument,
-        spectrum: &Spectrum,
-    ) -> Self {
+    pub fn new(stable: bool, trapping: TrappingDocument, spectrum: &Spectrum) -> Self {
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
             critical: None,
             stable,
             trapping,
@@ -66,7 +48,6 @@ impl StabilityDocument {
             certificate: (&spectrum.certificate).into(),
             onset: None,
             limits: None,
-            remarks: vec![],
         }
     }
 }
@@ -270,16 +251,12 @@ impl From<&Onset> for OnsetDocument {
     }
 }
 
-impl Tabular for StabilityDocument {
+impl Tabular for StabilityFound {
     /// The growth exponents.
     fn columns(&self) -> Vec<Named<'_>> {
         let column = |of: fn(&ComplexDocument) -> f64| {
             Column::from(self.roots.iter().map(of).collect::<Vec<_>>())
         };
         vec![("re", column(|root| root.re)), ("im", column(|root| root.im))]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

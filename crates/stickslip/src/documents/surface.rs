@@ -1,48 +1,27 @@
 //! `stickslip/surface`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, ModelParameters, Software};
+use crate::{Document, ModelParameters, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Surfaces reconstructed from a run. Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SurfaceDocument {
-    /// "stickslip/surface"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// Of the run that they come from.
-    pub parameters: SurfaceParameters,
+pub struct SurfaceFound {
     /// One curve per time; none where images were asked for.
     pub surfaces: Vec<SurfaceCurve>,
     /// One image per time, in three dimensions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<SurfaceImage>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl SurfaceDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/surface";
+/// The document of that.
+pub type SurfaceDocument = Document<SurfaceParameters>;
 
-    /// Without a surface yet.
-    pub fn new(parameters: SurfaceParameters) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            surfaces: vec![],
-            images: vec![],
-        }
-    }
+impl Question for SurfaceParameters {
+    const FORMAT: &'static str = "stickslip/surface";
+    type Answer = SurfaceFound;
 }
 
 /// What was reconstructed.
@@ -95,7 +74,7 @@ pub struct SurfaceCurve {
     pub u: Vec<f64>,
 }
 
-impl Tabular for SurfaceDocument {
+impl Tabular for SurfaceFound {
     /// A row for each place, of all times one after the other.
     fn columns(&self) -> Vec<Named<'_>> {
         let Self { surfaces, images, .. } = self;
@@ -133,10 +112,6 @@ impl Tabular for SurfaceDocument {
         let t: Vec<f64> = surfaces.iter().map(|surface| surface.t).collect();
         let u: Vec<Vec<f64>> = surfaces.iter().map(|surface| surface.u.clone()).collect();
         vec![("t", Array::vector(t)), ("x", Array::vector(x)), ("u", Array::matrix(&u))]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }
 

@@ -13,7 +13,7 @@ pub use shard::ShardDocument;
 pub use start::{SweepRunParameters, SweepStartName};
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, Software, TipDocument};
+use crate::{Document, InUnits, Question, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
@@ -21,15 +21,7 @@ use stickslip_tip::Wider;
 /// What the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SweepDocument {
-    /// "stickslip/sweep"
-    pub format: String,
-    /// Version of the format.
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// The grid.
-    pub parameters: SweepParameters,
+pub struct SweepFound {
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
     /// Points that differ in the seed of their noise alone, taken together, in the order of the points; where seeds vary and
@@ -44,33 +36,14 @@ pub struct SweepDocument {
     /// whether anything was changed.
     #[serde(default)]
     pub crc32: Option<u32>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl SweepDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/sweep";
+/// The document of that.
+pub type SweepDocument = Document<SweepParameters>;
 
-    /// These points, as a machine that rounds like this found them; to be sealed.
-    pub fn new(
-        parameters: SweepParameters,
-        points: Vec<SweepPoint>,
-        arithmetic: Option<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            points,
-            ensembles: None,
-            arithmetic,
-            crc32: None,
-        }
-    }
+impl Question for SweepParameters {
+    const FORMAT: &'static str = "stickslip/sweep";
+    type Answer = SweepFound;
 }
 
 /// The grid: footprints times r times α times further axes, the last varying fastest.
@@ -162,6 +135,10 @@ impl SweepParameters {
 }
 
 impl Tabular for SweepDocument {
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+
     /// A row for each point. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
     fn columns(&self) -> Vec<Named<'_>> {
         let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
@@ -201,9 +178,5 @@ impl Tabular for SweepDocument {
             [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
         });
         widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

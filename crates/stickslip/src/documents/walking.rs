@@ -1,9 +1,7 @@
 //! `stickslip/walking`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{
-    CertificateDocument, ComplexDocument, FORMAT_VERSION, InUnits, ModelParameters, Software,
-};
+use crate::{CertificateDocument, ComplexDocument, Document, ModelParameters, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::Walk;
@@ -11,24 +9,19 @@ use stickslip_stability::Walk;
 /// Steady walks of a tip that no spring drags, x0 = vt. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct WalkingDocument {
-    /// "stickslip/walking"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: WalkingParameters,
+pub struct WalkingFound {
     /// 1/(T² f''(0)): below this α, which is negative, a tip at rest begins to walk. Null where the surface does not heal.
     pub walking_alpha: Option<f64>,
     /// All of them by rising speed, each with its mirror image to the other side left out.
     pub walks: Vec<WalkDocument>,
-    /// Why something is missing, short or inexact; empty if nothing is.
-    pub remarks: Vec<String>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
+}
+
+/// The document of that.
+pub type WalkingDocument = Document<WalkingParameters>;
+
+impl Question for WalkingParameters {
+    const FORMAT: &'static str = "stickslip/walking";
+    type Answer = WalkingFound;
 }
 
 /// The tip, and what was asked.
@@ -58,30 +51,6 @@ pub struct WalkDocument {
     pub certificate: CertificateDocument,
 }
 
-impl WalkingDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/walking";
-
-    /// These walks, with remarks.
-    pub fn new(
-        parameters: WalkingParameters,
-        walking_alpha: Option<f64>,
-        walks: &[Walk],
-        remarks: Vec<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            walking_alpha,
-            walks: walks.iter().map(WalkDocument::from).collect(),
-            remarks,
-        }
-    }
-}
-
 impl From<&Walk> for WalkDocument {
     fn from(walk: &Walk) -> Self {
         let roots = walk.spectrum.roots.iter();
@@ -95,7 +64,7 @@ impl From<&Walk> for WalkDocument {
     }
 }
 
-impl Tabular for WalkingDocument {
+impl Tabular for WalkingFound {
     /// The growth exponents of each speed.
     fn columns(&self) -> Vec<Named<'_>> {
         let column = |of: fn(&WalkDocument, &ComplexDocument) -> f64| {
@@ -108,9 +77,5 @@ impl Tabular for WalkingDocument {
             ("re", column(|_, root| root.re)),
             ("im", column(|_, root| root.im)),
         ]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

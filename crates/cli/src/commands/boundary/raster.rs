@@ -9,7 +9,9 @@ use crate::commands::job::Job;
 use crate::commands::model::{refused_wider, wider};
 use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
-use stickslip::{Physical, RasterBoundaryDocument, RasterBoundaryParameters};
+use stickslip::{
+    Document, Physical, RasterBoundaryDocument, RasterBoundaryFound, RasterBoundaryParameters,
+};
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
 
@@ -29,7 +31,7 @@ pub(super) fn boundary(
     let scales = scales(&arguments.in_units, tip_file, Some(r))?;
     let job = Job::open::<RasterBoundaryDocument>(&arguments.outlet, arguments.plot.as_deref())?;
     let spacing = spacing(arguments);
-    let mut document = RasterBoundaryDocument::new(RasterBoundaryParameters {
+    let parameters = RasterBoundaryParameters {
         tip: (&tip).into(),
         r,
         width_y,
@@ -40,18 +42,19 @@ pub(super) fn boundary(
         healing_time: law.healing_time,
         inertia: law.inertia,
         length: arguments.length,
-    });
+    };
+    let mut found = RasterBoundaryFound::default();
     let mut progress = Progress::new(0.0, points as f64).at_every_call();
     let (pitches, mut left_out) = (spacing.values(ends, points), vec![]);
     for (n, pitch) in pitches.into_iter().enumerate() {
         match thresholds(&footprint, law, (r, pitch), left) {
             Ok((one_way, zigzag)) => {
-                document.pitch.push(pitch);
-                document.alpha.push(one_way.alpha);
-                document.q.push(one_way.q);
-                document.kappa.push(one_way.kappa.unwrap_or_default());
-                document.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
-                document.alpha_zigzag.push(zigzag);
+                found.pitch.push(pitch);
+                found.alpha.push(one_way.alpha);
+                found.q.push(one_way.q);
+                found.kappa.push(one_way.kappa.unwrap_or_default());
+                found.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
+                found.alpha_zigzag.push(zigzag);
             }
             // That nothing grows is an answer of the wider law.
             Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
@@ -59,7 +62,8 @@ pub(super) fn boundary(
         }
         progress.counted(n as f64 + 1.0, || format!("{} of {points} pitches", n + 1));
     }
-    document.remarks.extend(remark(&left_out));
+    let remarks = remark(&left_out).into_iter().collect();
+    let document: RasterBoundaryDocument = Document::new(parameters, found, remarks);
     job.finish(document.in_units(scales.as_ref()))
 }
 

@@ -12,7 +12,10 @@ use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
 use std::ops::ControlFlow;
 use std::time::Instant;
-use stickslip::{GridName, GridWork, Physical, RasterCompareDocument, RasterCompared};
+use stickslip::{
+    Document, GridName, GridWork, Physical, RasterCompareDocument, RasterCompareFound,
+    RasterCompareParameters, RasterCompared,
+};
 use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 
@@ -55,9 +58,11 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let motions = if is_asked { scanned.x0.iter().map(asked_for).collect() } else { scanned.steps };
     let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
-    let discretisation = (grid, spacing, tolerance, arguments.step);
-    let scanned = (&plan, lines.as_slice(), seconds);
-    let document = RasterCompareDocument::new(parameters, scanned, discretisation, compared);
+    let (grid_tolerance, step) = (tolerance, arguments.step);
+    let parameters =
+        RasterCompareParameters { raster: parameters, grid, spacing, grid_tolerance, step };
+    let found = RasterCompareFound::new((&plan, &lines, seconds), compared);
+    let document: RasterCompareDocument = Document::new(parameters, found, vec![]);
     job.finish(document.in_units(scales.as_ref()))
 }
 

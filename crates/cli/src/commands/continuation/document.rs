@@ -3,8 +3,8 @@
 use super::{Found, Origin};
 use crate::arguments::ContinueArguments;
 use stickslip::{
-    ContinueDocument, ContinueParameters, CycleBranch, ModelParameters, OverName, SpecialDocument,
-    TipDocument,
+    ContinueDocument, ContinueFound, ContinueParameters, CycleBranch, Document, ModelParameters,
+    OverName, SpecialDocument, TipDocument,
 };
 use stickslip_stability::trapping_alpha;
 
@@ -12,7 +12,7 @@ pub(super) fn of(
     arguments: &ContinueArguments,
     origin: &Origin,
     found: &[Found],
-    remarks: Vec<String>,
+    (remarks, interrupted): (Vec<String>, bool),
 ) -> ContinueDocument {
     let first = &found[0].branch.points[0];
     let counts = found.iter().map(|f| f.branch.special.len());
@@ -50,5 +50,7 @@ pub(super) fn of(
         OverName::Alpha => ratio * first.r,
         OverName::R => first.alpha / ratio,
     });
-    ContinueDocument::new(parameters, branches, special.collect(), trapping, remarks)
+    let special = special.collect();
+    let found = ContinueFound { branches, special, trapping, interrupted };
+    Document::new(parameters, found, remarks)
 }

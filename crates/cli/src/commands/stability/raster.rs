@@ -8,8 +8,8 @@ use crate::commands::job::Job;
 use crate::commands::model::{model_under, refused_wider, tip, wider};
 use crate::failure::{Failure, Typed};
 use stickslip::{
-    KnownScales, ModelParameters, PathName, Physical, RasterGrowth, RasterStabilityDocument,
-    RasterStabilityParameters,
+    Document, KnownScales, ModelParameters, PathName, Physical, RasterGrowth,
+    RasterStabilityDocument, RasterStabilityFound, RasterStabilityParameters,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
@@ -158,7 +158,11 @@ fn document(
     let is_below = |threshold: &Threshold| threshold.as_ref().map_or(true, |at| alpha < at.alpha);
     let stable = threshold.as_ref().filter(|_| is_given).map(is_below);
     let growth = (is_given && path != PathName::Zigzag).then(|| growth(&raster, path, alpha, band));
-    Ok(RasterStabilityDocument::new(parameters, critical, stable, growth, remarks))
+    Ok(Document::new(
+        parameters,
+        RasterStabilityFound { critical: critical.map(Into::into), stable, growth },
+        remarks,
+    ))
 }
 
 fn growth(raster: &Raster, path: PathName, alpha: f64, band: f64) -> RasterGrowth {

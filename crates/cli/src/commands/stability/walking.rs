@@ -7,7 +7,10 @@ use crate::commands::job::Job;
 use crate::commands::model::{refuse_endless_past, wide_model};
 use crate::commands::roots::{failed, judge_count, remarks};
 use crate::failure::{Failure, Typed};
-use stickslip::{ModelParameters, Physical, SolveFor, WalkingDocument, WalkingParameters};
+use stickslip::{
+    Document, ModelParameters, Physical, SolveFor, WalkDocument, WalkingDocument, WalkingFound,
+    WalkingParameters,
+};
 use stickslip_stability::{StabilityError, Walk, walk, walking_alpha, walking_speeds};
 use stickslip_tip::Model;
 
@@ -57,9 +60,9 @@ fn document(model: &Model, count: usize) -> Result<WalkingDocument, Failure> {
             Err(error) => said.push(format!("{name}: {error}")),
         }
     }
-    let walks: Vec<Walk> = found.into_iter().flatten().collect();
+    let walks = found.iter().flatten().map(WalkDocument::from).collect();
     let healing_time = model.wider().healing_time;
     let parameters = WalkingParameters { model: ModelParameters::of(model, None), roots: count };
-    let least = healing_time.map(|time| walking_alpha(model.tip(), time));
-    Ok(WalkingDocument::new(parameters, least, &walks, said))
+    let walking_alpha = healing_time.map(|time| walking_alpha(model.tip(), time));
+    Ok(Document::new(parameters, WalkingFound { walking_alpha, walks }, said))
 }

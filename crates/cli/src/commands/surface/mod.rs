@@ -15,7 +15,7 @@ use crate::files::input::{RunOrRaster, read_scanned};
 use image::Images;
 use places::Places;
 use stickslip::{
-    Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceParameters, Unusable,
+    Document, Physical, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceParameters, Unusable,
 };
 use stickslip_surface::Surface;
 use write::SurfaceFormat;
@@ -50,17 +50,20 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let job = format.job(arguments)?;
 
     let surface = Surface::new(&model, &initial, &trajectory);
-    let result = match &images {
+    let found = match &images {
         Some(images) => {
             images.warn();
-            let pictures = images.reconstruct(&surface, &places)?;
-            SurfaceDocument { images: pictures, ..empty(arguments, &document, Some(images)) }
+            let images = images.reconstruct(&surface, &places)?;
+            SurfaceFound { surfaces: vec![], images }
         }
-        None => {
-            let surfaces = curves(arguments, &surface, &places)?;
-            SurfaceDocument { surfaces, ..empty(arguments, &document, None) }
-        }
+        None => SurfaceFound { surfaces: curves(arguments, &surface, &places)?, images: vec![] },
     };
+    let parameters = SurfaceParameters {
+        model: document.parameters.model.clone(),
+        far_behind: arguments.far_behind,
+        across: images.as_ref().map(Images::parameters),
+    };
+    let result: SurfaceDocument = Document::new(parameters, found, vec![]);
     let result = result.in_units(scales.as_ref());
     match in_metres {
         None => job.finish(result),
@@ -81,17 +84,4 @@ fn curves(
         Ok(SurfaceCurve { t: *t, x: x.to_vec(), u })
     };
     places.t.iter().map(at).collect()
-}
-
-/// The document but for the surfaces.
-fn empty(
-    arguments: &SurfaceArguments,
-    run: &RunDocument,
-    images: Option<&Images>,
-) -> SurfaceDocument {
-    SurfaceDocument::new(SurfaceParameters {
-        model: run.parameters.model.clone(),
-        far_behind: arguments.far_behind,
-        across: images.map(Images::parameters),
-    })
 }

@@ -84,8 +84,13 @@ macro_rules! by_fields {
         const FORMAT: &'static str = Self::FORMAT;
 
         fn held(&mut self) -> Held<'_, $point> {
-            let Self { parameters, points, arithmetic, crc32, .. } = self;
-            Held { shard: &mut parameters.shard, points, arithmetic, crc32 }
+            let found = &mut self.answer;
+            Held {
+                shard: &mut self.parameters.shard,
+                points: &mut found.points,
+                arithmetic: &mut found.arithmetic,
+                crc32: &mut found.crc32,
+            }
         }
 
         fn points(&self) -> &[$point] {
@@ -117,9 +122,9 @@ impl Divided for SweepDocument {
         self.parameters.velocity()
     }
 
-    fn told_together(self) -> Self {
-        let ensembles = EnsembleDocument::all(&self.parameters, &self.points);
-        Self { ensembles, ..self }
+    fn told_together(mut self) -> Self {
+        self.ensembles = EnsembleDocument::all(&self.parameters, &self.points);
+        self
     }
 
     fn judge_picture(&self) -> Result<(), FigureError> {

@@ -13,7 +13,10 @@ use crate::commands::job::{Job, judge_places};
 use crate::commands::model::{tip, wider};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
-use stickslip::{PathName, Physical, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint};
+use stickslip::{
+    Document, PathName, Physical, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
+    RasterSweepPoint,
+};
 use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
@@ -59,7 +62,8 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
     let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
     let points = finished.in_order();
-    let document = RasterSweepDocument::new(grid.parameters, points, Some(arithmetic()));
+    let found = RasterSweepFound { points, arithmetic: Some(arithmetic()), crc32: None };
+    let document: RasterSweepDocument = Document::new(grid.parameters, found, vec![]);
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;
     finished.remove();
     Ok(())

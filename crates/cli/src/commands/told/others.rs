@@ -2,7 +2,7 @@
 
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;
-use stickslip::{CompareDocument, SurfaceDocument, UnitsDocument};
+use stickslip::{CompareDocument, CompareFound, SurfaceDocument, UnitsDocument};
 
 impl Product for SurfaceDocument {
     fn told(&self) -> Told {
@@ -33,7 +33,7 @@ impl Product for SurfaceDocument {
 
 impl Product for CompareDocument {
     fn told(&self) -> Told {
-        let Self { closed, grid, max_difference, speedup, .. } = self;
+        let CompareFound { closed, grid, max_difference, speedup, .. } = &self.answer;
         let told = Told::new(format!(
             "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
              {} times as fast per unit of time",

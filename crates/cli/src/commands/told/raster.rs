@@ -3,8 +3,8 @@
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;
 use stickslip::{
-    HeightMap, PatternDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    HeightMap, PatternDocument, RasterBoundaryDocument, RasterCompareDocument, RasterCompareFound,
+    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
 };
 
 impl Product for RasterDocument {
@@ -87,7 +87,8 @@ impl Product for RasterBoundaryDocument {
 
 impl Product for RasterCompareDocument {
     fn told(&self) -> Told {
-        let Self { closed_work, grid_work, max_difference, speedup, lines, .. } = self;
+        let RasterCompareFound { closed_work, grid_work, max_difference, speedup, lines, .. } =
+            &self.answer;
         let [closed, grid] = [closed_work.seconds, grid_work.seconds].map(|s| 1e3 * s);
         let told = Told::new(format!(
             "{} lines: largest difference {:.1e} in x0, {:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \

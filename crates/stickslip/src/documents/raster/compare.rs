@@ -2,7 +2,7 @@
 
 use super::RasterParameters;
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{DifferenceDocument, FORMAT_VERSION, GridName, GridWork, InUnits, Software};
+use crate::{DifferenceDocument, Document, GridName, GridWork, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
@@ -11,15 +11,7 @@ use stickslip_raster::{Line, Plan, Scanned};
 /// the start of each line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RasterCompareDocument {
-    /// "stickslip/raster-compare"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// What was asked for.
-    pub parameters: RasterCompareParameters,
+pub struct RasterCompareFound {
     /// The lines in the order in which they were scanned.
     pub lines: Vec<ComparedLine>,
     /// Positions of the surfaces below, which are those after the last line, in σ.
@@ -38,9 +30,14 @@ pub struct RasterCompareDocument {
     pub grid_work: GridWork,
     /// Seconds of the grid over seconds of the closed equation. It differs from run to run, as `seconds` do.
     pub speedup: f64,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
+}
+
+/// The document of that.
+pub type RasterCompareDocument = Document<RasterCompareParameters>;
+
+impl Question for RasterCompareParameters {
+    const FORMAT: &'static str = "stickslip/raster-compare";
+    type Answer = RasterCompareFound;
 }
 
 /// What was asked for.
@@ -101,19 +98,10 @@ pub struct RasterCompared {
     pub work: GridWork,
 }
 
-impl RasterCompareDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/raster-compare";
-
-    /// Of a plan, its lines and the seconds they took; of a grid, its spacing, a tolerance or a step, and what became of
-    /// these.
+impl RasterCompareFound {
+    /// Of a plan, its lines and the seconds they took, and of what the grid made of it.
     #[must_use]
-    pub fn new(
-        raster: RasterParameters,
-        (plan, lines, seconds): (&Plan, &[Line], f64),
-        (name, spacing, grid_tolerance, step): (GridName, f64, Option<f64>, Option<f64>),
-        grid: RasterCompared,
-    ) -> Self {
+    pub fn new((plan, lines, seconds): (&Plan, &[Line], f64), grid: RasterCompared) -> Self {
         let compared = |(line, motion): (&Line, &Vec<(f64, f64)>)| {
             let (t, grid_x0): (Vec<f64>, Vec<f64>) = motion.iter().copied().unzip();
             let closed_x0 = t.iter().map(|t| line.x0(*t)).collect();
@@ -129,17 +117,6 @@ impl RasterCompareDocument {
         };
         let total = |of: fn(&Line) -> u64| lines.iter().map(of).sum();
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters: RasterCompareParameters {
-                raster,
-                grid: name,
-                spacing,
-                grid_tolerance,
-                step,
-            },
             lines: compared,
             x: grid.x,
             y: grid.y,
@@ -164,7 +141,7 @@ fn largest<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }
 
-impl Tabular for RasterCompareDocument {
+impl Tabular for RasterCompareFound {
     /// Both motions, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&ComparedLine) -> &Vec<f64>| -> Column {
@@ -192,9 +169,5 @@ impl Tabular for RasterCompareDocument {
             ("grid_u", Array::matrix(&self.grid_u)),
         ]);
         arrays
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

@@ -8,14 +8,14 @@ mod pattern;
 mod sweep;
 
 pub use compare::{
-    ComparedLine, RasterCompareDocument, RasterCompareParameters, RasterCompared,
-    RasterComparedWork,
+    ComparedLine, RasterCompareDocument, RasterCompareFound, RasterCompareParameters,
+    RasterCompared, RasterComparedWork,
 };
 pub use heights::{HeightMap, RasterSurfaceDocument};
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
 pub use parameters::{AreaDocument, PathName, RasterParameters};
 pub use pattern::{PatternDocument, RasterRegimeName};
-pub use sweep::{RasterSweepDocument, RasterSweepParameters, RasterSweepPoint};
+pub use sweep::{RasterSweepDocument, RasterSweepFound, RasterSweepParameters, RasterSweepPoint};
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{FORMAT_VERSION, InUnits, Software, Unusable};

@@ -2,7 +2,7 @@
 
 use super::{PathName, RasterRegimeName};
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, PatternDocument, ShardDocument, Software, TipDocument};
+use crate::{Document, PatternDocument, Question, ShardDocument, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;
@@ -10,15 +10,7 @@ use stickslip_raster::Written;
 /// The pattern that a raster writes, over a grid of pitch and α. Lengths in σ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RasterSweepDocument {
-    /// "stickslip/raster-sweep"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// The grid.
-    pub parameters: RasterSweepParameters,
+pub struct RasterSweepFound {
     /// The points, by rising index.
     pub points: Vec<RasterSweepPoint>,
     /// How the machine that computed the points rounds, as for `stickslip/sweep`.
@@ -27,32 +19,14 @@ pub struct RasterSweepDocument {
     /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
     #[serde(default)]
     pub crc32: Option<u32>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl RasterSweepDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/raster-sweep";
+/// The document of that.
+pub type RasterSweepDocument = Document<RasterSweepParameters>;
 
-    /// These points, as a machine that rounds like this found them; to be sealed.
-    pub fn new(
-        parameters: RasterSweepParameters,
-        points: Vec<RasterSweepPoint>,
-        arithmetic: Option<String>,
-    ) -> Self {
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            points,
-            arithmetic,
-            crc32: None,
-        }
-    }
+impl Question for RasterSweepParameters {
+    const FORMAT: &'static str = "stickslip/raster-sweep";
+    type Answer = RasterSweepFound;
 }
 
 /// Pitches times α, the last varying fastest, and what they share.
@@ -160,7 +134,7 @@ impl RasterSweepPoint {
     }
 }
 
-impl Tabular for RasterSweepDocument {
+impl Tabular for RasterSweepFound {
     /// A row for each point.
     fn columns(&self) -> Vec<Named<'_>> {
         let of = |value: fn(&RasterSweepPoint) -> Option<f64>| -> Column {
@@ -190,9 +164,5 @@ impl Tabular for RasterSweepDocument {
             ("defects", pattern(|p| Some(p.defects as f64))),
             ("stuck_lines", of(|point| point.stuck_lines.map(|lines| lines as f64))),
         ]
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

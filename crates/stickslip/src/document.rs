@@ -1,0 +1,204 @@
+//! The envelope of a document: what was asked, who answered, the answer, and remarks on it.
+
+use crate::documents::table::{Array, Named, Tabular};
+use crate::{FORMAT_VERSION, InUnits, Physical, Software};
+use schemars::JsonSchema;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeOwned, DeserializeSeed, Error, IntoDeserializer, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt::{self, Debug};
+use std::marker::PhantomData;
+use std::ops::{Deref, DerefMut};
+
+/// The parameters of a document: what was asked.
+pub trait Question:
+    Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
+{
+    /// Format of its documents: `stickslip/` and the name that `stickslip schema` knows it by.
+    const FORMAT: &'static str;
+    /// The result, whose fields stand in the document beside its envelope.
+    type Answer: Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static;
+}
+
+/// A question and its answer, as they are saved. The fields of the answer stand beside those of the envelope.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(bound = "")]
+#[schemars(rename = "Document", deny_unknown_fields)]
+pub struct Document<Q: Question> {
+    /// "stickslip/" and the name of the question.
+    pub format: String,
+    /// 1
+    pub format_version: u32,
+    /// The program that wrote it.
+    pub software: Software,
+    /// The question.
+    pub parameters: Q,
+    /// The answer.
+    #[serde(flatten)]
+    pub answer: Q::Answer,
+    /// What a reader should know, such as values that are left out; empty if there is nothing.
+    #[serde(default)]
+    pub remarks: Vec<String>,
+    /// Its numbers in nm, s and nN, where scales were given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub physical: Option<InUnits>,
+}
+
+impl<Q: Question> Document<Q> {
+    /// Its `format`.
+    pub const FORMAT: &'static str = Q::FORMAT;
+
+    /// Question and answer as this program writes them.
+    pub fn new(parameters: Q, answer: Q::Answer, remarks: Vec<String>) -> Self {
+        let (format, software) = (Q::FORMAT.into(), Software::this());
+        let format_version = FORMAT_VERSION;
+        Self { format, format_version, software, parameters, answer, remarks, physical: None }
+    }
+}
+
+/// A document is read as its answer.
+impl<Q: Question> Deref for Document<Q> {
+    type Target = Q::Answer;
+
+    fn deref(&self) -> &Q::Answer {
+        &self.answer
+    }
+}
+
+impl<Q: Question> DerefMut for Document<Q> {
+    fn deref_mut(&mut self) -> &mut Q::Answer {
+        &mut self.answer
+    }
+}
+
+impl<Q: Question> Physical for Document<Q> {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
+    }
+}
+
+impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
+    fn columns(&self) -> Vec<Named<'_>> {
+        self.answer.columns()
+    }
+
+    fn note(&self) -> Option<String> {
+        self.answer.note()
+    }
+
+    fn physical(&self) -> Option<&InUnits> {
+        self.physical.as_ref()
+    }
+
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        self.answer.arrays()
+    }
+}
+
+/// The fields of the envelope, as far as they have been read.
+struct Envelope<Q> {
+    format: Option<String>,
+    format_version: Option<u32>,
+    software: Option<Software>,
+    parameters: Option<Q>,
+    remarks: Option<Vec<String>>,
+    physical: Option<Option<InUnits>>,
+}
+
+impl<'de, Q: Question> Envelope<Q> {
+    /// Reads the value of a key of the envelope; gives back any other key.
+    fn take<M: MapAccess<'de>>(
+        &mut self,
+        key: String,
+        map: &mut M,
+    ) -> Result<Option<String>, M::Error> {
+        match key.as_str() {
+            "format" => once(&mut self.format, "format", map)?,
+            "format_version" => once(&mut self.format_version, "format_version", map)?,
+            "software" => once(&mut self.software, "software", map)?,
+            "parameters" => once(&mut self.parameters, "parameters", map)?,
+            "remarks" => once(&mut self.remarks, "remarks", map)?,
+            "physical" => once(&mut self.physical, "physical", map)?,
+            _ => return Ok(Some(key)),
+        }
+        Ok(None)
+    }
+}
+
+fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
+    place: &mut Option<T>,
+    name: &'static str,
+    map: &mut M,
+) -> Result<(), M::Error> {
+    if place.is_some() {
+        return Err(M::Error::duplicate_field(name));
+    }
+    *place = Some(map.next_value()?);
+    Ok(())
+}
+
+/// A map without the fields of the envelope, which are put aside: `#[serde(flatten)]` would copy all that a document holds
+/// once more.
+struct Rest<'a, M, Q> {
+    map: M,
+    envelope: &'a mut Envelope<Q>,
+}
+
+impl<'de, M: MapAccess<'de>, Q: Question> MapAccess<'de> for Rest<'_, M, Q> {
+    type Error = M::Error;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, M::Error> {
+        while let Some(key) = self.map.next_key::<String>()? {
+            if let Some(key) = self.envelope.take(key, &mut self.map)? {
+                return seed.deserialize(key.into_deserializer()).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, M::Error> {
+        self.map.next_value_seed(seed)
+    }
+}
+
+struct Whole<Q>(PhantomData<Q>);
+
+impl<'de, Q: Question> Visitor<'de> for Whole<Q> {
+    type Value = Document<Q>;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "a document \"{}\"", Q::FORMAT)
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Document<Q>, M::Error> {
+        let mut envelope = Envelope {
+            format: None,
+            format_version: None,
+            software: None,
+            parameters: None,
+            remarks: None,
+            physical: None,
+        };
+        let rest = Rest { map, envelope: &mut envelope };
+        let answer = Q::Answer::deserialize(MapAccessDeserializer::new(rest))?;
+        let missing = M::Error::missing_field;
+        Ok(Document {
+            format: envelope.format.ok_or_else(|| missing("format"))?,
+            format_version: envelope.format_version.ok_or_else(|| missing("format_version"))?,
+            software: envelope.software.ok_or_else(|| missing("software"))?,
+            parameters: envelope.parameters.ok_or_else(|| missing("parameters"))?,
+            answer,
+            remarks: envelope.remarks.unwrap_or_default(),
+            physical: envelope.physical.flatten(),
+        })
+    }
+}
+
+impl<'de, Q: Question> Deserialize<'de> for Document<Q> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Whole(PhantomData))
+    }
+}

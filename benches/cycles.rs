@@ -5,14 +5,14 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use stickslip_cycles::{Continuation, DEFAULT_TOLERANCE, cycle};
 use stickslip_stability::critical;
-use stickslip_tip::{Model, TipFunction};
+use stickslip_tip::{Model, TipFunction, Wider};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).expect("a valid tip")
 }
 
 fn from_nothing(criterion: &mut Criterion) {
-    let onset = critical(&tip(), 1.0).expect("a critical point").alpha;
+    let onset = critical(&Wider::default(), &tip(), 1.0).expect("a critical point").alpha;
     let mut group = criterion.benchmark_group("cycles/from-nothing");
     group.sample_size(20);
     for (name, alpha) in [

@@ -418,10 +418,10 @@ fn spacing(band: f64) -> f64 {
 fn critical_points_and_thresholds() {
     let narrow = TipFunction::gaussian(std::f64::consts::FRAC_1_SQRT_2).unwrap();
     let at = |label: &str, tip: &TipFunction| {
-        let at = critical(tip, 1.0).unwrap();
+        let at = critical(&Wider::default(), tip, 1.0).unwrap();
         format!("| {label} | 1 | {:.12} | {:.12} |", at.alpha, at.omega)
     };
-    let slowest = critical_r(&triple(1.0), 1.0).unwrap();
+    let slowest = critical_r(&Wider::default(), &triple(1.0), 1.0).unwrap();
     let trapping = |label: &str, beta: f64| {
         let threshold = trapping_alpha(&triple(beta), 1.0).unwrap();
         // At the threshold both rates are one: from just above it.
@@ -446,7 +446,7 @@ fn critical_points_and_thresholds() {
             trapping("$e^{-x^2/2}$", 0.0),
         ],
     );
-    let single = critical(&triple(0.0), 1.0).unwrap().alpha;
+    let single = critical(&Wider::default(), &triple(0.0), 1.0).unwrap().alpha;
     let rows = [0.5, 1.0, 2.0].map(|pitch| {
         let footprint = Footprint::separable(triple(0.0), 1.0).unwrap();
         let raster = Raster::new(&footprint, Wider::default(), (1.0, pitch), 1.0).unwrap();
@@ -481,7 +481,7 @@ fn critical_points_and_thresholds() {
 
 #[test]
 fn the_limit_cycle_of_the_readme() {
-    let alpha = critical(&triple(1.0), 1.0).unwrap().alpha + 0.01;
+    let alpha = critical(&Wider::default(), &triple(1.0), 1.0).unwrap().alpha + 0.01;
     let found = cycle(&Model::new(triple(1.0), alpha, 1.0).unwrap(), DEFAULT_TOLERANCE).unwrap();
     says(
         "README.md",

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Output;
 use stickslip_stability::{critical, onset, trapping_alpha};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 fn stickslip(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("stickslip").unwrap().args(arguments).output().unwrap()
@@ -66,7 +66,8 @@ pub(super) fn triple() -> TipFunction {
 #[test]
 fn without_alpha_the_roots_are_those_of_the_critical_point() {
     let found = document("stability --r 1");
-    let (at, born) = (critical(&triple(), 1.0).unwrap(), onset(&triple(), 1.0).unwrap());
+    let (at, born) =
+        (critical(&Wider::default(), &triple(), 1.0).unwrap(), onset(&triple(), 1.0).unwrap());
     close(&found["critical"]["alpha"], at.alpha, 0.0);
     close(&found["critical"]["omega"], at.omega, 0.0);
     close(&found["critical"]["period"], at.period, 0.0);
@@ -143,7 +144,10 @@ fn a_boundary_is_the_critical_alpha_of_every_r() {
     assert_eq!(r.len(), 7);
     assert!((r[0] - 0.05).abs() < 1e-16 && (r[6] - 3.0).abs() < 1e-16);
     for i in 0..7 {
-        let (at, born) = (critical(&triple(), r[i]).unwrap(), onset(&triple(), r[i]).unwrap());
+        let (at, born) = (
+            critical(&Wider::default(), &triple(), r[i]).unwrap(),
+            onset(&triple(), r[i]).unwrap(),
+        );
         assert!((alpha[i] / at.alpha - 1.0).abs() < 1e-13);
         close(&found["Omega"][i], at.omega / r[i], 1e-13);
         let slope = &found["onset"]["amplitude_squared_slope"][i];
@@ -165,7 +169,10 @@ fn further_crossings_are_branches_above_the_boundary() {
     for branch in branches {
         assert!(numbers(&branch["Omega"]).is_sorted());
         for (r, alpha) in numbers(&branch["r"]).iter().zip(numbers(&branch["alpha"])) {
-            assert!(alpha >= critical(&tip, *r).unwrap().alpha * (1.0 - 1e-9), "{r} {alpha}");
+            assert!(
+                alpha >= critical(&Wider::default(), &tip, *r).unwrap().alpha * (1.0 - 1e-9),
+                "{r} {alpha}"
+            );
         }
     }
     assert_eq!(document("boundary --r-range 0.01,2")["branches"].as_array().unwrap().len(), 1);

@@ -2,6 +2,7 @@
 
 use super::stability_commands::{close, document, triple};
 use stickslip_stability::critical;
+use stickslip_tip::Wider;
 
 pub(super) const GIVEN: &str =
     "--damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN";
@@ -14,7 +15,7 @@ fn units_go_there_and_back() {
     close(&there["alpha"], 1.2, 1e-14);
     close(&there["lag"]["metres"], 20e-9 * (1.0 + 1.2 * triple().value(0.0)), 1e-14);
     close(&there["scales"]["time"], 0.02, 1e-14);
-    let at = critical(&triple(), 1.0).unwrap();
+    let at = critical(&Wider::default(), &triple(), 1.0).unwrap();
     close(&there["critical"]["indentation_rate"], 200e-9 * at.alpha, 1e-13);
     close(&there["critical"]["period"], 0.02 * at.period, 1e-13);
     assert_eq!(there["stable"], false);
@@ -26,7 +27,11 @@ fn units_go_there_and_back() {
     // The critical velocity, put in, is critical.
     let velocity = there["critical"]["velocity"].as_f64().unwrap();
     let slow = document(&format!("units {GIVEN} --N 240nm/s --v0 {velocity:e}m/s"));
-    close(&slow["alpha"], critical(&triple(), slow["r"].as_f64().unwrap()).unwrap().alpha, 1e-11);
+    close(
+        &slow["alpha"],
+        critical(&Wider::default(), &triple(), slow["r"].as_f64().unwrap()).unwrap().alpha,
+        1e-11,
+    );
     // Short names are the same, and one number may stand for one quantity.
     let short =
         "units --gamma 1e-3kg/s --k 0.05N/m --sigma 2e-8m --a 5e-9N --v0 1e-6m/s --alpha 1.2";

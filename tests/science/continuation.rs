@@ -12,7 +12,7 @@ use stickslip_cycles::{
 };
 use stickslip_outcome::{Regime, run_and_judge};
 use stickslip_stability::{critical, critical_r};
-use stickslip_tip::{Gaussian, Model, Scenario, TipFunction};
+use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, Wider};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
@@ -130,8 +130,8 @@ fn a_branch_followed_back_ends_at_the_critical_point() {
         assert_eq!(back.end, End::Steady);
         let hopf = &of_kind(&back, SpecialKind::Hopf)[0];
         let known = match over {
-            Parameter::Alpha => critical(&tip(), 1.0).unwrap(),
-            Parameter::R => critical_r(&tip(), 1.2).unwrap(),
+            Parameter::Alpha => critical(&Wider::default(), &tip(), 1.0).unwrap(),
+            Parameter::R => critical_r(&Wider::default(), &tip(), 1.2).unwrap(),
         };
         judge("α", hopf.alpha - known.alpha, 1e-8);
         judge("r", hopf.r - known.r, 1e-8);
@@ -145,7 +145,7 @@ fn a_branch_goes_through_its_fold() {
     let term = |width| Gaussian { amplitude: 1.0, center: 0.0, width };
     let broad = TipFunction::gaussian_sum(vec![term(1.0), term(3.0)]).unwrap();
     let settings = Continuation { to: 1.69, tolerance: 1e-7, ..Continuation::default() };
-    let born = critical(&broad, 1.0).unwrap();
+    let born = critical(&Wider::default(), &broad, 1.0).unwrap();
     let found = settings.from_onset(&broad, 1.0, on).unwrap();
     assert_eq!(found.end, End::Reached);
     let folds = of_kind(&found, SpecialKind::Fold);

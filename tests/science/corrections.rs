@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::num::NonZeroUsize;
 use stickslip_outcome::{Regime, run_and_judge};
 use stickslip_stability::{critical, critical_r, leading_roots, roots};
-use stickslip_tip::{InitialSurface, Model, Noise, Run, Scenario, Start, TipFunction, run};
+use stickslip_tip::{InitialSurface, Model, Noise, Run, Scenario, Start, TipFunction, Wider, run};
 
 /// Printed numbers are rounded to the third digit after the point.
 const ROUNDED: f64 = 5.1e-4;
@@ -108,11 +108,12 @@ fn steady_motion_lags_by_alpha_times_f_at_0_over_r() {
 
 #[test]
 fn the_numbers_printed_for_beta_0_are_those_of_exp_of_minus_x_squared() {
-    let narrow = critical(&TipFunction::gaussian(FRAC_1_SQRT_2).unwrap(), 1.0).unwrap();
+    let narrow =
+        critical(&Wider::default(), &TipFunction::gaussian(FRAC_1_SQRT_2).unwrap(), 1.0).unwrap();
     assert!((narrow.alpha - reference("critical.narrow_gaussian.r_1.0.alpha")).abs() < 1e-12);
     assert!((narrow.omega - reference("critical.narrow_gaussian.r_1.0.omega")).abs() < 1e-12);
     assert!((narrow.alpha - 1.608).abs() < ROUNDED && (narrow.omega - 0.934).abs() < ROUNDED);
-    let of_48 = critical(&triple(0.0), 1.0).unwrap();
+    let of_48 = critical(&Wider::default(), &triple(0.0), 1.0).unwrap();
     assert!((of_48.alpha - reference("critical.gaussian.r_1.0.alpha")).abs() < 1e-12);
     assert!((of_48.omega - reference("critical.gaussian.r_1.0.omega")).abs() < 1e-12);
     assert!((of_48.alpha - 1.608).abs() > 0.2 && (of_48.omega - 0.934).abs() > 0.1);
@@ -120,7 +121,8 @@ fn the_numbers_printed_for_beta_0_are_those_of_exp_of_minus_x_squared() {
 
 #[test]
 fn the_wavelength_printed_for_beta_0_comes_from_a_rounded_omega() {
-    let narrow = critical(&TipFunction::gaussian(FRAC_1_SQRT_2).unwrap(), 1.0).unwrap();
+    let narrow =
+        critical(&Wider::default(), &TipFunction::gaussian(FRAC_1_SQRT_2).unwrap(), 1.0).unwrap();
     assert!((2.0 * PI / 0.934 - 6.727).abs() < ROUNDED);
     assert!((narrow.wavelength - 6.725).abs() < ROUNDED);
     assert!((narrow.wavelength - 6.727).abs() > 2.0 * ROUNDED);
@@ -128,7 +130,7 @@ fn the_wavelength_printed_for_beta_0_comes_from_a_rounded_omega() {
 
 #[test]
 fn the_period_printed_for_alpha_1_is_the_wavelength() {
-    let at = critical_r(&triple(1.0), 1.0).unwrap();
+    let at = critical_r(&Wider::default(), &triple(1.0), 1.0).unwrap();
     let name = |what| reference(&format!("critical.triple_gaussian.alpha_1.{what}"));
     assert!((at.r - name("r")).abs() < 1e-12 && (at.omega - name("omega")).abs() < 1e-12);
     let scenario =
@@ -144,7 +146,7 @@ fn the_period_printed_for_alpha_1_is_the_wavelength() {
 fn the_omega_of_the_bessel_example_is_a_wave_number() {
     let r = 2.0;
     let printed = ((f64::sqrt(1.0 + 4.0 * r * r) - 1.0) / (2.0 * r * r)).sqrt(); // (47)
-    let at = critical(&TipFunction::Bessel, r).unwrap();
+    let at = critical(&Wider::default(), &TipFunction::Bessel, r).unwrap();
     assert!((at.alpha - r * r).abs() < 1e-14);
     assert!((at.omega - reference("critical.bessel.r_2.0.omega")).abs() < 1e-14);
     assert!((at.omega - r * printed).abs() < 1e-14);
@@ -193,7 +195,7 @@ fn the_volume_is_compressed_at_a_rate_with_a_factor_root_two_pi() {
 
 #[test]
 fn stability_is_lost_at_an_alpha_of_1_069_and_not_that_far_above() {
-    let at = critical(&triple(1.0), 1.0).unwrap();
+    let at = critical(&Wider::default(), &triple(1.0), 1.0).unwrap();
     assert!((at.alpha - reference("critical.triple_gaussian.r_1.0.alpha")).abs() < 1e-12);
     let grown = |alpha: f64| {
         let scenario =
@@ -252,7 +254,7 @@ fn with_depth_limited_indentation_the_pair_of_position_and_rate_is_closed() {
 
 #[test]
 fn the_steady_surface_of_the_triple_gaussian_is_not_flat_under_the_tip() {
-    let alpha = critical(&triple(1.0), 1.0).unwrap().alpha - 0.01;
+    let alpha = critical(&Wider::default(), &triple(1.0), 1.0).unwrap().alpha - 0.01;
     let steady = Scenario::new(model(triple(1.0), alpha, 1.0), 50.0);
     let surface = steady.initial_surface().unwrap();
     let largest = (0..2800).map(|i| surface.height(0.01 * f64::from(i)).abs()).fold(0.0, f64::max);
@@ -374,7 +376,7 @@ fn a_tip_whose_footprint_rises_beside_its_line_snakes() {
     let threshold = r * r * low / phi(low).im;
     // The same from a prototype of two coordinates that shares no code with this.
     assert!((threshold - 0.830_541_012_7).abs() < 1e-9, "{threshold}");
-    assert!(threshold < critical(&triple(1.0), r).unwrap().alpha);
+    assert!(threshold < critical(&Wider::default(), &triple(1.0), r).unwrap().alpha);
     let swing = |part: f64| {
         swing_across(&model(triple(1.0), part * threshold, r), stiffness, |_| 0.0, 150.0)
     };

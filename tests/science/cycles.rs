@@ -47,7 +47,7 @@ fn reference(name: &str) -> f64 {
 
 #[test]
 fn the_cycle_just_above_onset_is_the_one_known_to_30_digits() {
-    let at = critical(&tip(1.0), 1.0).unwrap();
+    let at = critical(&Wider::default(), &tip(1.0), 1.0).unwrap();
     let cycle = found((1.0, at.alpha + 0.01, 1.0));
     let judge = Acceptance { floor: 1e-11, slack: 0.0 };
     let of =
@@ -61,7 +61,8 @@ fn the_cycle_just_above_onset_is_the_one_known_to_30_digits() {
 /// either end of the period.
 #[test]
 fn a_cycle_that_begins_with_a_minimum_has_no_slip_more() {
-    let small = found((1.0, critical(&tip(1.0), 1.0).unwrap().alpha + 0.01, 1.0));
+    let small =
+        found((1.0, critical(&Wider::default(), &tip(1.0), 1.0).unwrap().alpha + 0.01, 1.0));
     let turned = cycle_near(&model(1.0, 1.1, 1.0), small.motion(), DEFAULT_TOLERANCE).unwrap();
     let (lowest, highest) = turned.extremes();
     assert!(turned.motion().l(0.0) < lowest + 1e-9 && highest > lowest + 0.6);
@@ -251,7 +252,7 @@ fn at_onset_the_cycle_is_that_of_the_leading_order() {
 
 #[test]
 fn below_onset_there_is_no_small_cycle() {
-    let at = critical(&tip(1.0), 1.0).unwrap();
+    let at = critical(&Wider::default(), &tip(1.0), 1.0).unwrap();
     for below in [1e-6, 0.1] {
         let refused = cycle(&model(1.0, at.alpha - below, 1.0), DEFAULT_TOLERANCE).unwrap_err();
         assert!(matches!(refused, CycleError::NoSmallCycle { .. }), "{refused}");
@@ -337,7 +338,7 @@ fn errors_hold_whatever_tolerance_is_asked() {
     let mut terms = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
     terms.extend([lobe(0.3, 2.3, 0.5), lobe(-0.5, 2.5, 0.2)].into_iter().flatten());
     let troughs = TipFunction::gaussian_sum(terms).unwrap();
-    let onset = critical(&troughs, 1.0).unwrap().alpha;
+    let onset = critical(&Wider::default(), &troughs, 1.0).unwrap().alpha;
     let cases = [
         Model::new(troughs, 1.05 * onset, 1.0).unwrap(),
         Model::new(TipFunction::gaussian(1.0).unwrap(), 2.6, 1.0).unwrap(),

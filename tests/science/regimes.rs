@@ -8,14 +8,16 @@ use stickslip_outcome::{Regime, run_and_judge};
 use stickslip_stability::critical;
 use stickslip_tip::memory::MemoryChoice;
 use stickslip_tip::motion::{Oscillation, latest_extrema};
-use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, run};
+use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, Wider, run};
 
 fn triple(beta: f64, alpha: f64) -> Model {
     Model::new(TipFunction::triple_gaussian(beta, 1.0).unwrap(), alpha, 1.0).unwrap()
 }
 
 fn critical_alpha() -> f64 {
-    critical(&TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.0).unwrap().alpha
+    critical(&Wider::default(), &TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.0)
+        .unwrap()
+        .alpha
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use crate::acceptance::Acceptance;
 use stickslip_cycles::{DEFAULT_TOLERANCE, Measured, Parameter, scaling};
 use stickslip_stability::{critical_r, onset};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
@@ -35,7 +35,7 @@ fn at_onset_the_slopes_are_those_of_the_amplitude_equation() {
 
 #[test]
 fn cycles_and_runs_obey_the_same_laws() {
-    let rc = critical_r(&tip(), 1.0).unwrap().r;
+    let rc = critical_r(&Wider::default(), &tip(), 1.0).unwrap().r;
     let alpha = (Parameter::Alpha, 1.0, [0.004, 0.008, 0.012, 0.016]);
     let r = (Parameter::R, 1.0, [-0.004, -0.008, -0.012, -0.016]);
     for (over, other, distances) in [alpha, r] {

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 use stickslip_stability::{critical, leading_roots, onset, response};
-use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, run};
+use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, Wider, run};
 
 pub(crate) fn triple(beta: f64) -> TipFunction {
     TipFunction::triple_gaussian(beta, 1.0).unwrap()
@@ -23,7 +23,7 @@ fn apex() -> TipFunction {
 }
 
 fn model_above(tip: &TipFunction, r: f64, above: f64) -> Model {
-    let alpha = critical(tip, r).unwrap().alpha + above;
+    let alpha = critical(&Wider::default(), tip, r).unwrap().alpha + above;
     Model::new(tip.clone(), alpha, r).unwrap()
 }
 
@@ -55,7 +55,8 @@ fn leading_roots_are_the_exponents_fitted_to_runs_on_both_sides_of_the_boundary(
     let mut worst = 0.0_f64;
     for (tip, r) in [(triple(1.0), 1.0), (apex(), 0.7)] {
         for above in [-0.03, 0.03] {
-            let model = model_above(&tip, r, above * critical(&tip, r).unwrap().alpha);
+            let model =
+                model_above(&tip, r, above * critical(&Wider::default(), &tip, r).unwrap().alpha);
             let (up, down) = (kicked(&model, KICK, 140.0), kicked(&model, -KICK, 140.0));
             // A tenth of the period or so, and a hundred time units of it.
             let dt = 0.6;
@@ -73,7 +74,7 @@ fn leading_roots_are_the_exponents_fitted_to_runs_on_both_sides_of_the_boundary(
             assert!(root.re * above > 1e-4, "the sides differ: {root}");
             worst = worst.max((fitted.0 - root.re).hypot(fitted.1 - root.im));
             // Negative control: the critical frequency is not the one fitted.
-            assert!((fitted.1 - critical(&tip, r).unwrap().omega).abs() > 1e-4);
+            assert!((fitted.1 - critical(&Wider::default(), &tip, r).unwrap().omega).abs() > 1e-4);
         }
     }
     println!("worst {worst:.1e} of 1e-7");

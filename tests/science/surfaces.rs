@@ -8,7 +8,9 @@ use std::num::NonZeroUsize;
 use stickslip_outcome::judge_trajectory;
 use stickslip_stability::critical;
 use stickslip_surface::{Method, Surface, carved_by, ripple_behind, steady_profile};
-use stickslip_tip::{InitialSurface, Model, Run, Scenario, Start, TipFunction, Trajectory, run};
+use stickslip_tip::{
+    InitialSurface, Model, Run, Scenario, Start, TipFunction, Trajectory, Wider, run,
+};
 
 /// Heights are of order one.
 const HEIGHT: Acceptance = Acceptance { floor: 5e-13, slack: 1.0 };
@@ -121,7 +123,7 @@ fn the_volume_falls_at_the_rate_that_the_footprint_demands() {
 fn ripple_and_tip_amplitudes_are_tied_at_onset() {
     let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
     for r in [1.0, 0.6] {
-        let c = critical(&tip, r).unwrap();
+        let c = critical(&Wider::default(), &tip, r).unwrap();
         let q = c.omega / r;
         let exact = c.alpha / r * q * tip.fourier(q).abs();
         let ratio = |above: f64, until: f64| {

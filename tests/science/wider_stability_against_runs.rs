@@ -2,7 +2,7 @@
 //! a pulse. Runs from kicks or pulses of either sign have a half difference free of even orders.
 
 use crate::stability_against_runs::{fitted_exponent, triple};
-use stickslip_stability::{critical, critical_under, leading_roots, response};
+use stickslip_stability::{critical, leading_roots, response};
 use stickslip_tip::{Force, Model, Pulse, Scenario, TipFunction, Trajectory, Wider, run};
 
 /// Each extension by itself and all of them, with the tip and r.
@@ -38,7 +38,7 @@ fn leading_roots_are_the_exponents_fitted_to_runs_on_both_sides_of_onset() {
     const KICK: f64 = 3e-5;
     let mut worst = 0.0_f64;
     for (wider, tip, r) in cases() {
-        let onset = critical_under(&wider, &tip, r).unwrap().critical;
+        let onset = critical(&wider, &tip, r).unwrap();
         for part in [0.97, 1.03] {
             let model = Model::under(wider, tip.clone(), part * onset.alpha, r).unwrap();
             let spectrum = leading_roots(&model, 4).unwrap();
@@ -72,7 +72,7 @@ fn leading_roots_are_the_exponents_fitted_to_runs_on_both_sides_of_onset() {
 fn the_response_is_what_a_weak_pulse_does_to_runs() {
     const STRENGTH: f64 = 1e-4;
     for (wider, tip, r) in cases() {
-        let alpha = 0.8 * critical_under(&wider, &tip, r).unwrap().critical.alpha;
+        let alpha = 0.8 * critical(&wider, &tip, r).unwrap().alpha;
         let model = Model::under(wider, tip, alpha, r).unwrap();
         let width = 0.5;
         let center = Scenario::new(model.clone(), 0.0).start_time() + 12.0 * width;
@@ -119,7 +119,7 @@ fn small_oscillations_on_the_corner_keep_their_size_where_the_harmonics_balance(
     let (tip, r) = (triple(1.0), 1.0);
     for b in [5.0, 2.0] {
         let wider = Wider { depth_limit: Some(b), ..Wider::default() };
-        let onset = critical_under(&wider, &tip, r).unwrap().critical;
+        let onset = critical(&wider, &tip, r).unwrap();
         let growth = |kick: f64, part: f64| {
             let model = Model::under(wider, tip.clone(), part * onset.alpha, r).unwrap();
             let span = 140.0 + 12.0 * onset.period;
@@ -139,7 +139,7 @@ fn small_oscillations_on_the_corner_keep_their_size_where_the_harmonics_balance(
         // A finite amplitude moves it, in proportion.
         let (small, twice) = (zero(1e-4), zero(2e-4));
         let none = 2.0 * small - twice;
-        let paper = critical(&tip, r).unwrap().alpha / onset.alpha;
+        let paper = critical(&Wider::default(), &tip, r).unwrap().alpha / onset.alpha;
         println!("b {b}: {small:.8} {twice:.8}, {none:.8} at none; the paper's {paper:.5}");
         assert!((none - 1.0).abs() < 3e-6, "{none}");
         assert!((paper - 1.0).abs() > 1e-3, "negative control");

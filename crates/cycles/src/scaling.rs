@@ -5,7 +5,7 @@
 use super::{CycleError, Parameter, Tried, cycle};
 use stickslip_stability::{Onset, critical, critical_r, onset_at};
 use stickslip_tip::motion::{Oscillation, latest_extrema};
-use stickslip_tip::{Model, Scenario, TipFunction, run};
+use stickslip_tip::{Model, Scenario, TipFunction, Wider, run};
 
 /// A law near onset, measured at some distances from it.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,8 +65,8 @@ pub fn scaling(
     measured: Measured,
 ) -> Result<Scaling, CycleError> {
     let born = match over {
-        Parameter::Alpha => critical(tip, other)?,
-        Parameter::R => critical_r(tip, other)?,
+        Parameter::Alpha => critical(&Wider::default(), tip, other)?,
+        Parameter::R => critical_r(&Wider::default(), tip, other)?,
     };
     let onset = onset_at(tip, born)?;
     let at = |distance: f64| {
@@ -116,7 +116,7 @@ fn of_run(
     tolerance: f64,
 ) -> Result<ScalingPoint, CycleError> {
     // Small motions depend on how far α is above its critical value at this r.
-    let above = model.alpha() - critical(model.tip(), model.r())?.alpha;
+    let above = model.alpha() - critical(&Wider::default(), model.tip(), model.r())?.alpha;
     let mut scenario = Scenario::new(model.clone(), 0.0);
     scenario.kick = (onset.amplitude_squared_slope * above).abs().sqrt();
     scenario.tolerance = tolerance;

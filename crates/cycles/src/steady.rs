@@ -1,6 +1,6 @@
 //! Whether steady motion is stable, and where it ceases to be.
 
-use stickslip_stability::{Critical, StabilityError, critical, critical_under, unstable_count};
+use stickslip_stability::{Critical, StabilityError, critical, unstable_count};
 use stickslip_tip::{Model, TipFunction};
 
 /// Of a model.
@@ -16,20 +16,16 @@ impl SteadyMotion {
     /// r out of range; under a wider law, roots that cannot be counted.
     pub(super) fn of(model: &Model) -> Result<Self, StabilityError> {
         let (wider, tip, r) = (model.wider(), model.tip(), model.r());
-        if wider.is_papers() && *tip != TipFunction::Cosine {
-            return match critical(tip, r) {
-                Ok(at) => Ok(Self { critical: Some(at), is_stable: model.alpha() <= at.alpha }),
-                Err(StabilityError::NoCrossing { .. }) => {
-                    Ok(Self { critical: None, is_stable: true })
-                }
-                Err(error) => Err(error),
-            };
-        }
-        let critical = match critical_under(wider, tip, r) {
-            Ok(found) => Some(found.critical),
+        let critical = match critical(wider, tip, r) {
+            Ok(found) => Some(found),
             Err(StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. }) => None,
             Err(error) => return Err(error),
         };
+        // Under the basic law α alone tells: no roots need be counted.
+        if wider.is_papers() && *tip != TipFunction::Cosine {
+            let is_stable = critical.is_none_or(|at| model.alpha() <= at.alpha);
+            return Ok(Self { critical, is_stable });
+        }
         let is_stable = match unstable_count(model) {
             Ok(count) => count == 0,
             // On the corner of |h| there are no roots to count: small deviations grow from αc on.

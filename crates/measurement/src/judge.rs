@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::PI;
 use stickslip_stability::critical;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// What a raw table x, f is good for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +56,7 @@ const SIXTH_NORM: f64 = 30.397;
 #[must_use]
 pub fn judge((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Verdict {
     let rows = x.len();
-    let Ok(at) = critical(tip, 1.0) else { return Verdict::Sound };
+    let Ok(at) = critical(&Wider::default(), tip, 1.0) else { return Verdict::Sound };
     if rows < FEWEST_ROWS {
         return Verdict::Few { rows };
     }
@@ -97,7 +97,7 @@ fn again((x, f): (&[f64], &[f64]), noise: f64, table: f64) -> f64 {
             |i: usize| if i < last { amplitude * random.random_range(-1.0..=1.0) } else { 0.0 };
         let noisy: Vec<f64> = f.iter().enumerate().map(|(i, f)| f + more(i)).collect();
         let tip = TipFunction::table(x, &noisy).ok();
-        let changed = tip.and_then(|tip| critical(&tip, 1.0).ok());
+        let changed = tip.and_then(|tip| critical(&Wider::default(), &tip, 1.0).ok());
         // Noise that leaves no footprint changes all.
         changed.map_or(1.0, |changed| (changed.alpha / table).ln().abs())
     });
@@ -135,8 +135,9 @@ mod tests {
     fn noise_that_is_not_tried_changes_nothing() {
         for (rows, noise) in [(60, 1e-7), (60, 2e-6), (200, 1e-8), (200, 1e-7), (600, 1e-9)] {
             let ((x, exact), (_, noisy)) = (table(rows, 0.0, 3), table(rows, noise, 3));
-            let alpha =
-                |f: &[f64]| critical(&TipFunction::table(&x, f).unwrap(), 1.0).unwrap().alpha;
+            let alpha = |f: &[f64]| {
+                critical(&Wider::default(), &TipFunction::table(&x, f).unwrap(), 1.0).unwrap().alpha
+            };
             let change = (alpha(&noisy) / alpha(&exact) - 1.0).abs();
             let bound = alpha(&exact) * most_felt(&x, noise / 3_f64.sqrt());
             assert!(change < bound, "{rows} {noise}: {change} above {bound}");

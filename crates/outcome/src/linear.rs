@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 use std::f64::consts::TAU;
-use stickslip_stability::{Spectrum, StabilityError, critical, critical_under, leading_roots};
-use stickslip_tip::Model;
+use stickslip_stability::{Spectrum, StabilityError, critical, leading_roots};
+use stickslip_tip::{Model, Wider};
 
 /// Whether small deviations from steady motion grow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ impl Linear {
 /// αc, by about as much as without the limit that far above its own.
 fn beside_corner(model: &Model) -> Option<Spectrum> {
     let (tip, r) = (model.tip(), model.r());
-    let limited = critical_under(model.wider(), tip, r).ok()?.critical.alpha;
-    let alpha = model.alpha() * critical(tip, r).ok()?.alpha / limited;
+    let limited = critical(model.wider(), tip, r).ok()?.alpha;
+    let alpha = model.alpha() * critical(&Wider::default(), tip, r).ok()?.alpha / limited;
     leading_roots(&Model::new(tip.clone(), alpha, r).ok()?, 1).ok()
 }

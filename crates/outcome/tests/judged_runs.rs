@@ -10,7 +10,7 @@ use std::time::Instant;
 use stickslip_cycles::{Cycle, cycle};
 use stickslip_outcome::{Oscillation, Outcome, Regime, judge_trajectory};
 use stickslip_stability::{critical, trapping_alpha};
-use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, run};
+use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, Wider, run};
 
 /// Where a run is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +63,7 @@ fn scenario(random: &mut Random, place: Place) -> Option<Scenario> {
     let (tip, r, alpha) = match place {
         Place::Onset => {
             let (tip, r) = (tip(random), random.decades(0.2, 5.0));
-            let alpha = critical(&tip, r).ok()?.alpha * (1.0 + distance);
+            let alpha = critical(&Wider::default(), &tip, r).ok()?.alpha * (1.0 + distance);
             (tip, r, alpha)
         }
         Place::Doubling => {
@@ -77,7 +77,8 @@ fn scenario(random: &mut Random, place: Place) -> Option<Scenario> {
         }
         Place::Between => {
             let (tip, r) = (tip(random), random.decades(0.2, 5.0));
-            let (onset, trapping) = (critical(&tip, r).ok()?.alpha, trapping_alpha(&tip, r).ok()?);
+            let (onset, trapping) =
+                (critical(&Wider::default(), &tip, r).ok()?.alpha, trapping_alpha(&tip, r).ok()?);
             let alpha = onset + random.even(0.0, 1.3) * (trapping - onset).abs();
             (tip, r, alpha)
         }

@@ -5,6 +5,7 @@ use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
 use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_stability::{Boundary, onset_at};
+use stickslip_tip::Wider;
 
 /// log₁₀ of the r shown.
 const RANGE: (f64, f64) = (-1.5, 1.0);
@@ -21,7 +22,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
             .into(),
     );
     for tip in &tips {
-        let boundary = Boundary::new(&tip.function);
+        let boundary = Boundary::new(&Wider::default(), &tip.function);
         let excess = |log: f64| {
             let r = 10f64.powf(log);
             let at = boundary.at(r).ok()?;

@@ -5,6 +5,7 @@ use super::tips::{BETA_0, beta_0, beta_1};
 use crate::failed::Failed;
 use stickslip::{FigureDocument, StyleName};
 use stickslip_stability::Boundary;
+use stickslip_tip::Wider;
 
 /// Gnecco et al.: k = 1.406 N/(σ v0) is α = r/1.406.
 const GNECCO: f64 = 1.0 / 1.406;
@@ -21,7 +22,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
             .into(),
     );
     for tip in &tips {
-        let boundary = Boundary::new(&tip.function);
+        let boundary = Boundary::new(&Wider::default(), &tip.function);
         let at = |r: f64| boundary.at(r).ok().map(|at| (r, at.alpha));
         let along = spaced(0.01, LAST, 0.01).into_iter().filter_map(at);
         // αc falls in proportion to r in the end.

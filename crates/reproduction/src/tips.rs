@@ -4,7 +4,7 @@ use super::parts::failed;
 use crate::failed::Failed;
 use std::f64::consts::FRAC_1_SQRT_2;
 use stickslip_stability::{Critical, critical, critical_r};
-use stickslip_tip::{Model, TipFunction};
+use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Said of every figure that has a panel for β = 0.
 pub(super) const BETA_0: &str = "β = 0 is drawn with exp(-x²), a Gaussian of width 1/√2: the numbers that the \
@@ -35,12 +35,14 @@ pub(super) fn beta_0() -> Result<Tip, Failed> {
 impl Tip {
     /// αc(r).
     pub(super) fn critical(&self, r: f64) -> Result<Critical, Failed> {
-        critical(&self.function, r).map_err(|error| failed("the critical point", &error))
+        critical(&Wider::default(), &self.function, r)
+            .map_err(|error| failed("the critical point", &error))
     }
 
     /// rc(α).
     pub(super) fn critical_r(&self, alpha: f64) -> Result<Critical, Failed> {
-        critical_r(&self.function, alpha).map_err(|error| failed("the critical point", &error))
+        critical_r(&Wider::default(), &self.function, alpha)
+            .map_err(|error| failed("the critical point", &error))
     }
 
     pub(super) fn model(&self, alpha: f64, r: f64) -> Result<Model, Failed> {

@@ -1,16 +1,43 @@
 //! The boundary between stable and unstable steady motion in the (r, α) plane (Fig. 6).
 
 use super::axis::{Axis, AxisPoint};
-use super::critical::{Critical, bessel_wave_number, first_crossing};
-use super::{StabilityError, critical};
-use stickslip_tip::TipFunction;
+use super::critical::{Critical, OnsetKind, bessel_wave_number, by_cosine, unless_stopped};
+use super::crossings::Scan;
+use super::{StabilityError, corner};
+use stickslip_tip::{TipFunction, Wider};
 
-/// The curve (r(Ω), α(Ω)) of (42), (43) for one tip function, sampled once for all r.
+/// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below it.
+///
+/// Several Ω can belong to one r; all are found by scanning Ω over the band of the tip function, and the one of the
+/// smallest α is returned. For J0 under the basic law, αc = r² and Ω of (47) are exact; the ω of (46), (47) is Ω of
+/// section IV.B, so that the frequency in time is rΩ.
+///
+/// Where the steady tip has the surface at height 0 under it and the depth limit its corner (β = 1 without
+/// healing), small deviations obey no linear law, but a homogeneous one: this is the α at which a small oscillation
+/// keeps its amplitude, whatever it is, and marked [`OnsetKind::NonSmooth`]. There are no roots there.
+///
+/// # Errors
+/// r not a positive finite number, a parameter of the law out of range, no spring, [`StabilityError::NoCrossing`], also
+/// where αc is no finite number any more, or [`StabilityError::Unsettled`].
+pub fn critical(law: &Wider, tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
+    Boundary::new(law, tip).at(r)
+}
+
+/// The boundary of one law and one tip function: the imaginary axis, scanned once for all r.
 #[derive(Debug, Clone)]
 pub struct Boundary {
-    tip: TipFunction,
-    /// `None` for J0, which has closed forms.
-    axis: Option<Axis>,
+    law: Wider,
+    search: Search,
+}
+
+#[derive(Debug, Clone)]
+enum Search {
+    /// J0 under the basic law.
+    ClosedForm,
+    /// The curve (r(Ω), α(Ω)) of (42), (43), under the basic law.
+    Curve(Box<Axis>),
+    /// Any law.
+    General(Scan),
 }
 
 /// A stretch of the curve on which Ω runs without a gap.
@@ -27,45 +54,92 @@ pub struct BoundaryBranch {
     pub alpha: Vec<f64>,
 }
 
+const NO_CURVE: StabilityError =
+    StabilityError::PapersLawOnly("the curve of all crossings in the (r, α) plane");
+
 impl Boundary {
     /// Scans the imaginary axis over the band of `tip`.
     #[must_use]
-    pub fn new(tip: &TipFunction) -> Self {
-        let axis = (!matches!(tip, TipFunction::Bessel)).then(|| Axis::new(tip));
-        Self { tip: tip.clone(), axis }
+    pub fn new(law: &Wider, tip: &TipFunction) -> Self {
+        let search = match tip {
+            TipFunction::Gaussians(_) if law.is_papers() => Search::Curve(Box::new(Axis::new(tip))),
+            TipFunction::Bessel if law.is_papers() => Search::ClosedForm,
+            _ => Search::General(Scan::new(law, tip)),
+        };
+        Self { law: *law, search }
     }
 
-    /// αc(r), as [`critical`], without scanning again.
+    /// αc(r), as [`critical`](super::critical), without scanning again where nothing heals.
     ///
     /// # Errors
-    /// As [`critical`].
+    /// As [`critical`](super::critical).
     pub fn at(&self, r: f64) -> Result<Critical, StabilityError> {
-        match &self.axis {
-            Some(axis) if r.is_finite() && r > 0.0 => first_crossing(axis, r),
-            _ => critical(&self.tip, r),
+        self.judge(r)?;
+        let none = || unless_stopped(StabilityError::NoCrossing { r });
+        match &self.search {
+            Search::ClosedForm => Ok(Critical::bessel(r)),
+            Search::Curve(axis) => {
+                // αc = r/c: the first crossing is the one of the largest c.
+                let first = axis.crossings_of_r(r).into_iter().max_by(by_cosine);
+                Ok(Critical::on_curve(r, first.ok_or_else(none)?))
+            }
+            Search::General(scan) => self.first(scan, r)?.ok_or_else(none),
         }
     }
 
-    /// Every crossing at this r, by rising α: the first is [`Boundary::at`], the others are where
+    /// The first crossing under any law, or where the steady tip is on the corner of |h| what takes its place.
+    fn first(&self, scan: &Scan, r: f64) -> Result<Option<Critical>, StabilityError> {
+        let mut law = scan.law_at(r);
+        let crossings = scan.crossings(&law).into_iter();
+        let Some(mut first) = crossings.min_by(|a, b| a.density.total_cmp(&b.density)) else {
+            return Ok(None);
+        };
+        let mut kind = OnsetKind::Smooth;
+        if let Some(limit) = self.law.depth_limit.filter(|_| scan.has_corner(&law)) {
+            first = corner::onset(&law, limit, first).ok_or(StabilityError::Unsettled { limit })?;
+            kind = OnsetKind::NonSmooth;
+        }
+        law.set_density(first.density);
+        let alpha = law.alpha();
+        Ok(alpha.is_finite().then(|| Critical::new(alpha, r, kind, first)))
+    }
+
+    /// Every crossing at this r under the basic law, by rising α: the first is [`Boundary::at`], the others are where
     /// further pairs of roots reach the imaginary axis.
     ///
     /// # Errors
-    /// As [`critical`].
+    /// As [`critical`](super::critical); any other law.
     pub fn all_at(&self, r: f64) -> Result<Vec<Critical>, StabilityError> {
         let first = self.at(r)?;
-        let Some(axis) = &self.axis else { return Ok(vec![first]) };
-        let critical = |p: &AxisPoint| Critical::new(r / p.cosine, r, p.wave_number);
-        let mut all: Vec<Critical> = axis.crossings_of_r(r).iter().map(critical).collect();
-        all.sort_by(|a, b| a.alpha.total_cmp(&b.alpha));
-        Ok(all)
+        match &self.search {
+            Search::ClosedForm => Ok(vec![first]),
+            Search::Curve(axis) => {
+                let mut crossings = axis.crossings_of_r(r);
+                crossings.sort_by(|a, b| by_cosine(b, a));
+                Ok(crossings.into_iter().map(|at| Critical::on_curve(r, at)).collect())
+            }
+            Search::General(_) => Err(NO_CURVE),
+        }
+    }
+
+    /// # Errors
+    /// r or a parameter of the law out of range, or no spring.
+    fn judge(&self, r: f64) -> Result<(), StabilityError> {
+        if !(r.is_finite() && r > 0.0) {
+            return Err(StabilityError::R(r));
+        }
+        if !self.law.spring {
+            return Err(StabilityError::NoSupport);
+        }
+        Ok(self.law.validate()?)
     }
 
     /// All stretches of the curve with `slowest` ≤ r ≤ `fastest`, `points` points in all, evenly spaced
     /// in Ω on each, ends included.
     ///
     /// # Errors
-    /// [`StabilityError::R`] unless 0 < `slowest` < `fastest`, both finite, or
-    /// [`StabilityError::NoCrossing`] if the curve has no such stretch.
+    /// [`StabilityError::R`] unless 0 < `slowest` < `fastest`, both finite,
+    /// [`StabilityError::NoCrossing`] if the curve has no such stretch, or any law but the basic one.
     pub fn branches(
         &self,
         slowest: f64,
@@ -80,7 +154,7 @@ impl Boundary {
         if fastest <= slowest {
             return Err(StabilityError::R(fastest));
         }
-        let stretches = self.stretches(slowest, fastest);
+        let stretches = self.stretches(slowest, fastest)?;
         let total: f64 = stretches.iter().map(|(from, to)| to - from).sum();
         if stretches.is_empty() || total <= 0.0 {
             return Err(StabilityError::NoCrossing { r: slowest });
@@ -99,9 +173,13 @@ impl Boundary {
     }
 
     /// Intervals of Ω on which (42) gives r within the bounds.
-    fn stretches(&self, slowest: f64, fastest: f64) -> Vec<(f64, f64)> {
-        let Some(axis) = &self.axis else {
-            return vec![(bessel_wave_number(fastest), bessel_wave_number(slowest))];
+    fn stretches(&self, slowest: f64, fastest: f64) -> Result<Vec<(f64, f64)>, StabilityError> {
+        let axis = match &self.search {
+            Search::ClosedForm => {
+                return Ok(vec![(bessel_wave_number(fastest), bessel_wave_number(slowest))]);
+            }
+            Search::Curve(axis) => axis,
+            Search::General(_) => return Err(NO_CURVE),
         };
         let crossings = |r| axis.crossings_of_r(r).into_iter().map(|p| p.wave_number);
         let mut ends: Vec<f64> = crossings(slowest).chain(crossings(fastest)).collect();
@@ -111,7 +189,7 @@ impl Boundary {
             cosine > 0.0 && (slowest..=fastest).contains(&(sine / cosine))
         };
         let pairs = ends.windows(2).map(|pair| (pair[0], pair[1]));
-        pairs.filter(|(from, to)| within(*from, *to)).collect()
+        Ok(pairs.filter(|(from, to)| within(*from, *to)).collect())
     }
 
     fn sampled(&self, from: f64, to: f64, count: u32) -> BoundaryBranch {
@@ -128,12 +206,50 @@ impl Boundary {
 
     /// (r, α) of (42), (43).
     fn point(&self, wave_number: f64) -> (f64, f64) {
-        let Some(axis) = &self.axis else {
+        let Search::Curve(axis) = &self.search else {
             let r = ((1.0 - wave_number) * (1.0 + wave_number)).sqrt() / wave_number.powi(2);
             return (r, r * r);
         };
         let AxisPoint { cosine, sine, .. } = axis.at(wave_number);
         let r = sine / cosine;
         (r, r / cosine)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The branches of the basic law against the code for any law, which shares the transforms with them and no search.
+    #[test]
+    fn branches_of_the_basic_law_find_what_the_general_code_finds() {
+        let law = Wider::default();
+        let triple = |beta| TipFunction::triple_gaussian(beta, 1.0).unwrap();
+        let tips = [
+            TipFunction::gaussian(0.7).unwrap(),
+            triple(0.0),
+            triple(0.6),
+            triple(1.0),
+            triple(1.9),
+            TipFunction::Bessel,
+        ];
+        for tip in tips {
+            let special = Boundary::new(&law, &tip);
+            let general = Boundary { law, search: Search::General(Scan::new(&law, &tip)) };
+            for i in 0..=24 {
+                let r = 0.01 * 10_f64.powf(f64::from(i) / 6.0);
+                match (special.at(r), general.at(r)) {
+                    (Ok(special), Ok(general)) => {
+                        let apart = |a: f64, b: f64| (a / b - 1.0).abs();
+                        assert!(apart(special.alpha, general.alpha) < 1e-13, "{tip:?} {r}");
+                        assert!(apart(special.omega, general.omega) < 1e-13, "{tip:?} {r}");
+                        assert!(apart(general.weight, 1.0) < 1e-15);
+                    }
+                    (special, general) => {
+                        assert_eq!(special.is_ok(), general.is_ok(), "{tip:?} {r}")
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A certificate that a list of roots is complete.
 
-use super::analytic::Analytic;
 use super::cell::Cell;
+use super::characteristic::Characteristic;
 use num_complex::Complex64;
 
 /// A residual above this, relative to the terms of h, is no root.
@@ -51,7 +51,7 @@ impl Certificate {
     }
 
     pub(super) fn of(
-        h: &impl Analytic,
+        h: &Characteristic,
         region: Region,
         counted: usize,
         roots: &[Complex64],
@@ -77,7 +77,7 @@ impl Region {
 }
 
 /// Entries that are roots, each once: those that lie together count as often as h vanishes there.
-fn distinct(h: &impl Analytic, zeros: &[Complex64]) -> usize {
+fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
     let radius = CLUSTER / h.length();
     let near = |z: Complex64| move |k: &&Complex64| (*k - z).norm() < radius;
     let mut found = 0;

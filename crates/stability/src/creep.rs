@@ -9,10 +9,10 @@ use super::StabilityError;
 use super::certificate::{Certificate, Region};
 use super::characteristic::Characteristic;
 use super::half_plane::HalfPlane;
+use super::law::Law;
 use super::newton::polish;
 use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::{CurvatureTransform, Scaled};
-use super::wider;
 use num_complex::Complex64;
 use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, TipFunction};
@@ -48,16 +48,16 @@ impl Creep {
 /// # Errors
 /// As [`super::roots`]; a wider law.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
-    if wider::applies(model) {
+    if !model.wider().is_papers() || *model.tip() == TipFunction::Cosine {
         return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));
     }
-    let Spectrum { roots, certificate } = match model.tip() {
-        TipFunction::Bessel => bessel(model.alpha() / model.r()),
-        TipFunction::Gaussians(_) | TipFunction::Cosine => {
-            let h = Characteristic::of_creep(model);
-            let unmoved = h.ratio <= 0.0;
-            if unmoved { Spectrum::none() } else { HalfPlane::counted(&h, 0.0)?.spectrum(&h)? }
-        }
+    let Spectrum { roots, certificate } = if model.alpha() <= 0.0 {
+        Spectrum::none()
+    } else if *model.tip() == TipFunction::Bessel {
+        bessel(model.alpha() / model.r())
+    } else {
+        let h = Characteristic::of(Law::of_creep(model));
+        HalfPlane::counted(&h, 0.0)?.spectrum(&h)?
     };
     let roots: Vec<Complex64> = roots.into_iter().filter(|p| p.re > 0.0).collect();
     let transform = CurvatureTransform::new(model.tip());
@@ -68,9 +68,6 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
 /// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp; squared,
 /// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
 fn bessel(kappa: f64) -> Spectrum {
-    if kappa <= 0.0 {
-        return Spectrum::none();
-    }
     let transform = CurvatureTransform::new(&TipFunction::Bessel);
     let h = |p: Complex64| {
         let g = transform.at(p);

@@ -2,15 +2,16 @@
 
 use super::StabilityError;
 use super::axis::{Axis, AxisPoint};
+use super::crossings::Crossing;
 use std::f64::consts::PI;
-use stickslip_tip::{TipFunction, stop};
+use stickslip_tip::{TipFunction, Wider, stop};
 
 /// A point of the stability boundary with the oscillation that is born there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Critical {
-    /// αc, (43).
+    /// αc; (43) under the basic law.
     pub alpha: f64,
-    /// r, (42).
+    /// r; (42) under the basic law.
     pub r: f64,
     /// Frequency ω = rΩ in time.
     pub omega: f64,
@@ -18,66 +19,78 @@ pub struct Critical {
     pub period: f64,
     /// L = 2πr/ω = 2π/Ω.
     pub wavelength: f64,
+    /// Whether it is a point of linear theory.
+    pub kind: OnsetKind,
+    /// A = αw0/r, the indentation of the steady tip per length.
+    pub density: f64,
+    /// w0, its rate of indentation relative to α: below 1 under a depth limit.
+    pub weight: f64,
+}
+
+/// The law of small deviations at the onset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OnsetKind {
+    /// A linear law: this is the Hopf bifurcation.
+    Smooth,
+    /// A law with the corner of |h| in it: the height under the steady tip is 0. See [`critical`](super::critical).
+    NonSmooth,
 }
 
 impl Critical {
-    pub(super) fn new(alpha: f64, r: f64, wave_number: f64) -> Self {
+    pub(super) fn new(alpha: f64, r: f64, kind: OnsetKind, at: Crossing) -> Self {
+        let Crossing { density, wave_number } = at;
         let omega = r * wave_number;
-        Self { alpha, r, omega, period: 2.0 * PI / omega, wavelength: 2.0 * PI / wave_number }
+        let (period, wavelength) = (2.0 * PI / omega, 2.0 * PI / wave_number);
+        let weight = r * density / alpha;
+        Self { alpha, r, omega, period, wavelength, kind, density, weight }
+    }
+
+    /// Under the basic law, by (43) αc = r/c.
+    pub(super) fn on_curve(r: f64, AxisPoint { cosine, wave_number, .. }: AxisPoint) -> Self {
+        Self::basic(r / cosine, r, wave_number)
+    }
+
+    /// Of J0 under the basic law: αc = r², and Ω of (47).
+    pub(super) fn bessel(r: f64) -> Self {
+        Self::basic(r * r, r, bessel_wave_number(r))
+    }
+
+    fn basic(alpha: f64, r: f64, wave_number: f64) -> Self {
+        let at = Crossing { density: alpha / r, wave_number };
+        Self { weight: 1.0, ..Self::new(alpha, r, OnsetKind::Smooth, at) }
     }
 }
 
-/// αc(r): the smallest α at which a root of (30) reaches the imaginary axis.
-///
-/// Steady motion is stable below it. Several Ω can satisfy (42) at one r; all are found by scanning Ω
-/// over the band of the tip function, and the one of the smallest α (43) is returned. For J0,
-/// αc = r² and Ω of (47) are exact; the ω of (46), (47) is Ω of section IV.B, so that the frequency in
-/// time is rΩ.
-///
-/// # Errors
-/// `r` not a positive finite number, or no crossing at any α.
-pub fn critical(tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
-    if !(r.is_finite() && r > 0.0) {
-        return Err(StabilityError::R(r));
-    }
-    if matches!(tip, TipFunction::Bessel) {
-        return Ok(Critical::new(r * r, r, bessel_wave_number(r)));
-    }
-    first_crossing(&Axis::new(tip), r)
-}
-
-pub(super) fn first_crossing(axis: &Axis, r: f64) -> Result<Critical, StabilityError> {
-    // αc = r/c: the first crossing is the one of the largest c.
-    let first = axis.crossings_of_r(r).into_iter().max_by(|a, b| a.cosine.total_cmp(&b.cosine));
-    let none = unless_stopped(StabilityError::NoCrossing { r });
-    let AxisPoint { cosine, wave_number, .. } = first.ok_or(none)?;
-    Ok(Critical::new(r / cosine, r, wave_number))
-}
-
-/// rc(α): the largest r at which a root of (30) reaches the imaginary axis.
+/// rc(α): the largest r at which a root of (30) reaches the imaginary axis, under the basic law.
 ///
 /// Coming from fast motion, which is stable, this is where stability is lost.
 ///
 /// # Errors
-/// `alpha` not a positive finite number, or no crossing at any r.
-pub fn critical_r(tip: &TipFunction, alpha: f64) -> Result<Critical, StabilityError> {
+/// `alpha` not a positive finite number, no crossing at any r, or any other law.
+pub fn critical_r(law: &Wider, tip: &TipFunction, alpha: f64) -> Result<Critical, StabilityError> {
+    if !law.is_papers() {
+        return Err(StabilityError::PapersLawOnly("the r at which a given α is critical"));
+    }
     if !(alpha.is_finite() && alpha > 0.0) {
         return Err(StabilityError::Alpha(alpha));
     }
-    if matches!(tip, TipFunction::Bessel) {
+    if *tip == TipFunction::Bessel {
         let r = alpha.sqrt();
-        return Ok(Critical::new(alpha, r, bessel_wave_number(r)));
+        return Ok(Critical::basic(alpha, r, bessel_wave_number(r)));
     }
-    let crossings = Axis::new(tip).crossings_of_alpha(alpha);
-    let fastest = crossings.into_iter().max_by(|a, b| a.cosine.total_cmp(&b.cosine));
     // r = αc: the fastest is the one of the largest c.
+    let fastest = Axis::new(tip).crossings_of_alpha(alpha).into_iter().max_by(by_cosine);
     let none = unless_stopped(StabilityError::NoCriticalR { alpha });
     let AxisPoint { cosine, wave_number, .. } = fastest.ok_or(none)?;
-    Ok(Critical::new(alpha, alpha * cosine, wave_number))
+    Ok(Critical::basic(alpha, alpha * cosine, wave_number))
+}
+
+pub(super) fn by_cosine(a: &AxisPoint, b: &AxisPoint) -> std::cmp::Ordering {
+    a.cosine.total_cmp(&b.cosine)
 }
 
 /// Why nothing was found, if the search came to its end.
-fn unless_stopped(none: StabilityError) -> StabilityError {
+pub(super) fn unless_stopped(none: StabilityError) -> StabilityError {
     if stop::is_asked() { StabilityError::Stopped } else { none }
 }
 

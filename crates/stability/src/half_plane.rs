@@ -1,9 +1,9 @@
 //! The half-plane right of a line: how many zeros of h it has, and where they are.
 
 use super::StabilityError;
-use super::analytic::Analytic;
 use super::cell::Cell;
 use super::certificate::{Certificate, ROUNDOFF, Region};
+use super::characteristic::Characteristic;
 use super::newton::{another, pair, polish};
 use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
@@ -29,7 +29,7 @@ pub(super) struct HalfPlane {
 
 impl HalfPlane {
     /// Counts, moving the edge off a root if need be.
-    pub(super) fn counted(h: &impl Analytic, left: f64) -> Result<Self, StabilityError> {
+    pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         if !(h.right_bound() * h.length() < FARTHEST && (left * h.length()).abs() < FARTHEST) {
             return Err(h.too_far_apart());
         }
@@ -40,7 +40,7 @@ impl HalfPlane {
         counted.ok_or(StabilityError::RootOnContour { re: left * h.r() })
     }
 
-    fn counted_at(h: &impl Analytic, left: f64) -> Result<Self, StabilityError> {
+    fn counted_at(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         // A root -1/r of α = 0 lies within the first term of each, those of α > 0 within the second.
         let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length());
         let top = h.top_bound(left);
@@ -56,7 +56,7 @@ impl HalfPlane {
         Region { re_min: r * self.left, re_max: r * self.right, im_max: r * self.top }
     }
 
-    pub(super) fn spectrum(&self, h: &impl Analytic) -> Result<Spectrum, StabilityError> {
+    pub(super) fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
         let certified = |upper: &[Complex64]| {
             let roots = with_conjugates(upper, h.r());
             let certificate = Certificate::of(h, self.region(h.r()), self.count, &roots);
@@ -74,7 +74,7 @@ impl HalfPlane {
     }
 
     /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted.
-    fn by_deflation(&self, h: &impl Analytic) -> Vec<Complex64> {
+    fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
         let mut upper = Vec::new();
         for start in self.starts(h) {
             if total(&upper) >= self.count || stop::is_asked() {
@@ -96,7 +96,7 @@ impl HalfPlane {
     }
 
     /// The root of α = 0, those of large α, and a grid that widens upwards as the roots do.
-    fn starts(&self, h: &impl Analytic) -> Vec<Complex64> {
+    fn starts(&self, h: &Characteristic) -> Vec<Complex64> {
         let mut starts = vec![Complex64::new(0.0, 0.8 / h.length())];
         starts.extend(h.likely_roots());
         let spacing = 0.8 / h.length();
@@ -115,7 +115,7 @@ impl HalfPlane {
     }
 
     /// Zeros with Im Λ ≥ 0 by halving a rectangle that reaches a little below the real axis.
-    pub(super) fn by_halving(&self, h: &impl Analytic) -> Result<Vec<Complex64>, StabilityError> {
+    pub(super) fn by_halving(&self, h: &Characteristic) -> Result<Vec<Complex64>, StabilityError> {
         let at = |z| h.at(z);
         for below in [0.0137, 0.0291, 0.0533] {
             let cell = Cell {
@@ -135,10 +135,11 @@ impl HalfPlane {
 }
 
 /// The half-plane right of a line chosen so that it has at least `count` zeros, if there are so many.
-pub(super) fn leading(h: &impl Analytic, count: usize) -> Result<Spectrum, StabilityError> {
+pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if let Some(left) = h.left_of_all() {
         return HalfPlane::counted(h, left)?.spectrum(h);
     }
+    let count = h.degree().map_or(count, |degree| count.min(degree));
     let mut left = -2.0 / h.length();
     loop {
         left = left.max(h.leftmost());
@@ -157,14 +158,14 @@ fn total(upper: &[Complex64]) -> usize {
 
 /// A zero that Newton's method found, on or above the real axis, and another that is too close to it for
 /// that method.
-fn settled(h: &impl Analytic, z: Complex64) -> Vec<Complex64> {
+fn settled(h: &Characteristic, z: Complex64) -> Vec<Complex64> {
     let above = Complex64::new(z.re, z.im.abs());
     let both = both(h, above).map_or_else(|| vec![snapped(h, above)], Vec::from);
     both.into_iter().filter(|z| z.im >= 0.0).collect()
 }
 
 /// z, on the real axis if it belongs there, or of two zeros too close for Newton's method the nearer one.
-fn settled_alone(h: &impl Analytic, z: Complex64) -> Complex64 {
+fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
     match both(h, z) {
         Some([a, b]) if (a - z).norm() <= (b - z).norm() => a,
         Some([_, b]) => b,
@@ -172,16 +173,16 @@ fn settled_alone(h: &impl Analytic, z: Complex64) -> Complex64 {
     }
 }
 
-fn both(h: &impl Analytic, z: Complex64) -> Option<[Complex64; 2]> {
+fn both(h: &Characteristic, z: Complex64) -> Option<[Complex64; 2]> {
     has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length())).flatten()
 }
 
-fn has_neighbour(h: &impl Analytic, z: Complex64) -> bool {
+fn has_neighbour(h: &Characteristic, z: Complex64) -> bool {
     h.root_error(z, ROUNDOFF) > BESIDE * z.norm()
 }
 
 /// z, moved onto the real axis if it is a real root but for round-off.
-fn snapped(h: &impl Analytic, z: Complex64) -> Complex64 {
+fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
     if z.im.abs() > 1e-6 * z.norm() + h.root_error(z, ROUNDOFF) {
         return z;
     }
@@ -193,7 +194,6 @@ fn snapped(h: &impl Analytic, z: Complex64) -> Complex64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::characteristic::Characteristic;
     use super::*;
     use stickslip_tip::{Model, TipFunction};
 
@@ -201,7 +201,7 @@ mod tests {
     fn halving_finds_what_deflation_finds() {
         for (beta, alpha, r) in [(1.0, 1.2, 1.0), (0.0, 0.05, 0.3), (0.4, 900.0, 5.0)] {
             let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
-            let h = Characteristic::new(&Model::new(tip, alpha, r).unwrap());
+            let h = Characteristic::new(&Model::new(tip, alpha, r).unwrap()).unwrap();
             let half_plane = HalfPlane::counted(&h, -2.7).unwrap();
             let by_deflation = with_conjugates(&half_plane.by_deflation(&h), 1.0);
             let by_halving = with_conjugates(&half_plane.by_halving(&h).unwrap(), 1.0);

@@ -10,24 +10,29 @@
 //! [`leading_roots`] list all roots right of a line with a [`Certificate`] that none is missing,
 //! [`response`] adds them up after a weak pulse, and [`onset`] says what is born at the boundary.
 //! [`trapping_alpha`] is the threshold of motion that never returns to stick-slip, [`creep`] lists all rates at
-//! which it may creep. [`roots`], [`leading_roots`], [`unstable_count`], [`certify`] and [`response`] take a model under
-//! the wider law (a depth limit, healing, inertia) as well; [`critical_under`] and [`boundary_under`] are its onset,
-//! [`least_depth_limit`] and [`memory_length`] what leaves nothing unstable, [`walking_speeds`] and [`walk`] what a tip
-//! without a spring does. What takes a footprint alone is of the paper's law. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either can judge the other.
+//! which it may creep. All but these and [`onset`] take the wider law (a depth limit, healing, inertia) as well:
+//! [`least_depth_limit`] and [`memory_length`] say what leaves nothing unstable, [`walking_speeds`] and [`walk`] what a
+//! tip without a spring does. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either
+//! can judge the other.
 
-mod analytic;
 mod axis;
 mod bessel_roots;
 mod boundary;
+mod bounds;
 mod cell;
 mod certificate;
 mod characteristic;
+mod corner;
 mod creep;
 mod critical;
+mod crossings;
 mod error;
 mod half_plane;
 mod inversion;
+mod law;
+mod limits;
 mod newton;
+mod one_sided;
 mod onset;
 mod pulse;
 mod raster;
@@ -37,26 +42,24 @@ mod scaled_erfc;
 mod spectrum;
 mod transform;
 mod trapping;
-mod wider;
+mod walking;
 mod winding;
 
 #[cfg(test)]
 #[path = "../tests/stability/tables/mod.rs"]
 mod tables;
 
-pub use boundary::{Boundary, BoundaryBranch};
+pub use boundary::{Boundary, BoundaryBranch, critical};
 pub use certificate::{Certificate, Region};
 pub use creep::{Creep, creep};
-pub use critical::{Critical, critical, critical_r};
+pub use critical::{Critical, OnsetKind, critical_r};
 pub use error::StabilityError;
 pub use inversion::Inversion;
+pub use limits::{least_depth_limit, memory_length};
 pub use onset::{Criticality, Onset, onset, onset_at};
 pub use raster::{Raster, RasterCertificate, RasterCritical, RasterPath};
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
-pub use wider::{
-    OnsetKind, Walk, WiderCritical, boundary_under, critical_under, least_depth_limit,
-    memory_length, walk, walking_alpha, walking_speeds,
-};
+pub use walking::{Walk, walk, walking_alpha, walking_speeds};

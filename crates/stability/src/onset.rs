@@ -10,7 +10,7 @@ use super::transform::CurvatureTransform;
 use super::{StabilityError, critical};
 use num_complex::Complex64;
 use std::f64::consts::PI;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// On which side of the boundary the small oscillation exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,7 +48,7 @@ pub struct Onset {
 /// # Errors
 /// As [`critical`]; [`StabilityError::DegenerateOnset`] where the coefficients are not finite or vanish.
 pub fn onset(tip: &TipFunction, r: f64) -> Result<Onset, StabilityError> {
-    onset_at(tip, critical(tip, r)?)
+    onset_at(tip, critical(&Wider::default(), tip, r)?)
 }
 
 /// As [`onset`], for a critical point already known.

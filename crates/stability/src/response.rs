@@ -1,15 +1,12 @@
 //! Linear response to a weak pulse: the residue sum (A.9).
 
-use super::analytic::Analytic;
 use super::characteristic::Characteristic;
 use super::pulse::transform;
 use super::scaled_erfc::scaled_erfc;
-use super::transform::{CurvatureTransform, Scaled};
-use super::wider;
 use super::{Inversion, Spectrum, StabilityError, leading_roots};
 use num_complex::Complex64;
 use std::f64::consts::{PI, SQRT_2};
-use stickslip_tip::{Model, Pulse, TipFunction};
+use stickslip_tip::{Model, Pulse};
 
 /// One term of (A.9) for one pulse: `residue` e^{λt} once the pulse is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +45,8 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
         }
     }
     let spectrum = leading_roots(model, count)?;
-    let slope = slope_of_characteristic(model)?;
-    let weights: Vec<Complex64> = spectrum.roots.iter().map(|z| -slope(*z).inv()).collect();
+    let h = Characteristic::new(model)?;
+    let weights: Vec<Complex64> = spectrum.roots.iter().map(|z| -h.response(*z).1.inv()).collect();
     let residue = |(lambda, weight): (&Complex64, &Complex64)| {
         let force: Complex64 = pulses.iter().map(|p| transform(p, *lambda)).sum();
         ResponseMode { lambda: *lambda, residue: force * weight }
@@ -64,7 +61,8 @@ impl Response {
     #[must_use]
     pub fn while_pulses_last(&self, model: &Model, until: f64) -> Option<Inversion> {
         let rightmost = self.modes.first().map_or(0.0, |mode| mode.lambda.re);
-        Inversion::new(characteristic(model).ok()?, &self.pulses, rightmost, until)
+        let h = Characteristic::new(model).ok()?;
+        Inversion::new(|z| h.response(z).0, &self.pulses, rightmost, until)
     }
 
     /// l(t) - l0: each mode convolved with the force up to t.
@@ -82,27 +80,6 @@ impl Response {
     }
 }
 
-type Transfer<'a> = Box<dyn Fn(Complex64) -> Complex64 + 'a>;
-
-/// λ ↦ λ + 1 - K̃(λ) = h(Λ), right of the imaginary axis; D(Λ) under a wider law.
-fn characteristic(model: &Model) -> Result<Transfer<'_>, StabilityError> {
-    let r = model.r();
-    if wider::applies(model) {
-        let h = wider::characteristic(model)?;
-        return Ok(Box::new(move |z| h.response(z).0));
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
-        let transform = CurvatureTransform::new(model.tip());
-        let ratio = model.alpha() / r;
-        return Ok(Box::new(move |z| transform.at(z / r).value * ratio + z + 1.0));
-    }
-    let h = Characteristic::new(model);
-    Ok(Box::new(move |z| {
-        let Scaled { value, log_scale, .. } = h.at(z / r);
-        value * log_scale.exp()
-    }))
-}
-
 /// ∫_{-∞}^t Fext(t') e^{λ(t-t')}dt' = A W √(π/2) e^{-(t-T)²/2W²} erfcx(z), z = -(λW² + t - T)/(W√2).
 fn driven(pulse: &Pulse, lambda: Complex64, t: f64) -> Complex64 {
     let since = t - pulse.time;
@@ -114,25 +91,6 @@ fn driven(pulse: &Pulse, lambda: Complex64, t: f64) -> Complex64 {
     }
     let exponent = lambda * (lambda * (0.5 * pulse.width * pulse.width) + since);
     (exponent.exp() * 2.0 - scaled_erfc(-z).0 * force) * size
-}
-
-/// λ ↦ d/dλ (λ + 1 - K̃(λ)) = h'(Λ)/r.
-fn slope_of_characteristic(model: &Model) -> Result<Transfer<'_>, StabilityError> {
-    let r = model.r();
-    if wider::applies(model) {
-        let h = wider::characteristic(model)?;
-        return Ok(Box::new(move |z| h.response(z).1));
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
-        let transform = CurvatureTransform::new(model.tip());
-        let ratio = model.alpha() / r;
-        return Ok(Box::new(move |z| transform.at(z / r).derivative * (ratio / r) + 1.0));
-    }
-    let h = Characteristic::new(model);
-    Ok(Box::new(move |z| {
-        let Scaled { derivative, log_scale, .. } = h.at(z / r);
-        derivative * (log_scale.exp() / r)
-    }))
 }
 
 #[cfg(test)]

@@ -1,11 +1,9 @@
 //! All roots λ right of a line, with a certificate that none is missing: of (30), or for J0 of (44).
 
-use super::analytic::Analytic;
 use super::certificate::Certificate;
 use super::characteristic::Characteristic;
 use super::half_plane::{HalfPlane, leading};
 use super::spectrum::Spectrum;
-use super::wider::{self, WiderCharacteristic};
 use super::{StabilityError, bessel_roots};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction};
@@ -30,15 +28,11 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
     if !bound.is_finite() {
         return Err(StabilityError::Bound(bound));
     }
-    if let Some(h) = wider_law(model)? {
-        return counted(&h, bound / model.r())?.spectrum(&h);
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
+    if has_closed_form(model) {
         return bessel_roots::spectrum(model, Some(bound));
     }
-    let h = Characteristic::new(model);
-    let half_plane = HalfPlane::counted(&h, bound / model.r());
-    half_plane.and_then(|half_plane| half_plane.spectrum(&h)).map_err(|error| h.explain(error))
+    let h = Characteristic::new(model)?;
+    counted(&h, bound / model.r())?.spectrum(&h).map_err(|error| h.explain(error))
 }
 
 /// At least `count` leading roots: all those right of a line chosen so that there are so many.
@@ -50,13 +44,10 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
 /// # Errors
 /// As [`roots`].
 pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityError> {
-    if let Some(h) = wider_law(model)? {
-        return leading(&h, h.degree().map_or(count, |degree| count.min(degree)));
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
+    if has_closed_form(model) {
         return bessel_roots::spectrum(model, None);
     }
-    let h = Characteristic::new(model);
+    let h = Characteristic::new(model)?;
     leading(&h, count).map_err(|error| h.explain(error))
 }
 
@@ -65,15 +56,10 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
 /// # Errors
 /// As [`roots`]; on the boundary itself the count is that of a line a little to the left.
 pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
-    if let Some(h) = wider_law(model)? {
-        return Ok(counted(&h, 0.0)?.count);
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
+    if has_closed_form(model) {
         return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
     }
-    let h = Characteristic::new(model);
-    let half_plane = HalfPlane::counted(&h, 0.0).map_err(|error| h.explain(error))?;
-    Ok(half_plane.count)
+    Ok(counted(&Characteristic::new(model)?, 0.0)?.count)
 }
 
 /// Checks any list of roots λ against a fresh count of those with Re λ ≥ `bound`.
@@ -87,35 +73,32 @@ pub fn certify(
     bound: f64,
     roots: &[Complex64],
 ) -> Result<Certificate, StabilityError> {
-    if let Some(h) = wider_law(model)? {
-        let half_plane = counted(&h, bound / model.r())?;
-        return Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots));
-    }
-    if matches!(model.tip(), TipFunction::Bessel) {
+    if has_closed_form(model) {
         return bessel_roots::certify(model, bound, roots);
     }
-    let h = Characteristic::new(model);
-    let half_plane = HalfPlane::counted(&h, bound / model.r())?;
+    let h = Characteristic::new(model)?;
+    let half_plane = counted(&h, bound / model.r())?;
     Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
 }
 
-/// The characteristic function of anything but the paper's law.
-fn wider_law(model: &Model) -> Result<Option<WiderCharacteristic>, StabilityError> {
-    wider::applies(model).then(|| wider::characteristic(model)).transpose()
+/// Whether the roots are those of a quartic: of J0 under the basic law.
+fn has_closed_form(model: &Model) -> bool {
+    *model.tip() == TipFunction::Bessel && model.wider().is_papers()
 }
 
-fn counted(h: &WiderCharacteristic, left: f64) -> Result<HalfPlane, StabilityError> {
+fn counted(h: &Characteristic, left: f64) -> Result<HalfPlane, StabilityError> {
     if left < h.analytic_from() {
         let (least, bound) = (h.analytic_from() * h.r(), left * h.r());
         return Err(StabilityError::BranchPoints { least, bound });
     }
-    HalfPlane::counted(h, left)
+    HalfPlane::counted(h, left).map_err(|error| h.explain(error))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::critical;
+    use stickslip_tip::Wider;
 
     /// Between two places on the imaginary axis where h and h' were much the same, a step passed by the
     /// pair that had just crossed it at r = 0.2.
@@ -124,7 +107,7 @@ mod tests {
         for beta in [0.0, 0.5, 0.9, 1.0] {
             let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
             for r in [0.01, 0.05, 0.1, 0.2, 0.3, 0.7, 2.0, 10.0, 100.0] {
-                let alpha = critical(&tip, r).unwrap().alpha;
+                let alpha = critical(&Wider::default(), &tip, r).unwrap().alpha;
                 for (part, count) in [(0.5, 0), (0.99, 0), (0.9999, 0), (1.0001, 2), (1.01, 2)] {
                     let model = Model::new(tip.clone(), part * alpha, r).unwrap();
                     assert_eq!(unstable_count(&model), Ok(count), "{beta} {r} {part}");

@@ -1,14 +1,14 @@
 //! A surface that heals, and indentation that has a depth limit: onset moves.
 
 use std::error::Error;
-use stickslip::stability::critical_under;
+use stickslip::stability::critical;
 use stickslip::tip::{Model, Scenario, TipFunction, Wider, run};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let tip = TipFunction::triple_gaussian(1.0, 1.0)?;
     for healing_time in [1e6, 50.0, 8.0] {
         let law = Wider { healing_time: Some(healing_time), ..Wider::default() };
-        println!("T = {healing_time}: αc = {:.6}", critical_under(&law, &tip, 1.0)?.critical.alpha);
+        println!("T = {healing_time}: αc = {:.6}", critical(&law, &tip, 1.0)?.alpha);
     }
     let law = Wider { healing_time: Some(8.0), depth_limit: Some(5.0), ..Wider::default() };
     let model = Model::under(law, tip, 1.2, 1.0)?;

@@ -2,11 +2,11 @@
 
 use std::error::Error;
 use stickslip::stability::{Criticality, critical, leading_roots, onset};
-use stickslip::tip::{Model, TipFunction};
+use stickslip::tip::{Model, TipFunction, Wider};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let tip = TipFunction::triple_gaussian(1.0, 1.0)?;
-    let at = critical(&tip, 1.0)?;
+    let at = critical(&Wider::default(), &tip, 1.0)?;
     println!("αc = {:.10}, ω = {:.10}", at.alpha, at.omega);
     let born = onset(&tip, 1.0)?;
     assert_eq!(born.criticality, Criticality::Supercritical);

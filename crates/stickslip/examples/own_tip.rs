@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use stickslip::stability::critical;
-use stickslip::tip::{Gaussian, TipFunction};
+use stickslip::tip::{Gaussian, TipFunction, Wider};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let lobe = |amplitude, center, width| Gaussian { amplitude, center, width };
@@ -12,7 +12,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let x: Vec<f64> = (0..=80).map(|i| 0.1 * f64::from(i)).collect();
     let f: Vec<f64> = x.iter().map(|x| sum.value(*x)).collect();
     let table = TipFunction::table(&x, &f)?;
-    let [of_sum, of_table] = [critical(&sum, 1.0)?.alpha, critical(&table, 1.0)?.alpha];
+    let [of_sum, of_table] = [
+        critical(&Wider::default(), &sum, 1.0)?.alpha,
+        critical(&Wider::default(), &table, 1.0)?.alpha,
+    ];
     println!("αc = {of_sum:.8} of the sum, {of_table:.8} of its table");
     assert!((of_sum - of_table).abs() < 1e-4);
     Ok(())

@@ -12,7 +12,7 @@ mod quantity;
 pub use quantity::Unit;
 
 use stickslip_stability::{StabilityError, critical, critical_r};
-use stickslip_tip::{Model, ModelError, TipFunction};
+use stickslip_tip::{Model, ModelError, TipFunction, Wider};
 use thiserror::Error;
 
 /// What is measured, in SI units.
@@ -152,7 +152,7 @@ impl Physical {
     /// # Errors
     /// As [`critical`].
     pub fn critical_indentation_rate(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
-        let alpha = critical(tip, self.r())?.alpha;
+        let alpha = critical(&Wider::default(), tip, self.r())?.alpha;
         Ok(self.with_alpha_r(alpha, self.r()).indentation_rate)
     }
 
@@ -161,7 +161,7 @@ impl Physical {
     /// # Errors
     /// As [`critical_r`].
     pub fn critical_velocity(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
-        let r = critical_r(tip, self.alpha())?.r;
+        let r = critical_r(&Wider::default(), tip, self.alpha())?.r;
         Ok(self.with_alpha_r(self.alpha(), r).velocity)
     }
 
@@ -225,10 +225,13 @@ mod tests {
         let physical = example().with_alpha_r(0.9, 0.7);
         let rate = physical.critical_indentation_rate(&tip).unwrap();
         let at = Physical { indentation_rate: rate, ..physical };
-        close(at.alpha(), critical(&tip, at.r()).unwrap().alpha);
+        close(at.alpha(), critical(&Wider::default(), &tip, at.r()).unwrap().alpha);
         let velocity = physical.critical_velocity(&tip).unwrap();
         let at = Physical { velocity, ..physical };
-        assert!((critical(&tip, at.r()).unwrap().alpha / at.alpha() - 1.0).abs() < 1e-11);
+        assert!(
+            (critical(&Wider::default(), &tip, at.r()).unwrap().alpha / at.alpha() - 1.0).abs()
+                < 1e-11
+        );
     }
 
     #[test]

@@ -158,7 +158,7 @@ fn where_motion_amplifies_errors_that_is_told() {
 #[test]
 fn the_exponent_is_that_of_the_leading_root() {
     let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-    let onset = critical(&tip, 1.0).unwrap().alpha;
+    let onset = critical(&Wider::default(), &tip, 1.0).unwrap().alpha;
     for (above, kick, until) in [(-0.15, 0.01, 120.0), (-0.05, 0.01, 250.0), (0.1, 1e-6, 120.0)] {
         let model = triple(1.0, onset + above, 1.0);
         let scenario = Scenario { kick, ..Scenario::new(model.clone(), until) };

@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 use serde::Serialize;
 use stickslip::{ComplexDocument, CriticalDocument, SteadyState};
 use stickslip_stability::{
-    Critical, OnsetKind, StabilityError, critical, critical_under, leading_roots, trapping_alpha,
+    Critical, OnsetKind, StabilityError, critical, leading_roots, trapping_alpha,
     unstable_count,
 };
 use stickslip_tip::{Model, TipFunction, Wider};
@@ -35,11 +35,8 @@ pub(crate) fn onset(
     tip: &TipFunction,
     r: f64,
 ) -> Result<(Critical, Option<OnsetKind>), StabilityError> {
-    if wider.is_papers() {
-        return Ok((critical(tip, r)?, None));
-    }
-    let found = critical_under(wider, tip, r)?;
-    Ok((found.critical, Some(found.kind)))
+    let found = critical(wider, tip, r)?;
+    Ok((found, (!wider.is_papers()).then_some(found.kind)))
 }
 
 pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {

@@ -13,7 +13,7 @@ use stickslip_measurement::{
     Data, Fit, FitError, FitRequest, Name, Scan, Shape, Track, Values, fit as fitted,
 };
 use stickslip_stability::critical;
-use stickslip_tip::{Gaussian, TipFunction};
+use stickslip_tip::{Gaussian, TipFunction, Wider};
 use stickslip_units::Unit;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
@@ -41,7 +41,8 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
         found.remarks.insert(0, ASSUMED.into());
     }
     let tip = fitted_tip(&request, &found)?;
-    let critical_alpha = found.values.get(Name::R).and_then(|r| critical(&tip, r).ok());
+    let critical_alpha =
+        found.values.get(Name::R).and_then(|r| critical(&Wider::default(), &tip, r).ok());
     let held = Name::ALL.into_iter().filter_map(|name| {
         Some(NumberHeld { name: name.word().into(), value: request.known.get(name)? })
     });

@@ -18,7 +18,7 @@ use stickslip_stability::{
     Critical, OnsetKind, Spectrum, StabilityError, critical, critical_r, leading_roots, roots,
     unstable_count,
 };
-use stickslip_tip::{Model, TipFunction};
+use stickslip_tip::{Model, TipFunction, Wider};
 
 const DEFAULT_ROOTS: usize = 10;
 
@@ -70,7 +70,7 @@ impl Point {
     fn for_alpha(arguments: &ModelArguments, tip: TipFunction) -> Result<Self, Failure> {
         let missing = "αc is a function of r: give --r R, or --alpha A --solve-for r for rc(α)";
         let r = arguments.r.ok_or_else(|| Failure::input("--r", missing))?;
-        let critical = critical(&tip, r);
+        let critical = critical(&Wider::default(), &tip, r);
         if let Err(error @ StabilityError::R(_)) = critical {
             return Err(Failure::input(format!("--r {}", Typed(r)), error));
         }
@@ -96,7 +96,7 @@ impl Point {
         }
         let missing = "rc is a function of α: give --alpha A";
         let alpha = arguments.alpha.ok_or_else(|| Failure::input("--alpha", missing))?;
-        let critical = critical_r(&tip, alpha);
+        let critical = critical_r(&Wider::default(), &tip, alpha);
         if let Err(error @ StabilityError::Alpha(_)) = critical {
             return Err(Failure::input(format!("--alpha {}", Typed(alpha)), error));
         }

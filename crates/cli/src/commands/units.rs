@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use solve::Given;
 use stickslip::{CriticalUnits, UnitsDocument};
 use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 use stickslip_units::Physical;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
@@ -37,7 +37,10 @@ fn document(
     let model = physical.model(tip.clone()).map_err(|error| {
         Failure::input("the quantities", format!("{error}; check their units and prefixes"))
     })?;
-    let (at_r, at_alpha) = (critical(tip, model.r()), critical_r(tip, model.alpha()));
+    let (at_r, at_alpha) = (
+        critical(&Wider::default(), tip, model.r()),
+        critical_r(&Wider::default(), tip, model.alpha()),
+    );
     let check = "check the units and prefixes of the quantities";
     let stable = unstable_count(&model).map_err(|error| match error {
         StabilityError::TooFarApart { .. } => {

@@ -8,7 +8,7 @@ use crate::orbit::{Orbit, Profile, even_mesh};
 use crate::solve::{Closed, Condition, close};
 use crate::start::{mode, steps_of_mode};
 use crate::{Cycle, CycleError, Parameter};
-use stickslip_stability::{StabilityError, critical, critical_r, critical_under};
+use stickslip_stability::{critical, critical_r};
 use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Amplitude of the first cycle, in widths.
@@ -21,10 +21,8 @@ pub(super) fn at_onset(
     other: f64,
 ) -> Result<(Special, Place), CycleError> {
     let born = match settings.over {
-        Parameter::Alpha if wider.is_papers() => critical(tip, other)?,
-        Parameter::R if wider.is_papers() => critical_r(tip, other)?,
-        Parameter::Alpha => critical_under(wider, tip, other)?.critical,
-        Parameter::R => Err(StabilityError::PapersLawOnly("the r at which a given α is critical"))?,
+        Parameter::Alpha => critical(wider, tip, other)?,
+        Parameter::R => critical_r(wider, tip, other)?,
     };
     let (alpha, r) = (born.alpha, born.r);
     let hopf = Special { kind: SpecialKind::Hopf, alpha, r, period: born.period, cycle: None };

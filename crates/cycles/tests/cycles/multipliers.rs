@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_stability::critical;
-use stickslip_tip::{Gaussian, Model, TipFunction, eigenvalues};
+use stickslip_tip::{Gaussian, Model, TipFunction, Wider, eigenvalues};
 
 /// Dimension of the subspace, and periods that it is carried through.
 const VECTORS: usize = 5;
@@ -108,7 +108,7 @@ fn table(f: impl Fn(f64) -> f64, rows: usize, length: f64) -> TipFunction {
 }
 
 fn judge(name: &str, tip: TipFunction, above: f64, points: usize, leading: usize) {
-    let alpha = above * critical(&tip, 1.0).unwrap().alpha;
+    let alpha = above * critical(&Wider::default(), &tip, 1.0).unwrap().alpha;
     let cycle = cycle(&Model::new(tip, alpha, 1.0).unwrap(), DEFAULT_TOLERANCE).unwrap();
     let [coarse, fine] = [points, 2 * points].map(|n| PeriodMap::of(&cycle, n).multipliers());
     let slow = fine.iter().zip(&coarse).map(|(fine, coarse)| (fine * 4.0 - coarse) / 3.0);

@@ -5,7 +5,7 @@ use super::parameters::{Name, Shape, Values};
 use super::wave::{Cycles, Wave};
 use crate::least_squares::{Minimum, Residuals, differences, forward, minimum};
 use crate::projection::{Projected, project};
-use stickslip_stability::{critical, critical_under};
+use stickslip_stability::critical;
 
 /// What is fitted to what.
 #[derive(Clone)]
@@ -207,11 +207,7 @@ impl Problem<'_> {
     /// αc and the wavelength there.
     pub(super) fn onset(&self, values: &Values, r: f64) -> Option<(f64, f64)> {
         let model = values.model(self.shape, 1.0, r)?;
-        let found = if model.wider().is_papers() {
-            critical(model.tip(), r).ok()?
-        } else {
-            critical_under(model.wider(), model.tip(), r).ok()?.critical
-        };
+        let found = critical(model.wider(), model.tip(), r).ok()?;
         Some((found.alpha, found.wavelength))
     }
 }

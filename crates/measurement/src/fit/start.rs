@@ -7,6 +7,7 @@ use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
 use std::f64::consts::TAU;
 use stickslip_stability::critical;
+use stickslip_tip::Wider;
 
 /// r, and α over αc, of the motions that are tried where they are not known.
 const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
@@ -123,7 +124,8 @@ fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
                 Some(alpha) => vec![alpha],
                 None => {
                     let onset = values.model(problem.shape, 1.0, r);
-                    let onset = onset.and_then(|model| critical(model.tip(), r).ok());
+                    let onset =
+                        onset.and_then(|model| critical(&Wider::default(), model.tip(), r).ok());
                     onset.map_or(vec![], |at| OVER.iter().map(|o| o * at.alpha).collect())
                 }
             };
@@ -159,7 +161,7 @@ fn of_series(problem: &Problem, values: Values) -> Vec<Values> {
         |values: &[f64]| (values.iter().map(|v| v.ln()).sum::<f64>() / values.len() as f64).exp();
     let found = RS.iter().flat_map(|r| {
         let onset = values.model(problem.shape, 1.0, *r);
-        let onset = onset.and_then(|model| critical(model.tip(), *r).ok());
+        let onset = onset.and_then(|model| critical(&Wider::default(), model.tip(), *r).ok());
         let over: &[f64] = if wavelength.is_some() { &OVER } else { &[1.0] };
         over.iter().filter_map(move |over| {
             let at = onset?;

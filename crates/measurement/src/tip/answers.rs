@@ -2,7 +2,7 @@
 
 use super::search::Candidate;
 use stickslip_stability::{critical, trapping_alpha};
-use stickslip_tip::{Gaussian, TipFunction};
+use stickslip_tip::{Gaussian, TipFunction, Wider};
 
 /// Of a footprint with f(0) = 1, in units of σ.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +91,7 @@ impl Answers {
     pub(super) fn of(candidate: &Candidate, sigma: Option<f64>, r: f64) -> Option<Self> {
         let (terms, sigma, _) = normalised(candidate, sigma)?;
         let tip = TipFunction::gaussian_sum(terms).ok()?;
-        let at = critical(&tip, r).ok()?;
+        let at = critical(&Wider::default(), &tip, r).ok()?;
         let trapping = trapping_alpha(&tip, r).unwrap_or(f64::NAN);
         Some(Self { sigma, alpha: at.alpha, omega: at.omega, trapping })
     }

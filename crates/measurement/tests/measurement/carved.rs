@@ -7,7 +7,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use stickslip_grid as grid;
 use stickslip_measurement::{Data, Track};
-use stickslip_stability::{critical, critical_under};
+use stickslip_stability::critical;
 use stickslip_tip::{TipFunction, Wider};
 
 /// A motion of the triple Gaussian in some law, α/αc above its onset.
@@ -50,12 +50,7 @@ impl Truth {
 
     pub(crate) fn alpha(&self) -> f64 {
         let tip = self.tip();
-        let onset = if self.wider.is_papers() {
-            critical(&tip, self.r).unwrap().alpha
-        } else {
-            critical_under(&self.wider, &tip, self.r).unwrap().critical.alpha
-        };
-        self.over * onset
+        self.over * critical(&self.wider, &tip, self.r).unwrap().alpha
     }
 
     pub(crate) fn made(&self, points: usize) -> Made {

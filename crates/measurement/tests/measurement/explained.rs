@@ -374,7 +374,7 @@ fn rows_at_one_place_are_no_series() {
     // Exact rows at enough places: values, and no intervals.
     let at = |r: f64| {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        stickslip_stability::critical(&tip, r).unwrap().alpha / 0.5
+        stickslip_stability::critical(&Wider::default(), &tip, r).unwrap().alpha / 0.5
     };
     let velocity = vec![0.4, 0.6, 0.8, 1.0];
     let load = velocity.iter().map(|v| at(*v)).collect();

@@ -10,7 +10,7 @@ use rand_chacha::rand_core::SeedableRng;
 use stickslip_grid as grid;
 use stickslip_measurement::{Data, Fit, FitRequest, Name, Shape, Track, Values, fit};
 use stickslip_stability::critical;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// A motion of the triple Gaussian, β = 1, of width σ.
 struct Truth {
@@ -24,7 +24,7 @@ impl Truth {
     fn drawn(random: &mut ChaCha8Rng) -> Self {
         let r = random.random_range(0.6..1.5);
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let onset = critical(&tip, r).unwrap().alpha;
+        let onset = critical(&Wider::default(), &tip, r).unwrap().alpha;
         // Below the first period doubling, which at r = 1 is at 1.4 αc or so: a crest to a wavelength.
         let alpha = onset * random.random_range(1.08..1.28);
         Self { alpha, r, width: random.random_range(15.0..50.0), depth_limit: None }

@@ -3,7 +3,7 @@
 use crate::noisy_table::table;
 use stickslip_measurement::{Verdict, judge};
 use stickslip_stability::critical;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// Relative errors of αc that are told, and from which on a table is refused.
 const TOLD: f64 = 0.02;
@@ -17,7 +17,7 @@ fn noise_that_decides_is_seen_whenever_it_does() {
         let noise = [0.0, 1e-3, 0.02, 0.03][i % 4];
         let (x, f) = table(rows, noise, i as u64);
         let tip = TipFunction::table(&x, &f).unwrap();
-        let off = (critical(&tip, 1.0).unwrap().alpha / 1.879_427).ln().abs();
+        let off = (critical(&Wider::default(), &tip, 1.0).unwrap().alpha / 1.879_427).ln().abs();
         let verdict = judge((&x, &f), &tip);
         match verdict {
             Verdict::Sound => assert!(off < 2.0 * TOLD, "{rows} {noise}: off by {off}"),

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use stickslip_measurement::{MeasuredTip, Profile, Request, tip};
 use stickslip_stability::critical;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// A footprint: its shape, and the half width at which it has fallen to half of its apex.
 struct Truth {
@@ -44,7 +44,8 @@ impl Truth {
         let sigma = half_width / (2.0 * 2_f64.ln()).sqrt();
         let x: Vec<f64> = (0..=400).map(|i| 14.0 / 400.0 * f64::from(i)).collect();
         let f: Vec<f64> = x.iter().map(|x| shape(x * sigma) / apex).collect();
-        let alpha = critical(&TipFunction::table(&x, &f).unwrap(), 1.0).unwrap().alpha;
+        let alpha =
+            critical(&Wider::default(), &TipFunction::table(&x, &f).unwrap(), 1.0).unwrap().alpha;
         Self { name, shape, alpha, half_width }
     }
 }

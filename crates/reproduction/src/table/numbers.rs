@@ -6,7 +6,7 @@ use crate::parts::failed;
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;
 use stickslip_stability::{critical, unstable_count};
-use stickslip_tip::{InitialSurface, Model, TipFunction};
+use stickslip_tip::{InitialSurface, Model, TipFunction, Wider};
 
 const OTHER_TIP: &str = "the printed number is that of exp(-x²)";
 
@@ -61,7 +61,8 @@ fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
         ),
     ];
     let wide = TipFunction::triple_gaussian(0.0, 1.0).map_err(|error| failed("the tip", &error))?;
-    let at = critical(&wide, 1.0).map_err(|error| failed("the critical point", &error))?;
+    let at = critical(&Wider::default(), &wide, 1.0)
+        .map_err(|error| failed("the critical point", &error))?;
     let case = "(48) with β = 0, r = 1";
     all.extend([
         number("αc", case, "V, Fig. 2", "1.608").corrected(at.alpha, 3, OTHER_TIP),
@@ -129,7 +130,7 @@ fn largest_steady(model: &Model) -> f64 {
 fn bessel() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     for (r, alpha, omega) in [(1.0, "1", "0.786151"), (2.0, "4", "0.624811")] {
-        let at = critical(&TipFunction::Bessel, r)
+        let at = critical(&Wider::default(), &TipFunction::Bessel, r)
             .map_err(|error| failed("the critical point", &error))?;
         let case = format!("f = J0, r = {r}");
         let number = |quantity, place, text| Printed { quantity, case: &case, place, text };

@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::patch::Patch;
-use crate::wider::{Jet, PlainTransforms};
+use crate::one_sided::{Jet, OneSided};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use stickslip_tip::{Footprint, Gaussian, TipFunction};
@@ -10,7 +10,7 @@ use stickslip_tip::{Footprint, Gaussian, TipFunction};
 /// The transforms of f(x,0) over x > 0 and of the layers over all x, at p = s + iq.
 #[derive(Debug, Clone)]
 pub(super) struct Waves {
-    own: PlainTransforms,
+    own: OneSided,
     own_extent: Extent,
     layers: Vec<(Terms, Extent)>,
     /// Centre and width of all Gaussians of all layers, those of tables the same in each.
@@ -43,7 +43,7 @@ impl Waves {
         let layer = |tip: &TipFunction| {
             (gaussians(tip).iter().map(term).collect(), Extent::two_sided(tip, fading))
         };
-        let own = PlainTransforms::new(footprint.path());
+        let own = OneSided::new(footprint.path());
         let still = own.at(fading.into());
         let steady = [still.height, still.slope, still.curvature].map(|jet| jet.0.re);
         Self {

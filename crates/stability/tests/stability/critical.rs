@@ -7,7 +7,7 @@ use crate::tables::records;
 use stickslip_stability::{
     Boundary, StabilityError, creep, critical, critical_r, trapping_alpha, unstable_count,
 };
-use stickslip_tip::{Gaussian, Model, TipFunction};
+use stickslip_tip::{Gaussian, Model, TipFunction, Wider};
 
 const TABLE: &str = "stability_reference.json";
 
@@ -30,7 +30,7 @@ fn critical_points_have_the_reference_digits() {
     let rows = records(TABLE, "critical");
     assert_eq!(rows.len(), 10);
     for row in rows {
-        let found = critical(&triple(row[0], row[1]), row[2]).unwrap();
+        let found = critical(&Wider::default(), &triple(row[0], row[1]), row[2]).unwrap();
         assert_close(found.alpha, row[3], 1e-12);
         assert_close(found.omega, row[4], 1e-12);
     }
@@ -38,27 +38,28 @@ fn critical_points_have_the_reference_digits() {
 
 #[test]
 fn the_figures_printed_in_the_paper_are_met() {
-    let found = critical(&triple(1.0, 1.0), 1.0).unwrap();
+    let found = critical(&Wider::default(), &triple(1.0, 1.0), 1.0).unwrap();
     assert_close(found.alpha, 1.069036174947, 1e-12);
     assert_close(found.omega, 0.942779021257, 1e-12);
     assert_close(found.wavelength, 6.665, 1e-4);
     // β = 0: its figures are those of width 1/√2, not of (48).
-    let narrow = critical(&TipFunction::gaussian(0.5_f64.sqrt()).unwrap(), 1.0).unwrap();
+    let narrow =
+        critical(&Wider::default(), &TipFunction::gaussian(0.5_f64.sqrt()).unwrap(), 1.0).unwrap();
     assert_close(narrow.alpha, 1.608057105070, 1e-12);
     assert_close(narrow.wavelength, 6.727, 5e-4);
-    let wide = critical(&triple(0.0, 1.0), 1.0).unwrap();
+    let wide = critical(&Wider::default(), &triple(0.0, 1.0), 1.0).unwrap();
     assert!((wide.alpha - 1.608).abs() > 0.2, "negative control");
 }
 
 #[test]
 fn critical_r_inverts_critical() {
     let row = &records(TABLE, "critical_r")[0];
-    let found = critical_r(&triple(row[0], row[1]), row[2]).unwrap();
+    let found = critical_r(&Wider::default(), &triple(row[0], row[1]), row[2]).unwrap();
     assert_close(found.r, row[3], 1e-12);
     assert_close(found.omega, row[4], 1e-12);
     for r in [0.02, 0.3, 4.0, 60.0] {
-        let alpha = critical(&triple(0.5, 1.0), r).unwrap().alpha;
-        assert_close(critical_r(&triple(0.5, 1.0), alpha).unwrap().r, r, 1e-11);
+        let alpha = critical(&Wider::default(), &triple(0.5, 1.0), r).unwrap().alpha;
+        assert_close(critical_r(&Wider::default(), &triple(0.5, 1.0), alpha).unwrap().r, r, 1e-11);
     }
 }
 
@@ -66,7 +67,7 @@ fn critical_r_inverts_critical() {
 fn j0_loses_stability_at_r_squared_with_the_wave_number_of_equation_47() {
     for i in 0..=40 {
         let r = 0.05 * 400.0_f64.powf(f64::from(i) / 40.0);
-        let found = critical(&TipFunction::Bessel, r).unwrap();
+        let found = critical(&Wider::default(), &TipFunction::Bessel, r).unwrap();
         // (47) as printed cancels for small r: only a part of its digits there.
         let printed = (((1.0 + 4.0 * r * r).sqrt() - 1.0) / (2.0 * r * r)).sqrt();
         assert_close(found.alpha, r * r, 1e-15);
@@ -84,7 +85,7 @@ fn a_pair_of_roots_turns_unstable_at_alpha_c_and_none_before() {
         [triple(0.0, 1.0), triple(0.5, 0.3), triple(1.0, 1.0), two_lengths(), TipFunction::Bessel];
     for tip in &tips {
         for r in [0.01, 0.1, 1.0, 10.0, 100.0] {
-            let at = critical(tip, r).unwrap().alpha;
+            let at = critical(&Wider::default(), tip, r).unwrap().alpha;
             let count =
                 |alpha| unstable_count(&Model::new(tip.clone(), alpha, r).unwrap()).unwrap();
             for below in [0.2, 0.7, 0.999] {
@@ -98,13 +99,13 @@ fn a_pair_of_roots_turns_unstable_at_alpha_c_and_none_before() {
 #[test]
 fn of_several_crossings_the_first_counts() {
     let tip = two_lengths();
-    let boundary = Boundary::new(&tip);
+    let boundary = Boundary::new(&Wider::default(), &tip);
     let several: Vec<f64> = (0..200).map(|i| 0.01 * 1.03_f64.powi(i)).collect();
     let several = several.into_iter().find(|r| boundary.all_at(*r).unwrap().len() == 3);
     let r = several.expect("this tip has three crossings at some r");
     let all = boundary.all_at(r).unwrap();
     assert!(all.windows(2).all(|pair| pair[0].alpha < pair[1].alpha));
-    assert_close(critical(&tip, r).unwrap().alpha, all[0].alpha, 1e-14);
+    assert_close(critical(&Wider::default(), &tip, r).unwrap().alpha, all[0].alpha, 1e-14);
     // At each of them the number of unstable roots changes by a pair.
     let count = |alpha| unstable_count(&Model::new(tip.clone(), alpha, r).unwrap()).unwrap();
     for crossing in &all {
@@ -116,7 +117,7 @@ fn of_several_crossings_the_first_counts() {
 #[test]
 fn the_boundary_is_the_curve_of_critical_points() {
     let tip = triple(1.0, 1.0);
-    let boundary = Boundary::new(&tip);
+    let boundary = Boundary::new(&Wider::default(), &tip);
     let branches = boundary.branches(0.05, 4.0, 1000).unwrap();
     assert_eq!(branches.len(), 1);
     let branch = &branches[0];
@@ -133,7 +134,7 @@ fn the_boundary_is_the_curve_of_critical_points() {
 #[test]
 fn every_branch_of_the_boundary_solves_equations_42_and_43() {
     let tip = two_lengths();
-    let branches = Boundary::new(&tip).branches(0.01, 3.0, 300).unwrap();
+    let branches = Boundary::new(&Wider::default(), &tip).branches(0.01, 3.0, 300).unwrap();
     let turns = |r: &[f64]| r.windows(3).filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0).count();
     // Several at one r: more than one stretch, or one that turns back.
     assert!(branches.len() > 1 || turns(&branches[0].r) > 0);
@@ -212,12 +213,12 @@ fn push(tip: &TipFunction, p: f64) -> f64 {
 #[test]
 fn what_cannot_be_had_is_refused_with_its_numbers() {
     let tip = triple(1.0, 1.0);
-    assert_eq!(critical(&tip, -1.0), Err(StabilityError::R(-1.0)));
-    assert_eq!(critical_r(&tip, 0.0), Err(StabilityError::Alpha(0.0)));
+    assert_eq!(critical(&Wider::default(), &tip, -1.0), Err(StabilityError::R(-1.0)));
+    assert_eq!(critical_r(&Wider::default(), &tip, 0.0), Err(StabilityError::Alpha(0.0)));
     // A tip that heaps up instead of digging pushes the tip on, and is stable.
     let bell = Gaussian { amplitude: -1.0, center: 0.0, width: 1.0 };
     let heap = TipFunction::gaussian_sum(vec![bell]).unwrap();
-    assert_eq!(critical(&heap, 1.0), Err(StabilityError::NoCrossing { r: 1.0 }));
+    assert_eq!(critical(&Wider::default(), &heap, 1.0), Err(StabilityError::NoCrossing { r: 1.0 }));
     assert_eq!(trapping_alpha(&heap, 1.0), Err(StabilityError::NoTrapping));
 }
 
@@ -228,7 +229,10 @@ fn a_table_has_the_critical_point_of_what_it_tabulates() {
     let f: Vec<f64> = x.iter().map(|x| exact.value(*x)).collect();
     let table = TipFunction::table(&x, &f).unwrap();
     for r in [0.1, 1.0, 10.0] {
-        let (of_table, of_exact) = (critical(&table, r).unwrap(), critical(&exact, r).unwrap());
+        let (of_table, of_exact) = (
+            critical(&Wider::default(), &table, r).unwrap(),
+            critical(&Wider::default(), &exact, r).unwrap(),
+        );
         assert_close(of_table.alpha, of_exact.alpha, 1e-10);
         assert_close(of_table.omega, of_exact.omega, 1e-10);
     }

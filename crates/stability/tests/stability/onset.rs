@@ -5,7 +5,7 @@
 
 use crate::tables::records;
 use stickslip_stability::{Criticality, critical, onset};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 #[test]
 fn amplitude_and_period_grow_with_the_slopes_of_the_limit_cycles() {
@@ -43,7 +43,7 @@ fn the_growth_slope_is_that_of_the_leading_root() {
     use stickslip_stability::leading_roots;
     use stickslip_tip::Model;
     for tip in [TipFunction::triple_gaussian(0.5, 0.8).unwrap(), TipFunction::Bessel] {
-        let at = critical(&tip, 2.0).unwrap();
+        let at = critical(&Wider::default(), &tip, 2.0).unwrap();
         let growth = |alpha: f64| {
             leading_roots(&Model::new(tip.clone(), alpha, 2.0).unwrap(), 2).unwrap().roots[0].re
         };

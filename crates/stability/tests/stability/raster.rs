@@ -35,7 +35,7 @@ fn thresholds_are_those_of_the_prototype() {
 #[test]
 fn lines_far_apart_are_single_lines() {
     let tip = TipFunction::gaussian(1.0).unwrap();
-    let alone = critical(&tip, 1.0).unwrap();
+    let alone = critical(&Wider::default(), &tip, 1.0).unwrap();
     for path in [RasterPath::OneWay, RasterPath::Zigzag] {
         let found = gaussian(9.0).critical(path).unwrap();
         assert!((found.alpha - alone.alpha).abs() < 1e-12 && (found.q - alone.omega).abs() < 1e-12);
@@ -185,7 +185,9 @@ fn is_the_threshold(slow: &Slow, found: &RasterCritical) {
     // The zero between them, straight on.
     let off = growth(1.0) * 2.0 * margin / (above - below);
     assert!(off.abs() < 1e-8, "{name}: {off:e}");
-    let single = critical(&TipFunction::of_footprint(slow_footprint(slow)), slow.r).unwrap();
+    let single =
+        critical(&Wider::default(), &TipFunction::of_footprint(slow_footprint(slow)), slow.r)
+            .unwrap();
     let middle = 2.0 * PI / single.wavelength;
     let wide = (1..120).map(|i| 0.05 * f64::from(i));
     let close = (0..60).flat_map(|i| {
@@ -278,7 +280,7 @@ fn thresholds_of_footprints_that_are_no_product_are_the_first_too() {
 fn lines_that_hardly_feel_each_other_are_nearly_single_lines() {
     for (beta, r) in [(0.0, 1.0), (1.0, 1.0), (1.0, 0.3), (0.0, 3.0), (0.0, 100.0), (1.0, 0.01)] {
         let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
-        let alone = critical(&tip, r).unwrap();
+        let alone = critical(&Wider::default(), &tip, r).unwrap();
         let footprint = Footprint::separable(tip, 1.0).unwrap();
         let mut before = 0.0;
         for i in 0..40 {

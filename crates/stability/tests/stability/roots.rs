@@ -6,7 +6,7 @@ use crate::tables::records;
 use gauss_quad::GaussLegendre;
 use num_complex::Complex64;
 use stickslip_stability::{certify, critical, leading_roots, roots, unstable_count};
-use stickslip_tip::{Gaussian, Model, TipFunction};
+use stickslip_tip::{Gaussian, Model, TipFunction, Wider};
 
 fn model(beta: f64, alpha: f64, r: f64) -> Model {
     let tip = TipFunction::triple_gaussian(beta, 1.0).expect("a valid tip");
@@ -68,7 +68,7 @@ fn roots_are_complete_and_finite_for_every_r_and_beta() {
         let r = 10.0_f64.powf(-2.0 + 0.5 * f64::from(i));
         for beta in [0.0, 0.2, 0.4, 0.7, 1.0] {
             let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
-            let critical = critical(&tip, r).unwrap();
+            let critical = critical(&Wider::default(), &tip, r).unwrap();
             for factor in [0.0, 1e-9, 0.1, 0.9999999, 1.0, 1.1, 10.0, 1e3] {
                 let model = Model::new(tip.clone(), factor * critical.alpha, r).unwrap();
                 let found = leading_roots(&model, 10).unwrap();
@@ -129,7 +129,7 @@ fn roots_are_complete_where_terms_of_the_tip_balance_far_left() {
     ];
     for tip in &tips {
         for (r, part) in [(0.01, 1e-3), (1.0, 1.0), (100.0, 10.0)] {
-            let alpha = part * critical(tip, r).unwrap().alpha;
+            let alpha = part * critical(&Wider::default(), tip, r).unwrap().alpha;
             let model = Model::new(tip.clone(), alpha, r).unwrap();
             for count in [40, 100] {
                 let found = leading_roots(&model, count).unwrap();
@@ -249,7 +249,7 @@ fn roots_of_large_alpha_lie_where_they_must() {
 fn at_the_critical_point_the_leading_pair_is_on_the_axis() {
     for tip in [TipFunction::triple_gaussian(1.0, 1.0).unwrap(), TipFunction::Bessel] {
         for r in [0.05, 0.3, 1.0, 20.0] {
-            let critical = critical(&tip, r).unwrap();
+            let critical = critical(&Wider::default(), &tip, r).unwrap();
             let model = Model::new(tip.clone(), critical.alpha, r).unwrap();
             let leading = leading_roots(&model, 4).unwrap().roots[0];
             assert!(leading.re.abs() < 1e-12 * critical.omega, "{tip:?} {r} {leading}");

@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use stickslip_stability::{
-    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, WiderCritical,
-    critical_under, least_depth_limit, memory_length, onset_at,
+    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, least_depth_limit,
+    memory_length, onset_at,
 };
 use stickslip_tip::{TipFunction, Wider};
 
@@ -108,7 +108,7 @@ impl Boundary {
     /// Under the basic law: with criticality and all stretches of the curve.
     fn basic(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
         let tip = &self.tip.0;
-        let boundary = stability::Boundary::new(tip);
+        let boundary = stability::Boundary::new(&Wider::default(), tip);
         let steps = 2 * self.points;
         let (mut along, mut left_out) = (vec![], vec![]);
         for (n, r) in self.spacing.values(self.r_range, self.points).into_iter().enumerate() {
@@ -143,10 +143,11 @@ impl Boundary {
         context: &Context,
     ) -> Result<(BoundaryFound, Vec<String>), Failure> {
         let tip = &self.tip.0;
+        let boundary = stability::Boundary::new(law, tip);
         let values = self.spacing.values(self.r_range, self.points);
         let (mut along, mut left_out, mut least) = (vec![], vec![], vec![]);
         for (n, r) in values.iter().enumerate() {
-            match critical_under(law, tip, *r) {
+            match boundary.at(*r) {
                 Ok(found) => along.push(found),
                 Err(
                     error @ (StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. }),
@@ -159,7 +160,6 @@ impl Boundary {
             least.push(least_depth_limit(law, tip, *r).ok());
             context.counted(n + 1, self.points, "steps")?;
         }
-        let critical = along.iter().map(|at| &at.critical);
         let found = BoundaryFound {
             kind: along.iter().map(|at| at.kind.into()).collect(),
             limits: Some(LimitColumns {
@@ -167,7 +167,7 @@ impl Boundary {
                 least_depth_limit: least,
                 memory_length: memory_length(tip).ok(),
             }),
-            ..BoundaryFound::through(critical, OnsetColumns::unknown(along.len()))
+            ..BoundaryFound::through(along.iter(), OnsetColumns::unknown(along.len()))
         };
         Ok((found, remarks(&along, &left_out)))
     }
@@ -195,7 +195,7 @@ fn left_out_remark(left_out: &[StabilityError]) -> Option<String> {
     Some(format!("{} values of r are left out: {first}", left_out.len()))
 }
 
-fn remarks(along: &[WiderCritical], left_out: &[StabilityError]) -> Vec<String> {
+fn remarks(along: &[Critical], left_out: &[StabilityError]) -> Vec<String> {
     let mut remarks: Vec<String> = left_out_remark(left_out).into_iter().collect();
     if along.iter().any(|at| at.kind == OnsetKind::NonSmooth) {
         let message = "kind non-smooth: the height under the tip is 0 in steady motion, where |h| of the depth limit \

@@ -197,12 +197,7 @@ impl Indentation {
             return self.alpha.map(Self::given).ok_or_else(|| Refused::whole("alpha", why));
         };
         Model::under(law, tip.clone(), 0.0, r)?;
-        let critical = if law.is_papers() && *tip != TipFunction::Cosine {
-            stability::critical(tip, r)
-        } else {
-            stability::critical_under(&law, tip, r).map(|found| found.critical)
-        };
-        let critical = critical.map_err(|error| {
+        let critical = stability::critical(&law, tip, r).map_err(|error| {
             Refused::number("alpha_above", distance, format!("{error}; give {{alpha}} instead"))
         })?;
         let found = critical.alpha + distance;

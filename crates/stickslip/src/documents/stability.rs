@@ -200,7 +200,7 @@ pub struct OnsetDocument {
 impl CriticalDocument {
     /// A critical point, and of which kind it is under the wider law.
     pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
-        let Critical { alpha, r, omega, period, wavelength } = *critical;
+        let Critical { alpha, r, omega, period, wavelength, .. } = *critical;
         Self { alpha, r, omega, period, wavelength, kind: kind.map(OnsetKindName::from) }
     }
 }

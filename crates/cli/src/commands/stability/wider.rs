@@ -6,7 +6,7 @@ use crate::commands::model::{tip, wide_model, wider};
 use crate::failure::{Failure, Typed};
 use stickslip::{LimitsDocument, SolveFor};
 use stickslip_stability::{
-    Creep, Critical, Onset, OnsetKind, StabilityError, creep, critical_under, least_depth_limit,
+    Creep, Critical, Onset, OnsetKind, StabilityError, creep, critical, least_depth_limit,
     memory_length, onset_at, trapping_alpha,
 };
 use stickslip_tip::Model;
@@ -27,9 +27,8 @@ impl Point {
         let r =
             model.r.ok_or_else(|| Failure::input("--r", "αc is a function of r: give --r R"))?;
         let (law, tip) = (wider(&model.wider), tip(&model.tip)?);
-        let found = critical_under(&law, &tip, r);
-        let kind = found.as_ref().ok().map(|found| found.kind);
-        let critical = found.map(|found| found.critical);
+        let critical = critical(&law, &tip, r);
+        let kind = critical.as_ref().ok().map(|found| found.kind);
         if model.alpha.is_some() || model.alpha_above.is_some() {
             return Ok(Self { critical, model: wide_model(model)?, at_critical: false, kind });
         }

@@ -4,15 +4,11 @@ use super::grid::{Alpha, Place};
 use super::started;
 use stickslip::SweepPoint;
 use stickslip_outcome::motion;
-use stickslip_stability::{critical, critical_under};
-use stickslip_tip::{Model, TipFunction};
+use stickslip_stability::critical;
+use stickslip_tip::Model;
 
 pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
-    let critical = if place.wider.is_papers() && *place.tip != TipFunction::Cosine {
-        critical(place.tip, place.r)
-    } else {
-        critical_under(&place.wider, place.tip, place.r).map(|found| found.critical)
-    };
+    let critical = critical(&place.wider, place.tip, place.r);
     let alpha = match (place.alpha, &critical) {
         (Alpha::Given(alpha), _) => Some(alpha),
         (Alpha::Above(above), Ok(critical)) => Some(critical.alpha + above),

@@ -5,7 +5,7 @@ use crate::failure::{Failure, Typed};
 use crate::files::input::{TipFile, read_tip};
 use stickslip::UnitsParameters;
 use stickslip_stability as stability;
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 use stickslip_units::{Physical, Unit};
 
 /// Option, symbol, unit, and the powers with which it enters r (12) and α (13).
@@ -220,7 +220,7 @@ fn alpha(
             let r = r.ok_or_else(|| {
                 Failure::input(&named, "αc is a function of r: give --r R, or --alpha A instead")
             })?;
-            let critical = stability::critical(tip, r).map_err(|error| {
+            let critical = stability::critical(&Wider::default(), tip, r).map_err(|error| {
                 Failure::input(&named, format!("{error}; give --alpha instead"))
             })?;
             judged(critical.alpha + above, named).map(Some)

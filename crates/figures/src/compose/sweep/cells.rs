@@ -8,7 +8,7 @@ use stickslip::{
     TipDocument,
 };
 use stickslip_stability::{critical, trapping_alpha};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{TipFunction, Wider};
 
 /// A column of cells for every value of the slow parameter, and the lines of theory across them.
 pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> PanelDocument {
@@ -79,7 +79,8 @@ fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64
     let here = |point: &&SweepPoint| slow.place(point) == i;
     let known = document.points.iter().filter(here).find_map(|point| point.critical_alpha);
     let of = |value: &dyn Fn(&TipFunction) -> Option<f64>| tip.as_ref().and_then(value);
-    let onset = known.or_else(|| of(&|tip| critical(tip, r).ok().map(|c| c.alpha)));
+    let onset =
+        known.or_else(|| of(&|tip| critical(&Wider::default(), tip, r).ok().map(|c| c.alpha)));
     let trapped = of(&|tip| trapping_alpha(tip, r).ok());
     (slow.values[i], onset.unwrap_or(f64::NAN), trapped.unwrap_or(f64::NAN))
 }

@@ -12,8 +12,9 @@
 //! solved for A, Ω and the harmonics with ξ_1 = 1, by putting W in and getting it back. That ends where b is so small
 //! that the harmonics of |h| are no small part of it: β = 1, r = 1 between b = 1 and 0.7.
 
-use super::law::{Crossing, Law};
-use super::transforms::Jet;
+use super::crossings::Crossing;
+use super::law::Law;
+use super::one_sided::{Jet, Values};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 use stickslip_tip::roots::zero_between;
@@ -62,14 +63,9 @@ fn balanced(law: &Law, limit: f64, start: Crossing, harmonics: usize) -> Option<
 
 /// φ, φ1, G - G(s) and the bare part at inΩ, each with its derivative.
 fn parts(law: &Law, lambda: Complex64) -> [Jet; 4] {
-    let t = law.footprint.at(lambda + law.fading);
-    let over = |f: Jet| {
-        let value = f.0 / t.unit.0;
-        (value, (f.1 - value * t.unit.1) / t.unit.0)
-    };
-    let curvature = over(t.curvature);
+    let Values { height, slope, curvature } = law.footprint.plain(lambda + law.fading);
     let groove = (curvature.0 - law.steady.curvature, curvature.1);
-    [over(t.height), over(t.slope), groove, law.bare(lambda)]
+    [height, slope, groove, law.bare(lambda)]
 }
 
 /// A and Ω at which the fundamental balances for a given W_1, by Newton's method.

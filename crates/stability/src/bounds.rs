@@ -1,4 +1,4 @@
-//! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ grows.
+//! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ + κ grows, or for creep stays κ.
 
 use super::law::Law;
 use num_complex::Complex64;
@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use stickslip_tip::{Gaussian, TipFunction};
 
 /// Samples of f over its reach, from which its integrals are bounded.
-const SAMPLES: u32 = 2000;
+const SAMPLES: u32 = 1000;
 /// Kept between those sums and the bounds that use them.
 const MARGIN: f64 = 1.1;
 /// Bounds are looked for by steps of this factor, up to so far.
@@ -32,7 +32,7 @@ impl Bounds {
             return Self { area: [f64::INFINITY; 3], decay: [WAVES; 3], from: 2.0, terms: vec![] };
         };
         let reach = tip.reach().unwrap_or(1.0);
-        let samples = f64::from(SAMPLES).max(2.0 * reach * tip.band()).min(1e5);
+        let samples = f64::from(SAMPLES).max(reach * tip.band()).min(1e5);
         let step = reach / samples;
         let at = |x: f64| {
             let (slope, curvature) = tip.slope_and_curvature(x);
@@ -84,28 +84,24 @@ impl Bounds {
         (2.0_f64.sqrt() / narrowest).max(self.from)
     }
 
-    /// R beyond which N has no zero with Re Λ ≥ 0. There |Mv²Λ² + vΛ + κ| ≥ v|Λ|, as the real part of
-    /// Mv²Λ + v + κ/Λ is at least v.
+    /// ∫|f''|; 1 for J0 and cos x, of which it is infinite.
+    pub(super) fn curvature(&self) -> f64 {
+        if self.area[2].is_finite() { self.area[2] } else { 1.0 }
+    }
+
+    /// R beyond which N has no zero with Re Λ ≥ 0.
     pub(super) fn right_bound(&self, law: &Law) -> f64 {
-        let far = |distance: f64| {
-            let inertial = law.inertia * distance * distance - law.speed * distance - law.spring;
-            outweighs(law, inertial.max(law.speed * distance), self.right(distance))
-        };
+        let far =
+            |distance: f64| outweighs(law, bare_on_the_right(law, distance), self.right(distance));
         first(far, self.from.max(1e-9 / self.unit_length(law)))
     }
 
     /// T above which N has no zero with Re Λ ≥ `left`.
     pub(super) fn top_bound(&self, law: &Law, left: f64, least: f64) -> f64 {
         let past = left + law.fading;
-        let bare = bare_zeros(law);
-        let far = |top: f64| {
-            // |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv Re Λ|, and the product of the distances
-            // from its two zeros.
-            let imaginary = 1.0 - 2.0 * law.inertia / law.speed * (-left).max(0.0);
-            let apart = bare.iter().map(|zero| (top - zero.im.abs()).max(0.0)).product::<f64>();
-            let bare = (law.speed * top * imaginary).max(law.inertia * apart);
-            outweighs(law, bare, self.left(past, top))
-        };
+        let zeros = bare_zeros(law);
+        let far =
+            |top: f64| outweighs(law, bare_above(law, &zeros, left, top), self.left(past, top));
         first(far, least.max(if past < 0.0 { self.fading_from() } else { self.from }))
     }
 
@@ -114,12 +110,33 @@ impl Bounds {
     }
 }
 
+/// |Mv²Λ² + vΛ + κ| is no less than this where |Λ| ≥ `distance`, Re Λ ≥ 0: the real part of Mv²Λ + v + κ/Λ is at
+/// least v. Without drag κ is left.
+fn bare_on_the_right(law: &Law, distance: f64) -> f64 {
+    if law.drag <= 0.0 {
+        return law.spring;
+    }
+    let inertial = law.inertia * distance * distance - law.drag * distance - law.spring;
+    inertial.max(law.drag * distance)
+}
+
+/// Nor than this where Re Λ ≥ `left`, |Im Λ| ≥ `top`: |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv Re Λ|,
+/// and the product of the distances from its two zeros.
+fn bare_above(law: &Law, zeros: &[Complex64], left: f64, top: f64) -> f64 {
+    if law.drag <= 0.0 {
+        return law.spring;
+    }
+    let imaginary = 1.0 - 2.0 * law.inertia / law.drag * (-left).max(0.0);
+    let apart = zeros.iter().map(|zero| (top - zero.im.abs()).max(0.0)).product::<f64>();
+    (law.drag * top * imaginary).max(law.inertia * apart)
+}
+
 /// The zeros of Mv²Λ² + vΛ + κ, if there are two.
 pub(super) fn bare_zeros(law: &Law) -> Vec<Complex64> {
     if law.inertia <= 0.0 {
         return vec![];
     }
-    quadratic(law.inertia, law.speed, law.spring)
+    quadratic(law.inertia, law.drag, law.spring)
 }
 
 /// Zeros of az² + bz + c, b > 0, without cancellation.

@@ -1,12 +1,12 @@
-//! φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1, all that the
-//! wider law asks of a footprint.
+//! φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1: the transforms of a
+//! footprint in the characteristic equation.
 
-use super::super::transform::{CurvatureTransform, Scaled, bessel_root};
+use super::transform::{CurvatureTransform, Scaled, bessel_root};
 use num_complex::Complex64;
 use stickslip_tip::TipFunction;
 
 /// A value and its derivative.
-pub(in super::super) type Jet = (Complex64, Complex64);
+pub(super) type Jet = (Complex64, Complex64);
 
 /// The transforms at one p, all of them times `unit`·e^{`log_scale`}: 1 for Gaussians, √(p²+1) for J0 and p²+1
 /// for cos x, whose transforms are infinite at ±i.
@@ -38,41 +38,21 @@ pub(super) struct Steady {
 
 /// The transforms of one footprint.
 #[derive(Debug, Clone)]
-pub(super) struct Footprint {
+pub(super) struct OneSided {
     tip: TipFunction,
     apex: f64,
     curvature: CurvatureTransform,
 }
 
-/// φ, φ1 and G of one footprint as they are, at any p at which they are of ordinary size.
-#[derive(Debug, Clone)]
-pub(in super::super) struct PlainTransforms(Footprint);
-
 /// φ, φ1 and G, with their derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(in super::super) struct Values {
-    pub(in super::super) height: Jet,
-    pub(in super::super) slope: Jet,
-    pub(in super::super) curvature: Jet,
+pub(super) struct Values {
+    pub(super) height: Jet,
+    pub(super) slope: Jet,
+    pub(super) curvature: Jet,
 }
 
-impl PlainTransforms {
-    pub(in super::super) fn new(tip: &TipFunction) -> Self {
-        Self(Footprint::new(tip))
-    }
-
-    pub(in super::super) fn at(&self, p: Complex64) -> Values {
-        let at = self.0.at(p);
-        let (unit, change) = at.unit;
-        let over = |(value, slope): Jet| {
-            let value = value / unit;
-            (value, (slope - value * change) / unit)
-        };
-        Values { height: over(at.height), slope: over(at.slope), curvature: over(at.curvature) }
-    }
-}
-
-impl Footprint {
+impl OneSided {
     pub(super) fn new(tip: &TipFunction) -> Self {
         Self { tip: tip.clone(), apex: tip.value(0.0), curvature: CurvatureTransform::new(tip) }
     }
@@ -91,6 +71,17 @@ impl Footprint {
             TipFunction::Bessel => bessel(p),
             TipFunction::Cosine => cosine(p),
         }
+    }
+
+    /// As they are, at any p at which they are of ordinary size.
+    pub(super) fn plain(&self, p: Complex64) -> Values {
+        let at = self.at(p);
+        let (unit, change) = at.unit;
+        let over = |(value, slope): Jet| {
+            let value = value / unit;
+            (value, (slope - value * change) / unit)
+        };
+        Values { height: over(at.height), slope: over(at.slope), curvature: over(at.curvature) }
     }
 
     pub(super) fn steady(&self, p: f64) -> Steady {
@@ -189,7 +180,7 @@ mod tests {
         ];
         let points = [(0.5, 0.0), (0.5, 0.9), (0.6, 3.0), (2.0, 0.3), (1e-3, 1e-2), (-1.5, 0.7)];
         for (tip, reach) in tips {
-            let footprint = Footprint::new(&tip);
+            let footprint = OneSided::new(&tip);
             for (re, im) in points.into_iter().filter(|p| reach < 20.0 || p.0 > 0.4) {
                 let p = Complex64::new(re, im);
                 let at = footprint.at(p);
@@ -219,7 +210,7 @@ mod tests {
         let parts: [fn(&Transforms) -> Jet; 4] =
             [|t| t.unit, |t| t.height, |t| t.slope, |t| t.curvature];
         for tip in tips {
-            let footprint = Footprint::new(&tip);
+            let footprint = OneSided::new(&tip);
             for p in [(0.1, 0.2), (0.4, 1.9), (2.0, 0.1)].map(|(re, im)| Complex64::new(re, im)) {
                 for part in parts {
                     let at = |h: f64| part(&footprint.at(p + h)).0;

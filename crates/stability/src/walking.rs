@@ -4,11 +4,11 @@
 //! the tip raises the surface and is pushed away from where it was. From rest, v → 0, φ1 → f''(0)v²T²: walking
 //! begins where αT²f''(0) = 1.
 
-use super::super::half_plane::leading;
-use super::super::{Spectrum, StabilityError};
-use super::characteristic::WiderCharacteristic;
+use super::characteristic::Characteristic;
+use super::crossings::zeros;
+use super::half_plane::leading;
 use super::law::Law;
-use super::onset::zeros;
+use super::{Spectrum, StabilityError};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction, Wider};
 
@@ -52,18 +52,19 @@ pub fn walking_speeds(model: &Model) -> Result<Vec<f64>, StabilityError> {
     let decades = -SLOWEST.log10();
     let exponent = |n: u32| f64::from(n) / f64::from(PER_DECADE) - decades;
     let samples = (0..).map(|n| 1.01 * largest * 10_f64.powf(exponent(n)));
-    let samples: Vec<f64> = samples.take_while(|v| *v < 1.1 * largest).collect();
+    let samples = samples.take_while(|v| *v < 1.1 * largest);
     let balance = |speed: f64| {
         let law = law_at(model, speed);
         1.0 - law.density * law.steady.slope / speed
     };
+    let samples: Vec<(f64, f64)> = samples.map(|v| (v, balance(v))).collect();
     Ok(zeros(balance, &samples))
 }
 
 /// The walk at one of the [`walking_speeds`], with at least `count` leading roots.
 ///
 /// # Errors
-/// As [`walking_speeds`] and [`super::super::leading_roots`].
+/// As [`walking_speeds`] and [`super::leading_roots`].
 pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityError> {
     if model.wider().spring {
         return Err(StabilityError::Dragged);
@@ -76,8 +77,7 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
         return Err(StabilityError::Corner);
     }
     let weight = law.density * speed / model.alpha();
-    let h = WiderCharacteristic::new(law);
-    let mut spectrum = leading(&h, h.degree().map_or(count, |degree| count.min(degree)))?;
+    let mut spectrum = leading(&Characteristic::of(law), count)?;
     let neutral = spectrum.roots.iter_mut().min_by(|a, b| a.norm().total_cmp(&b.norm()));
     if let Some(neutral) = neutral.filter(|z| z.norm() < NEUTRAL * (1.0 + speed)) {
         *neutral = Complex64::ZERO;

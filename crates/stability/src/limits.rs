@@ -1,8 +1,8 @@
 //! What depth limit and what healing leave nothing unstable.
 
-use super::super::StabilityError;
+use super::StabilityError;
+use super::crossings::{beside_resonance, least, wave_numbers};
 use super::law::Law;
-use super::onset::{least, wave_numbers};
 use num_complex::Complex64;
 use stickslip_tip::roots::halved_between;
 use stickslip_tip::{TipFunction, Wider};
@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-6;
 /// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A.
 ///
 /// # Errors
-/// As [`super::critical_under`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] where nothing is
+/// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] where nothing is
 /// unstable at any b.
 pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
     if !(r.is_finite() && r > 0.0) {
@@ -38,7 +38,9 @@ pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64
     if Law::has_corner(&limited, tip, &law.steady) {
         return Err(StabilityError::Corner);
     }
-    let samples = wave_numbers(&law);
+    let mut samples = wave_numbers(tip);
+    samples.extend(beside_resonance(&law));
+    samples.sort_by(f64::total_cmp);
     let values: Vec<f64> = samples.iter().map(|q| inverse_limit(&law, *q)).collect();
     let mut largest = f64::NEG_INFINITY;
     for (q, value) in samples.windows(3).zip(values.windows(3)) {
@@ -104,7 +106,7 @@ fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
 /// [`StabilityError::NoLimit`] if it never ends.
 pub fn memory_length(tip: &TipFunction) -> Result<f64, StabilityError> {
     let law = Law::with_density(&Wider::default(), tip, 1.0, 1.0);
-    let samples = wave_numbers(&law);
+    let samples = wave_numbers(tip);
     let lowest = |s: f64| {
         let at = |q: f64| {
             let t = law.footprint.at(Complex64::new(s, q));

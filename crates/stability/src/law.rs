@@ -1,4 +1,4 @@
-//! Small deviations from steady motion under the wider law, their characteristic equation term by term.
+//! Small deviations from steady motion, their characteristic equation term by term.
 //!
 //! With λ = vΛ, p = Λ + s, A = αw0/v and B = ±A/b (minus where the surface under the tip is raised, h0 > 0):
 //!
@@ -13,17 +13,22 @@
 //! ```text
 //!     N(Λ) = (Mv²Λ² + vΛ + κ - A G(s))(1 + Bφ(p)) + A φ1(p)(p + B s φ(s)) = 0
 //! ```
+//!
+//! Under the basic law this is (30), rΛ + 1 + (α/r) G(Λ) = 0.
 
-use super::transforms::{Footprint, Jet, Steady, Transforms};
+use super::one_sided::{Jet, OneSided, Steady, Transforms};
 use num_complex::Complex64;
+use std::sync::Arc;
 use stickslip_tip::{Model, TipFunction, Wider};
 
 /// The numbers in N.
 #[derive(Debug, Clone)]
 pub(super) struct Law {
-    pub(super) footprint: Footprint,
+    pub(super) footprint: Arc<OneSided>,
     /// v: r, or the speed at which a tip without a spring walks.
     pub(super) speed: f64,
+    /// The coefficient of Λ: v, or 0 for creep.
+    pub(super) drag: f64,
     /// A
     pub(super) density: f64,
     /// s = 1/(vT)
@@ -38,13 +43,6 @@ pub(super) struct Law {
     pub(super) steady: Steady,
 }
 
-/// A and Ω where a root is on the imaginary axis.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Crossing {
-    pub(super) density: f64,
-    pub(super) wave_number: f64,
-}
-
 /// Heights below this part of ∫_0^∞|f| e^{-sy}dy are round-off of none.
 const NO_HEIGHT: f64 = 1e-13;
 
@@ -54,15 +52,28 @@ impl Law {
         Self::with_density(model.wider(), model.tip(), model.r(), model.steady_density())
     }
 
+    /// Of the logarithmic creep of a trapped tip, in which drag is nothing: 1 + (α/r) G(p) = 0. Λ is its rate p, no
+    /// time, and the speed is 1.
+    pub(super) fn of_creep(model: &Model) -> Self {
+        let density = model.alpha() / model.r();
+        Self { drag: 0.0, ..Self::with_density(&Wider::default(), model.tip(), 1.0, density) }
+    }
+
     /// At a speed v with A given.
     pub(super) fn with_density(wider: &Wider, tip: &TipFunction, speed: f64, density: f64) -> Self {
-        let footprint = Footprint::new(tip);
+        Self::on(wider, &Arc::new(OneSided::new(tip)), speed, density)
+    }
+
+    /// The same, with the transforms of the footprint at hand.
+    pub(super) fn on(wider: &Wider, footprint: &Arc<OneSided>, speed: f64, density: f64) -> Self {
         let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (speed * time));
         let steady = footprint.steady(fading);
-        let sign = if has_height(tip, &steady) { (density * steady.height).signum() } else { 0.0 };
+        let is_level = !has_height(footprint.tip(), &steady);
+        let sign = if is_level { 0.0 } else { (density * steady.height).signum() };
         Self {
-            footprint,
+            footprint: Arc::clone(footprint),
             speed,
+            drag: speed,
             density,
             fading,
             inverse_limit: wider.depth_limit.map_or(0.0, |limit| sign / limit),
@@ -89,7 +100,7 @@ impl Law {
 
     /// Mv²Λ² + vΛ + κ and its derivative.
     pub(super) fn bare(&self, lambda: Complex64) -> Jet {
-        let inner = lambda * self.inertia + self.speed;
+        let inner = lambda * self.inertia + self.drag;
         (lambda * inner + self.spring, inner + lambda * self.inertia)
     }
 
@@ -121,7 +132,7 @@ impl Law {
         let sizes = if nothing { [0.0; 3] } else { self.footprint.sizes(p, &t) };
         let [height, slope, curvature] = sizes;
         let (a, b, distance) = (self.density.abs(), self.limit().abs(), lambda.norm());
-        let bare = distance * (distance * self.inertia + self.speed) + self.spring;
+        let bare = distance * (distance * self.inertia + self.drag) + self.spring;
         let base = bare + a * self.steady.curvature.abs();
         let shifted = b * self.fading * self.steady.height.abs() * a;
         base * (t.unit.0.norm() + b * height) + a * curvature + shifted * slope
@@ -138,7 +149,11 @@ impl Law {
 
     /// The coefficients of 1, A and A² in N times the unit.
     pub(super) fn by_density(&self, lambda: Complex64) -> [Complex64; 3] {
-        let t = self.footprint.at(lambda + self.fading);
+        self.expanded(lambda, &self.footprint.at(lambda + self.fading))
+    }
+
+    /// The same, with the transforms there at hand.
+    pub(super) fn expanded(&self, lambda: Complex64, t: &Transforms) -> [Complex64; 3] {
         let bare = self.bare(lambda).0;
         let Steady { height, curvature, .. } = self.steady;
         let first = t.curvature.0 - t.unit.0 * curvature + bare * t.height.0 * self.inverse_limit;

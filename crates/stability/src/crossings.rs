@@ -1,17 +1,17 @@
-//! αc under the wider law: the smallest α at which a root reaches the imaginary axis.
+//! Crossings of the imaginary axis by roots, under any law.
 //!
 //! N of `law.rs` is a polynomial c0 + c1 A + c2 A² in A = αw0/r, of first degree unless the surface both heals
 //! and has a depth limit. On the axis, Λ = iΩ, its real and its imaginary part have a common zero A where their
 //! resultant vanishes, which is an equation for Ω alone. α = rA e^{A|φ(s)|/b} rises with A: the first crossing is
 //! that of the smallest A.
 
-use super::super::{Critical, StabilityError};
-use super::corner;
-use super::law::{Crossing, Law};
+use super::law::Law;
+use super::one_sided::{OneSided, Transforms};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use stickslip_tip::roots::zero_between;
-use stickslip_tip::{TipFunction, Wider};
+use stickslip_tip::{TipFunction, Wider, stop};
 
 /// Samples per period of the fastest ripple that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 12.0;
@@ -28,98 +28,80 @@ const LARGEST_RESIDUAL: f64 = 1e-9;
 const ROUNDOFF: (f64, f64) = (1e-15, 1e-11);
 const LARGEST_NOISE: f64 = 1e-3;
 
-/// What small deviations obey at the onset.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OnsetKind {
-    /// A linear law: this is the Hopf bifurcation.
-    Smooth,
-    /// A law with the corner of |h| in it: the height under the steady tip is 0. See [`critical_under`].
-    NonSmooth,
+/// Samples of a resonance come as near as this part of its width 1/√M, relative to its Ω.
+const PART_OF_RESONANCE: f64 = 0.1;
+
+/// A and Ω where a root is on the imaginary axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Crossing {
+    pub(super) density: f64,
+    pub(super) wave_number: f64,
 }
 
-/// A point of the boundary under the wider law.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WiderCritical {
-    /// αc, r and the oscillation.
-    pub critical: Critical,
-    /// Whether it is one of linear theory.
-    pub kind: OnsetKind,
-    /// αw0/r, what the steady tip indents per length there.
-    pub density: f64,
-    /// w0, its rate of indentation relative to α.
-    pub weight: f64,
+/// The imaginary axis of one footprint, sampled for the crossings at every r.
+#[derive(Debug, Clone)]
+pub(super) struct Scan {
+    wider: Wider,
+    footprint: Arc<OneSided>,
+    samples: Vec<Sample>,
 }
 
-/// αc(r) under a wider law.
-///
-/// Where the steady tip has the surface at height 0 under it and the depth limit its corner (β = 1 without
-/// healing), small deviations obey no linear law, but a homogeneous one: this is the α at which a small oscillation
-/// keeps its amplitude, whatever it is, and marked [`OnsetKind::NonSmooth`]. There are no roots there.
-///
-/// # Errors
-/// r not a positive finite number, a parameter of the wider law out of range, no spring,
-/// [`StabilityError::NoCrossing`], also where αc is no finite number any more, or [`StabilityError::Unsettled`].
-pub fn critical_under(
-    wider: &Wider,
-    tip: &TipFunction,
-    r: f64,
-) -> Result<WiderCritical, StabilityError> {
-    if !(r.is_finite() && r > 0.0) {
-        return Err(StabilityError::R(r));
-    }
-    if !wider.spring {
-        return Err(StabilityError::NoSupport);
-    }
-    wider.validate()?;
-    let mut law = Law::with_density(wider, tip, r, 1.0);
-    let first = crossings(&law).into_iter().min_by(|a, b| a.density.total_cmp(&b.density));
-    let mut first = first.ok_or(StabilityError::NoCrossing { r })?;
-    let mut kind = OnsetKind::Smooth;
-    if let Some(limit) = wider.depth_limit.filter(|_| Law::has_corner(wider, tip, &law.steady)) {
-        first = corner::onset(&law, limit, first).ok_or(StabilityError::Unsettled { limit })?;
-        kind = OnsetKind::NonSmooth;
-    }
-    let Crossing { density, wave_number } = first;
-    law.set_density(density);
-    let alpha = law.alpha();
-    if !alpha.is_finite() {
-        return Err(StabilityError::NoCrossing { r });
-    }
-    let critical = Critical::new(alpha, r, wave_number);
-    Ok(WiderCritical { critical, kind, density, weight: r * density / alpha })
+#[derive(Debug, Clone)]
+struct Sample {
+    wave_number: f64,
+    /// At p = iΩ, where nothing heals; p = iΩ + 1/(rT) of a surface that does depends on r.
+    kept: Option<Transforms>,
 }
 
-/// αc of each r in turn, `None` where nothing is unstable.
-///
-/// # Errors
-/// As [`critical_under`], but for no crossing.
-pub fn boundary_under(
-    wider: &Wider,
-    tip: &TipFunction,
-    velocities: &[f64],
-) -> Result<Vec<Option<WiderCritical>>, StabilityError> {
-    let at = |r: &f64| match critical_under(wider, tip, *r) {
-        Ok(critical) => Ok(Some(critical)),
-        Err(StabilityError::NoCrossing { .. }) => Ok(None),
-        Err(error) => Err(error),
-    };
-    velocities.iter().map(at).collect()
-}
+impl Scan {
+    pub(super) fn new(wider: &Wider, tip: &TipFunction) -> Self {
+        let footprint = Arc::new(OneSided::new(tip));
+        let keeps = wider.healing_time.is_none();
+        let sample = |wave_number: f64| {
+            let kept = keeps.then(|| footprint.at(Complex64::new(0.0, wave_number)));
+            Sample { wave_number, kept }
+        };
+        let wave_numbers = wave_numbers(tip).into_iter().take_while(|_| !stop::is_asked());
+        let samples = wave_numbers.map(sample).collect();
+        Self { wider: *wider, footprint, samples }
+    }
 
-/// All of them with A > 0.
-pub(super) fn crossings(law: &Law) -> Vec<Crossing> {
-    let on_axis = |q: f64| law.by_density(Complex64::new(0.0, q));
-    let zeros = zeros(|q| resultant(on_axis(q)), &wave_numbers(law));
-    let densities = zeros.into_iter().flat_map(|q| {
-        let candidates = common(on_axis(q)).into_iter().filter(|a| a.is_finite() && *a > 0.0);
-        candidates.filter_map(move |density| polished(law, Crossing { density, wave_number: q }))
-    });
-    densities.collect()
+    /// The law at this r, with A = 1.
+    pub(super) fn law_at(&self, r: f64) -> Law {
+        Law::on(&self.wider, &self.footprint, r, 1.0)
+    }
+
+    /// Whether the steady tip is on the corner of |h| in a depth limit.
+    pub(super) fn has_corner(&self, law: &Law) -> bool {
+        Law::has_corner(&self.wider, self.footprint.tip(), &law.steady)
+    }
+
+    /// All crossings with A > 0.
+    pub(super) fn crossings(&self, law: &Law) -> Vec<Crossing> {
+        let on_axis = |q: f64| law.by_density(Complex64::new(0.0, q));
+        let value = |Sample { wave_number, kept }: &Sample| {
+            let kept = kept.as_ref().map(|t| law.expanded(Complex64::new(0.0, *wave_number), t));
+            (*wave_number, resultant(kept.unwrap_or_else(|| on_axis(*wave_number))))
+        };
+        let samples = self.samples.iter().take_while(|_| !stop::is_asked());
+        let mut values: Vec<(f64, f64)> = samples.map(value).collect();
+        let beside = beside_resonance(law);
+        if !beside.is_empty() {
+            values.extend(beside.into_iter().map(|q| (q, resultant(on_axis(q)))));
+            values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let zeros = zeros(|q| resultant(on_axis(q)), &values).into_iter();
+        let crossings = zeros.flat_map(|wave_number| {
+            let densities = common(on_axis(wave_number)).into_iter();
+            let densities = densities.filter(|a| a.is_finite() && *a > 0.0);
+            densities.filter_map(move |density| polished(law, Crossing { density, wave_number }))
+        });
+        crossings.collect()
+    }
 }
 
 /// Ω from far below to far above the band of the footprint, close enough together for what its reach allows.
-pub(super) fn wave_numbers(law: &Law) -> Vec<f64> {
-    let tip = law.footprint.tip();
+pub(super) fn wave_numbers(tip: &TipFunction) -> Vec<f64> {
     let reach = tip.reach().unwrap_or(WAVES);
     let step = TAU / (SAMPLES_PER_PERIOD * reach);
     let band = tip.band().min(2e5 * step);
@@ -130,23 +112,26 @@ pub(super) fn wave_numbers(law: &Law) -> Vec<f64> {
     let mut all: Vec<f64> = below.chain(within).chain(above).collect();
     if tip.reach().is_none() {
         // On either side of the wave of J0 and cos x, where the transforms change within s.
-        let beside = (0..10 * PER_DECADE).flat_map(|n| {
-            let off = 0.5 / decade(n);
-            [1.0 - off, 1.0 + off]
-        });
-        all.extend(beside);
+        all.extend(beside(1.0, 0.5 / decade(10 * PER_DECADE)));
+        all.sort_by(f64::total_cmp);
     }
-    // What inertia and the spring resonate at.
-    if law.inertia > 0.0 {
-        let resonance = (law.spring / law.inertia).sqrt();
-        let beside = (0..4 * PER_DECADE).flat_map(|n| {
-            let part = 0.5 / decade(n);
-            [resonance * (1.0 - part), resonance * (1.0 + part)]
-        });
-        all.extend(beside);
-    }
-    all.sort_by(f64::total_cmp);
     all
+}
+
+/// Ω at which inertia and the spring resonate, from either side.
+pub(super) fn beside_resonance(law: &Law) -> Vec<f64> {
+    if law.inertia <= 0.0 {
+        return vec![];
+    }
+    let width = law.speed / law.inertia.sqrt();
+    beside((law.spring / law.inertia).sqrt(), PART_OF_RESONANCE * width)
+}
+
+/// Samples on either side of Ω, from half of it to this part of it.
+fn beside(wave_number: f64, nearest: f64) -> Vec<f64> {
+    let part = |n: u32| 0.5 / 10_f64.powf(f64::from(n) / f64::from(PER_DECADE));
+    let parts = (0..).map(part).take_while(|part| *part > nearest);
+    parts.flat_map(|part| [wave_number * (1.0 - part), wave_number * (1.0 + part)]).collect()
 }
 
 /// Of the real and the imaginary part of c0 + c1 A + c2 A²; over c2 where that vanishes.
@@ -210,24 +195,21 @@ fn is_told(law: &Law, lambda: Complex64) -> bool {
 }
 
 /// Zeros of g between samples: by its sign, and where |g| is least among neighbours, in case it dips across 0.
-pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[f64]) -> Vec<f64> {
-    let values: Vec<f64> = samples.iter().map(|q| g(*q)).collect();
+pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[(f64, f64)]) -> Vec<f64> {
     let mut zeros = vec![];
     for i in 1..samples.len() {
-        if values[i - 1] * values[i] < 0.0 {
-            zeros.push(zero_between(&g, samples[i - 1], samples[i]));
+        let ((last, before), (here, value)) = (samples[i - 1], samples[i]);
+        if before * value < 0.0 {
+            zeros.push(zero_between(&g, last, here));
         }
-        let dips = i + 1 < samples.len()
-            && values[i].abs() < values[i - 1].abs()
-            && values[i].abs() < values[i + 1].abs()
-            && values[i - 1] * values[i] > 0.0
-            && values[i] * values[i + 1] > 0.0;
-        if dips {
-            let sign = values[i].signum();
-            let bottom = least(|q| sign * g(q), samples[i - 1], samples[i + 1]);
+        let Some((next, after)) = samples.get(i + 1).copied() else { continue };
+        let dips = value.abs() < before.abs().min(after.abs());
+        if dips && before * value > 0.0 && value * after > 0.0 {
+            let sign = value.signum();
+            let bottom = least(|q| sign * g(q), last, next);
             if sign * g(bottom) < 0.0 {
-                zeros.push(zero_between(&g, samples[i - 1], bottom));
-                zeros.push(zero_between(&g, bottom, samples[i + 1]));
+                zeros.push(zero_between(&g, last, bottom));
+                zeros.push(zero_between(&g, bottom, next));
             }
         }
     }

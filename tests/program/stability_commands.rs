@@ -310,9 +310,9 @@ fn tables_and_figures_are_written() {
 fn unusable_input_is_refused_by_name_with_advice_and_nothing_on_standard_output() {
     let response = "response --r 1 --alpha 1";
     let cases = [
-        ("stability", "--r", "give --r R"),
-        ("stability --solve-for r", "--alpha", "give --alpha A"),
-        ("stability --solve-for r --alpha-above 0.1", "--alpha-above 0.1", "give --alpha A"),
+        ("stability", "--r", "give --r, or --alpha"),
+        ("stability --solve-for r", "--alpha", "rc is a function of α: give --alpha"),
+        ("stability --solve-for r --alpha-above 0.1", "--alpha-above 0.1", "give --alpha"),
         ("stability --r -1", "--r -1", "> 0"),
         ("stability --r nan", "--r NaN", "> 0"),
         ("stability --r 1 --alpha -1", "--alpha -1", "0 or above"),

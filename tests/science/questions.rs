@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use stickslip::{
-    Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure, Tip, read,
+    Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure,
+    StabilityDocument, Tip, WalkingDocument, read,
 };
 use stickslip_tip::TipFunction;
 
@@ -35,6 +36,29 @@ fn a_saved_question_asked_again_has_the_same_answer() {
     let from_there = Cycle::again(&saved).unwrap().ask(&Context::default()).unwrap();
     assert!((from_there.period - first.period).abs() < 1e-8);
     assert!(from_there.work.newton_iterations < first.work.newton_iterations);
+}
+
+#[test]
+fn questions_of_linear_theory_asked_again_have_the_same_answer() {
+    let tip = json!({"name": "triple-gaussian", "beta": 0.5});
+    for question in [
+        json!({"tip": tip, "r": 1.0}),
+        json!({"tip": tip, "alpha": 1.0, "solve_for": "r"}),
+        json!({"tip": tip, "alpha_above": 0.1, "r": 0.7, "healing_time": 20.0, "roots": 4}),
+        json!({"alpha": 1.2, "r": 1.0, "re_above": -3.0}),
+    ] {
+        let first: StabilityDocument = asked(question.clone());
+        let saved: StabilityDocument = read(&text(&first), StabilityDocument::FORMAT).unwrap();
+        assert_eq!(text(&saved), text(&first));
+        let again = saved.parameters.ask(&Context::default()).unwrap();
+        assert_eq!(text(&again), text(&first), "{question}");
+    }
+    let walk = json!({"tip": {"name": "gaussians", "gaussians": [{"amplitude": 1.0, "center": 0.0, "width": 1.0}]}, "alpha": -3.0, "r": 0.0,
+        "healing_time": 5.0, "no_spring": true, "roots": 3});
+    let first: WalkingDocument = asked(walk);
+    assert!(!first.walks.is_empty());
+    let again = first.parameters.clone().ask(&Context::default()).unwrap();
+    assert_eq!(text(&again), text(&first));
 }
 
 #[test]

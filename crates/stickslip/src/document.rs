@@ -2,7 +2,7 @@
 
 use crate::documents::table::{Array, Named, Tabular};
 use crate::{FORMAT_VERSION, InUnits, Physical, Software};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, schema_for};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{DeserializeOwned, DeserializeSeed, Error, IntoDeserializer, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -47,6 +47,16 @@ pub struct Document<Q: Question> {
 impl<Q: Question> Document<Q> {
     /// Its `format`.
     pub const FORMAT: &'static str = Q::FORMAT;
+
+    /// Its JSON Schema, called by its format and described as its answer is.
+    pub fn schema() -> Schema {
+        let mut schema = schema_for!(Self);
+        schema.insert("title".into(), Q::FORMAT.into());
+        if let Some(description) = schema_for!(Q::Answer).remove("description") {
+            schema.insert("description".into(), description);
+        }
+        schema
+    }
 
     /// Question and answer as this program writes them.
     pub fn new(parameters: Q, answer: Q::Answer, remarks: Vec<String>) -> Self {

@@ -51,7 +51,10 @@ pub use ask::boundary::{
 };
 pub use ask::context::Context;
 pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
+pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
+pub use ask::stability::{Stability, StabilityDocument};
+pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
 pub use document::{Document, Question};
 pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use documents::compare::{
@@ -115,8 +118,7 @@ pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
-    OnsetDocument, OnsetKindName, SolveFor, StabilityDocument, StabilityFound, StabilityParameters,
-    TrappingDocument,
+    OnsetDocument, OnsetKindName, SolveFor, StabilityFound, TrappingDocument,
 };
 pub use documents::surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceImage, SurfaceParameters,
@@ -134,7 +136,7 @@ pub use documents::verification::{
     ClaimDocument, EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
     VerifyDocument,
 };
-pub use documents::walking::{WalkDocument, WalkingDocument, WalkingFound, WalkingParameters};
+
 pub use documents::work::{SteadyState, WorkDocument};
 
 /// The README's example is compiled and run.

@@ -29,5 +29,4 @@ mod in_units;
 mod job;
 mod judged;
 mod progress;
-mod roots;
 mod told;

@@ -2,7 +2,6 @@
 
 use super::job::{Job, judge_places};
 use super::model::{refuse_endless, wide_model};
-use super::roots::{complex, failed, judge_count, remarks};
 use super::run::disturbance::warn_of_idle_pulses;
 use super::run::limits::within_range;
 use super::run::parse_pulses;
@@ -10,9 +9,10 @@ use super::run::samples::times;
 use crate::arguments::ResponseArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
+use stickslip::exponents::{failed, judge_count, remarks};
 use stickslip::{
-    Document, ModeDocument, ModelParameters, Physical, ResponseDocument, ResponseFound,
-    ResponseParameters, ResponseSamples,
+    ComplexDocument, Document, ModeDocument, ModelParameters, Physical, ResponseDocument,
+    ResponseFound, ResponseParameters, ResponseSamples,
 };
 use stickslip_stability::{Response, ResponseMode, response as respond};
 use stickslip_tip::roots::bisected;
@@ -48,7 +48,7 @@ impl Asked {
         refuse_endless(&arguments.model.tip, &arguments.model.wider)?;
         let model = wide_model(&arguments.model)?;
         let pulses: Vec<Pulse> = parse_pulses(&arguments.pulse)?;
-        judge_count("--modes", arguments.modes)?;
+        judge_count("modes", arguments.modes)?;
         let position = arguments.start_position;
         if !position.is_finite() {
             let message = "must be a finite number";
@@ -75,8 +75,8 @@ impl Asked {
         let shifted: Vec<Pulse> =
             self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p }).collect();
         respond(&self.model, &shifted, modes).map_err(|error| {
-            let advice = "ask for another number with --modes";
-            failed(&error, advice)
+            let advice = "ask for another number with {modes}";
+            failed(&error, advice).into()
         })
     }
 
@@ -142,8 +142,8 @@ fn mode(mode: &ResponseMode) -> Result<ModeDocument, Failure> {
         return Err(Failure::input("--pulse", message));
     }
     Ok(ModeDocument {
-        lambda: complex(lambda.re, lambda.im),
-        residue: complex(residue.re, residue.im),
+        lambda: ComplexDocument::new(lambda.re, lambda.im),
+        residue: ComplexDocument::new(residue.re, residue.im),
     })
 }
 

@@ -4,10 +4,10 @@ mod solve;
 
 use super::job::{Job, format, judge_places};
 use super::model::tip;
-use super::roots::failed;
 use crate::arguments::{Format, UnitsArguments};
 use crate::failure::Failure;
 use solve::Given;
+use stickslip::exponents::failed;
 use stickslip::{CriticalUnits, UnitsDocument};
 use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::{TipFunction, Wider};
@@ -46,7 +46,7 @@ fn document(
         StabilityError::TooFarApart { .. } => {
             Failure::input("the quantities", format!("{error}; {check}"))
         }
-        error => failed(&error, check),
+        error => failed(&error, check).into(),
     })? == 0;
     let scales = physical.scales();
     let (indentation, velocity) = (at_r.ok(), at_alpha.ok());

@@ -16,14 +16,14 @@ const PADDING: f64 = 0.06;
 impl Drawn for StabilityDocument {
     /// Those at the critical point neither grow nor decay, whatever round-off says.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.model;
+        let model = self.parameters.model_parameters();
         let what = match (self.parameters.at_critical_point, self.stable) {
             (true, _) => "critical",
             (_, true) => "stable",
             (_, false) => "unstable",
         };
-        let title = format!("{}: {what}", model_name(model));
-        let mut figure = FigureDocument::new("stability", &title, vec![model.clone()]);
+        let title = format!("{}: {what}", model_name(&model));
+        let mut figure = FigureDocument::new("stability", &title, vec![model]);
         figure.panels = vec![exponents("", &self.roots, self.certificate.largest_error)];
         Ok(figure)
     }

@@ -27,7 +27,7 @@ pub enum Failure {
 pub struct Refused {
     /// Its name, or several joined by " and ".
     pub parameter: &'static str,
-    /// As it would be typed; `None` where it is missing or the name says enough.
+    /// As it would be typed, or those of several joined by " and "; `None` where it is missing or the name says enough.
     pub value: Option<String>,
     /// The reason and the remedy.
     pub why: String,
@@ -44,11 +44,16 @@ impl Refused {
         Self { parameter, value: None, why: why.to_string() }
     }
 
-    /// The parameter with its value, such as `--r 0`.
+    /// The parameter with its value, such as `--r 0`; several, such as `--alpha 1 --r 0`.
     pub fn named(&self, name: impl Fn(&str) -> String) -> String {
         let names: Vec<String> = self.parameter.split(" and ").map(name).collect();
-        let value = self.value.iter().map(|value| format!(" {value}"));
-        names.join(" and ") + &value.collect::<String>()
+        let values: Vec<&str> = self.value.iter().flat_map(|value| value.split(" and ")).collect();
+        if names.len() > 1 && values.len() == names.len() {
+            let each = names.iter().zip(values).map(|(name, value)| format!("{name} {value}"));
+            return each.collect::<Vec<String>>().join(" ");
+        }
+        let values = values.iter().map(|value| format!(" {value}"));
+        names.join(" and ") + &values.collect::<String>()
     }
 
     /// The reason, with names of parameters as `name` writes them.

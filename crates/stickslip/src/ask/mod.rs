@@ -17,9 +17,12 @@
 pub(crate) mod boundary;
 pub(crate) mod context;
 pub(crate) mod cycle;
+pub mod exponents;
 pub(crate) mod failure;
 pub(crate) mod model;
 pub(crate) mod question;
+pub(crate) mod stability;
+pub(crate) mod walking;
 
 use crate::{Context, Document, Failure, Question};
 

@@ -27,5 +27,4 @@ pub(crate) mod sweep;
 pub(crate) mod table;
 pub(crate) mod units;
 pub(crate) mod verification;
-pub(crate) mod walking;
 pub(crate) mod work;

@@ -8,6 +8,7 @@ use crate::{
     StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
     WalkingDocument,
 };
+
 use schemars::{Schema, schema_for};
 
 /// The name of a document, which follows "stickslip/" in its `format`, and its schema.
@@ -19,26 +20,26 @@ pub const SCHEMAS: [NamedSchema; 24] = [
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
     ("verify", || schema_for!(VerifyDocument)),
-    ("surface", || schema_for!(SurfaceDocument)),
-    ("stability", || schema_for!(StabilityDocument)),
-    ("walking", || schema_for!(WalkingDocument)),
-    ("boundary", || schema_for!(BoundaryDocument)),
-    ("compare", || schema_for!(CompareDocument)),
-    ("response", || schema_for!(ResponseDocument)),
-    ("cycle", || schema_for!(CycleDocument)),
-    ("continue", || schema_for!(ContinueDocument)),
+    ("surface", SurfaceDocument::schema),
+    ("stability", StabilityDocument::schema),
+    ("walking", WalkingDocument::schema),
+    ("boundary", BoundaryDocument::schema),
+    ("compare", CompareDocument::schema),
+    ("response", ResponseDocument::schema),
+    ("cycle", CycleDocument::schema),
+    ("continue", ContinueDocument::schema),
     ("raster", || schema_for!(RasterDocument)),
-    ("raster-compare", || schema_for!(RasterCompareDocument)),
-    ("raster-sweep", || schema_for!(RasterSweepDocument)),
+    ("raster-compare", RasterCompareDocument::schema),
+    ("raster-sweep", RasterSweepDocument::schema),
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
-    ("raster-stability", || schema_for!(RasterStabilityDocument)),
-    ("raster-boundary", || schema_for!(RasterBoundaryDocument)),
-    ("sweep", || schema_for!(SweepDocument)),
-    ("tip", || schema_for!(MeasuredTipDocument)),
-    ("fit", || schema_for!(FitDocument)),
+    ("raster-stability", RasterStabilityDocument::schema),
+    ("raster-boundary", RasterBoundaryDocument::schema),
+    ("sweep", SweepDocument::schema),
+    ("tip", MeasuredTipDocument::schema),
+    ("fit", FitDocument::schema),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),
-    ("reproduction", || schema_for!(ReproductionDocument)),
+    ("reproduction", ReproductionDocument::schema),
 ];
 
 /// The JSON Schema (draft 2020-12) of the document of this name.

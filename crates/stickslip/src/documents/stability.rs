@@ -1,10 +1,9 @@
 //! `stickslip/stability`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, ModelParameters, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Certificate, Critical, Criticality, Onset, OnsetKind, Spectrum};
+use stickslip_stability::{Certificate, Creep, Critical, Criticality, Onset, OnsetKind};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -29,52 +28,14 @@ pub struct StabilityFound {
     pub limits: Option<LimitsDocument>,
 }
 
-/// The document of that.
-pub type StabilityDocument = Document<StabilityParameters>;
-
-impl Question for StabilityParameters {
-    const FORMAT: &'static str = "stickslip/stability";
-    type Answer = StabilityFound;
-}
-
-impl StabilityFound {
-    /// What is known at any point; whether it is near a critical one is for others to add.
-    pub fn new(stable: bool, trapping: TrappingDocument, spectrum: &Spectrum) -> Self {
-        Self {
-            critical: None,
-            stable,
-            trapping,
-            roots: spectrum.roots.iter().map(|z| ComplexDocument { re: z.re, im: z.im }).collect(),
-            certificate: (&spectrum.certificate).into(),
-            onset: None,
-            limits: None,
-        }
-    }
-}
-
-/// The point whose growth exponents are listed, and what was asked.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct StabilityParameters {
-    /// Footprint, α and r.
-    #[serde(flatten)]
-    pub model: ModelParameters,
-    /// Which of α and r the critical point was solved for, at the given value of the other.
-    pub solve_for: SolveFor,
-    /// Whether α and r are those of the critical point, for want of one of them.
-    pub at_critical_point: bool,
-    /// Number of roots asked for; null where a bound was.
-    pub roots: Option<usize>,
-    /// Bound of Re λ asked for, in k/Γ; null where a number was.
-    pub re_above: Option<f64>,
-}
-
 /// Which of α and r is varied to find a critical point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolveFor {
-    /// αc at the r of --r.
+    /// αc at a given r.
+    #[default]
     Alpha,
-    /// rc at the α of --alpha.
+    /// rc at a given α.
     R,
 }
 
@@ -195,6 +156,30 @@ pub struct OnsetDocument {
     pub growth_slope: f64,
     /// First Lyapunov coefficient, in k/(Γσ²): A' = … + (this + i…) |A|²A for l = l0 + A e^{iωt} + c.c. + ….
     pub lyapunov: f64,
+}
+
+impl ComplexDocument {
+    /// By its parts.
+    pub fn new(re: f64, im: f64) -> Self {
+        Self { re, im }
+    }
+}
+
+impl TrappingDocument {
+    /// The threshold of trapping and the rates of creep; and a remark where a trapped tip comes to none of them.
+    pub(crate) fn of(alpha: Option<f64>, creep: Option<&Creep>) -> (Self, Option<String>) {
+        let rates = creep.map(Creep::rates).unwrap_or_default();
+        let attracting = creep.and_then(Creep::attracting);
+        let remark = (!rates.is_empty() && attracting.is_none()).then(|| {
+            "trapping: a complex pair of creep_roots lies right of every real rate: no tip stays trapped here, every stick \
+             ends in a slip"
+                .into()
+        });
+        let of =
+            |creep: &Creep| creep.roots.iter().map(|p| ComplexDocument::new(p.re, p.im)).collect();
+        let creep_rates = (!rates.is_empty()).then_some(rates);
+        (Self { alpha, creep_rates, attracting, creep_roots: creep.map(of) }, remark)
+    }
 }
 
 impl CriticalDocument {

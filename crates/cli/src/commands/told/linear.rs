@@ -12,7 +12,7 @@ const CRITICAL: usize = 10;
 
 impl Product for StabilityDocument {
     fn told(&self) -> Told {
-        let model = &self.parameters.model;
+        let model = self.parameters.model_parameters();
         let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, CRITICAL));
         let stable = if self.stable { "stable" } else { "unstable" };
         let state = if self.parameters.at_critical_point { "critical" } else { stable };

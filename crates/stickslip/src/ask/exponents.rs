@@ -1,7 +1,6 @@
-//! How many growth exponents may be asked for, and what is said about those that come.
+//! Lists of growth exponents: how many may be asked for, and remarks on those found.
 
-use crate::failure::{Failure, Typed};
-use stickslip::ComplexDocument;
+use crate::{Failure, Refused, Typed};
 use stickslip_stability::{Certificate, Spectrum, StabilityError};
 use stickslip_tip::{Model, TipFunction};
 
@@ -12,7 +11,7 @@ const MOST_ROOTS: usize = 1000;
 
 /// Re λ below which the roots of a table are those of its round-off, and those of a closed form are of
 /// no use: they decay by e^{-60} over a width of the tip.
-pub(super) fn leftmost(model: &Model) -> f64 {
+pub(crate) fn leftmost(model: &Model) -> f64 {
     /// Tips of more Gaussians come from tables.
     const FEW: usize = 16;
     let TipFunction::Gaussians(sum) = model.tip() else { return -1e6 * model.r() };
@@ -21,28 +20,31 @@ pub(super) fn leftmost(model: &Model) -> f64 {
     model.r() * exponent / reach
 }
 
-/// Judges a number of roots that `option` asked for.
-pub(super) fn judge_count(option: &str, count: usize) -> Result<(), Failure> {
+/// Refuses a number of roots that is not from 1 to 1000.
+///
+/// # Errors
+/// The refusal.
+pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused> {
     if (1..=MOST_ROOTS).contains(&count) {
         return Ok(());
     }
-    Err(Failure::input(format!("{option} {count}"), format!("1 to {MOST_ROOTS} will do")))
+    Err(Refused::number(parameter, count as f64, format!("1 to {MOST_ROOTS} will do")))
 }
 
-pub(super) fn complex(re: f64, im: f64) -> ComplexDocument {
-    ComplexDocument { re, im }
-}
-
-/// The roots could not be listed, through no fault of the input unless that is out of all proportion.
-pub(super) fn failed(error: &StabilityError, advice: &str) -> Failure {
-    if let StabilityError::TooFarApart { alpha, r } = error {
-        return Failure::input(format!("--alpha {} --r {}", Typed(*alpha), Typed(*r)), error);
+/// The roots could not be listed, through no fault of the question unless α and r are out of all proportion.
+pub fn failed(error: &StabilityError, advice: &str) -> Failure {
+    match error {
+        StabilityError::Stopped => Failure::Cancelled,
+        StabilityError::TooFarApart { alpha, r } => {
+            let value = Some(format!("{} and {}", Typed(*alpha), Typed(*r)));
+            Refused { parameter: "alpha and r", value, why: error.to_string() }.into()
+        }
+        error => Failure::Failed(format!("{error}; {advice}")),
     }
-    Failure::Run(format!("{error}; {advice}"))
 }
 
-/// What a reader of the list should know.
-pub(super) fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<String> {
+/// What a reader of the list should know: fewer than asked for, or inexact.
+pub fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<String> {
     let Spectrum { roots, certificate: Certificate { largest_error, .. } } = spectrum;
     let found = roots.len();
     let few = asked.filter(|asked| found < *asked).map(|asked| {

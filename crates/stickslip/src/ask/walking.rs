@@ -1,10 +1,14 @@
-//! `stickslip/walking`.
+//! The question `walking`: the speeds of a tip that no spring drags.
 
+use super::exponents::{failed, judge_count, remarks};
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{CertificateDocument, ComplexDocument, Document, ModelParameters, Question};
+use crate::{
+    Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, ModelParameters,
+    Question, Refused,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::Walk;
+use stickslip_stability::{self as theory, Walk};
 
 /// Steady walks of a tip that no spring drags, x0 = vt. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -17,21 +21,53 @@ pub struct WalkingFound {
 }
 
 /// The document of that.
-pub type WalkingDocument = Document<WalkingParameters>;
+pub type WalkingDocument = Document<Walking>;
 
-impl Question for WalkingParameters {
+impl Question for Walking {
     const FORMAT: &'static str = "stickslip/walking";
     type Answer = WalkingFound;
 }
 
-/// The tip, and what was asked.
+/// Steady walks of a footprint without a spring, and their growth exponents.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct WalkingParameters {
+pub struct Walking {
     /// Footprint and α; r is 0.
     #[serde(flatten)]
     pub model: ModelParameters,
-    /// Number of growth exponents asked for, of each walk.
+    /// Least number of growth exponents of each walk.
     pub roots: usize,
+}
+
+impl Ask for Walking {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        judge_count("roots", self.roots)?;
+        if !self.model.law.no_spring {
+            let why = "a tip on its spring does not walk: give {no_spring}";
+            return Err(Refused::whole("no_spring", why).into());
+        }
+        Ok(self)
+    }
+
+    fn answer(&self, _: &Context) -> Result<(WalkingFound, Vec<String>), Failure> {
+        let model = self.model.model().map_err(|error| Failure::Failed(error.to_string()))?;
+        let speeds = theory::walking_speeds(&model);
+        let speeds = speeds.map_err(|error| failed(&error, "move {alpha} a little"))?;
+        let (mut walks, mut said) = (vec![], vec![]);
+        for speed in speeds {
+            let name = format!("walk of speed {speed:.7}");
+            match theory::walk(&model, speed, self.roots) {
+                Ok(walk) => {
+                    said.extend(remarks(&walk.spectrum, Some(self.roots), &name));
+                    walks.push(WalkDocument::from(&walk));
+                }
+                Err(theory::StabilityError::Stopped) => return Err(Failure::Cancelled),
+                Err(error) => said.push(format!("{name}: {error}")),
+            }
+        }
+        let healing_time = model.wider().healing_time;
+        let walking_alpha = healing_time.map(|time| theory::walking_alpha(model.tip(), time));
+        Ok((WalkingFound { walking_alpha, walks }, said))
+    }
 }
 
 /// A steady walk.

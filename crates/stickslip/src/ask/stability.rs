@@ -1,0 +1,286 @@
+//! The question `stability`: where steady motion loses its stability, and how small deviations grow.
+
+use super::exponents::{failed, judge_count, leftmost, remarks};
+use crate::{
+    Ask, ComplexDocument, Context, CriticalDocument, Document, Failure, Indentation, Law,
+    LimitsDocument, ModelParameters, OnsetDocument, Question, Refused, SolveFor, StabilityFound,
+    Tip, TrappingDocument,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability as theory;
+use stickslip_stability::{Creep, Critical, Onset, OnsetKind, Spectrum, StabilityError};
+use stickslip_tip::{Model, Wider};
+
+/// Remark where the law has its corner at steady motion.
+const CORNER: &str = "critical: the height under the tip is 0 in steady motion, where |h| of the depth \
+     limit has a corner: small deviations obey no linear law and have no exponents; at alpha of critical a small \
+     oscillation keeps its amplitude, and at finite amplitude onset moves";
+
+/// The critical point at one r (or one α), and the growth exponents at α and r.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Stability {
+    /// Footprint f(x) of the tip.
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D. Without either, α is the critical one.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0. May be left out with `solve_for` "r": r is the critical one
+    /// then.
+    pub r: Option<f64>,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// Which of α and r the critical point is solved for, at the given value of the other.
+    #[serde(default)]
+    pub solve_for: SolveFor,
+    /// Whether α and r are those of the critical point, for want of one of them.
+    #[serde(default)]
+    pub at_critical_point: bool,
+    /// Least number of growth exponents: all those right of a line chosen so. Null where a bound is given.
+    #[serde(default)]
+    pub roots: Option<usize>,
+    /// All growth exponents whose real part is at least this, in k/Γ. Null where a number is given.
+    #[serde(default)]
+    pub re_above: Option<f64>,
+}
+
+/// Stability and the question that it answers.
+pub type StabilityDocument = Document<Stability>;
+
+impl Question for Stability {
+    const FORMAT: &'static str = "stickslip/stability";
+    type Answer = StabilityFound;
+}
+
+impl Stability {
+    /// Growth exponents where neither their number nor a bound is given.
+    pub const DEFAULT_ROOTS: usize = 10;
+
+    /// At the critical point of a footprint at one r, under the basic law.
+    pub fn new(tip: Tip, r: f64) -> Self {
+        Self {
+            tip,
+            indentation: Indentation::default(),
+            r: Some(r),
+            law: Law::default(),
+            solve_for: SolveFor::default(),
+            at_critical_point: false,
+            roots: None,
+            re_above: None,
+        }
+    }
+
+    /// Footprint, law, α and r of a resolved question.
+    ///
+    /// # Errors
+    /// A number is out of its range.
+    pub fn model(&self) -> Result<Model, Refused> {
+        let law = self.law.dragged(&self.tip.0)?;
+        self.indentation.model(&self.tip.0, law, self.velocity()?)
+    }
+
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        let r = self.r.unwrap_or(f64::NAN);
+        ModelParameters::asked(&self.tip, self.indentation, r, self.law)
+    }
+
+    fn velocity(&self) -> Result<f64, Refused> {
+        let why = "αc is a function of r: give {r}, or {alpha} with {solve_for} r for rc(α)";
+        self.r.ok_or_else(|| Refused::whole("r", why))
+    }
+
+    /// The critical point of a question with α or r, whichever is not solved for.
+    fn critical(&self, law: &Wider) -> Result<Result<Critical, StabilityError>, Refused> {
+        let tip = &self.tip.0;
+        match self.solve_for {
+            SolveFor::Alpha => {
+                let r = self.velocity()?;
+                match theory::critical(law, tip, r) {
+                    Err(error @ StabilityError::R(_)) => Err(Refused::number("r", r, error)),
+                    found => Ok(found),
+                }
+            }
+            SolveFor::R => {
+                let why = "rc is a function of α: give {alpha}";
+                let alpha = self.indentation.alpha.ok_or_else(|| Refused::whole("alpha", why))?;
+                match theory::critical_r(law, tip, alpha) {
+                    Err(error @ StabilityError::Alpha(_)) => {
+                        Err(Refused::number("alpha", alpha, error))
+                    }
+                    found => Ok(found),
+                }
+            }
+        }
+    }
+
+    /// Refuses what r cannot be solved for.
+    fn judge_solved_for(&self, law: &Wider) -> Result<(), Refused> {
+        if self.solve_for == SolveFor::Alpha {
+            return Ok(());
+        }
+        if !law.is_papers() {
+            let why = "rc(α) is of the basic law: give {r}, for αc(r)";
+            return Err(Refused {
+                parameter: "solve_for",
+                value: Some("r".into()),
+                why: why.into(),
+            });
+        }
+        match self.indentation.alpha_above {
+            Some(above) => {
+                let why = "αc is a function of r, which is solved for: give {alpha}";
+                Err(Refused::number("alpha_above", above, why))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// With α and r.
+    fn placed(self, law: Wider) -> Result<Self, Refused> {
+        self.judge_solved_for(&law)?;
+        let critical = self.critical(&law)?;
+        let (has_alpha, has_r) = (self.indentation != Indentation::default(), self.r.is_some());
+        if has_alpha && has_r {
+            let indentation = self.indentation.resolved(&self.tip.0, law, self.velocity()?)?;
+            return Ok(Self { indentation, ..self });
+        }
+        let (given, value, other) = match self.solve_for {
+            SolveFor::Alpha => ("r", self.r, "alpha"),
+            SolveFor::R => ("alpha", self.indentation.alpha, "r"),
+        };
+        let at = critical.map_err(|error| {
+            let why = format!("{error}; give {{{other}}} for the growth exponents there");
+            Refused::number(given, value.unwrap_or(f64::NAN), why)
+        })?;
+        let indentation = Indentation::given(at.alpha);
+        Ok(Self { indentation, r: Some(at.r), at_critical_point: true, ..self })
+    }
+
+    /// Refuses a number of exponents, or a bound of them, that cannot be listed.
+    fn judge_extent(&self, model: &Model) -> Result<(), Refused> {
+        let Some(bound) = self.re_above else {
+            return judge_count("roots", self.roots.unwrap_or(Self::DEFAULT_ROOTS));
+        };
+        if self.roots.is_some() {
+            return Err(Refused::whole("roots and re_above", "give one of them, not both"));
+        }
+        let least = leftmost(model);
+        if bound.is_finite() && bound >= least {
+            return Ok(());
+        }
+        let why = format!("must be a finite number, {least:.3} or above here");
+        Err(Refused::number("re_above", bound, why))
+    }
+
+    fn spectrum(&self, model: &Model) -> Result<Spectrum, Failure> {
+        let Some(bound) = self.re_above else {
+            let count = self.roots.unwrap_or(Self::DEFAULT_ROOTS);
+            let found = theory::leading_roots(model, count);
+            return found.map_err(|error| failed(&error, "ask for another number with {roots}"));
+        };
+        theory::roots(model, bound).map_err(|error| match error {
+            StabilityError::TooFarApart { .. } => failed(&error, "move {re_above} a little"),
+            StabilityError::Stopped => Failure::Cancelled,
+            error => Refused::number("re_above", bound, error).into(),
+        })
+    }
+
+    /// Whether steady motion is stable; at a corner small oscillations grow above αc, whatever their amplitude.
+    fn is_stable(&self, model: &Model, critical: Option<&Critical>) -> Result<bool, Failure> {
+        if self.at_critical_point {
+            return Ok(false);
+        }
+        if has_corner(critical) {
+            return Ok(critical.is_some_and(|critical| model.alpha() < critical.alpha));
+        }
+        let count = theory::unstable_count(model);
+        Ok(count.map_err(|error| failed(&error, "move {alpha} or {r} a little"))? == 0)
+    }
+}
+
+fn has_corner(critical: Option<&Critical>) -> bool {
+    critical.is_some_and(|critical| critical.kind == OnsetKind::NonSmooth)
+}
+
+impl Ask for Stability {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        let law = self.law.dragged(&self.tip.0)?;
+        let question = self.placed(law)?;
+        question.judge_extent(&question.model()?)?;
+        let default = question.re_above.is_none().then_some(Self::DEFAULT_ROOTS);
+        Ok(Self { roots: question.roots.or(default), ..question })
+    }
+
+    fn answer(&self, _: &Context) -> Result<(StabilityFound, Vec<String>), Failure> {
+        let model = self.model()?;
+        let law = *model.wider();
+        let critical = self.critical(&law)?;
+        let at = critical.as_ref().ok();
+        let spectrum = if has_corner(at) { Spectrum::none() } else { self.spectrum(&model)? };
+        let onset = critical.and_then(|critical| onset(&model, critical));
+        let (trapping, creep) = trapping(&model);
+        let (trapped, complex_pair) = TrappingDocument::of(trapping.ok(), creep.as_ref().ok());
+        let mut said: Vec<String> = why("critical", critical.err())
+            .into_iter()
+            .chain(why("onset", onset.err().filter(|_| critical.is_ok())))
+            .chain(why("trapping", trapping.err()))
+            .chain(why("trapping", creep.err()))
+            .collect();
+        said.dedup();
+        said.extend(complex_pair);
+        if has_corner(at) {
+            said.push(CORNER.into());
+        } else {
+            said.extend(remarks(&spectrum, self.roots, "roots"));
+        }
+        let kind = |at: &Critical| (!law.is_papers()).then_some(at.kind);
+        let found = StabilityFound {
+            critical: at.map(|at| CriticalDocument::of(at, kind(at))),
+            stable: self.is_stable(&model, at)?,
+            trapping: trapped,
+            roots: spectrum.roots.iter().map(|z| ComplexDocument::new(z.re, z.im)).collect(),
+            certificate: (&spectrum.certificate).into(),
+            onset: onset.as_ref().ok().map(OnsetDocument::from),
+            limits: limits(&model),
+        };
+        Ok((found, said))
+    }
+}
+
+/// A remark on what is null.
+fn why(name: &str, error: Option<StabilityError>) -> Option<String> {
+    error.map(|error| format!("{name}: {error}"))
+}
+
+/// Where tips are trapped, and how they creep: with inertia as without, but under a depth limit, or where the
+/// surface heals, none is held for ever.
+fn trapping(model: &Model) -> (Result<f64, StabilityError>, Result<Creep, StabilityError>) {
+    let basic = Model::new(model.tip().clone(), model.alpha(), model.r());
+    match basic.ok().filter(|_| model.wider().traps()) {
+        Some(basic) => (theory::trapping_alpha(model.tip(), model.r()), theory::creep(&basic)),
+        None => {
+            let error = StabilityError::PapersLawOnly("trapping");
+            (Err(error), Err(error))
+        }
+    }
+}
+
+/// What leaves nothing unstable; `None` under the basic law.
+fn limits(model: &Model) -> Option<LimitsDocument> {
+    let (law, tip) = (model.wider(), model.tip());
+    (!law.is_papers()).then(|| LimitsDocument {
+        least_depth_limit: theory::least_depth_limit(law, tip, model.r()).ok(),
+        memory_length: theory::memory_length(tip).ok(),
+    })
+}
+
+/// What is born at the critical point, to leading order.
+fn onset(model: &Model, critical: Critical) -> Result<Onset, StabilityError> {
+    if !model.wider().is_papers() {
+        return Err(StabilityError::PapersLawOnly("the leading order of small cycles"));
+    }
+    theory::onset_at(model.tip(), critical)
+}

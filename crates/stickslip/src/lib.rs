@@ -53,6 +53,8 @@ pub use ask::context::Context;
 pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
+pub use ask::lines;
+pub use ask::raster_boundary::{RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound};
 pub use ask::stability::{Stability, StabilityDocument};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
 pub use document::{Document, Question};
@@ -97,7 +99,6 @@ pub use documents::raster::{
     RasterSweepFound, RasterSweepParameters, RasterSweepPoint, RasterWork,
 };
 pub use documents::raster_stability::{
-    RasterBoundaryDocument, RasterBoundaryFound, RasterBoundaryParameters,
     RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStabilityDocument,
     RasterStabilityFound, RasterStabilityParameters,
 };

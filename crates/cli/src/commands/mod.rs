@@ -23,8 +23,6 @@ pub(crate) mod verify;
 mod fields;
 mod figure;
 mod finished;
-mod footprint;
-mod grooves;
 mod in_units;
 mod job;
 mod judged;

@@ -41,14 +41,15 @@ impl Drawn for RasterBoundaryDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
         let wider = [
-            (", b = ", parameters.depth_limit),
-            (", T = ", parameters.healing_time),
-            (", M = ", parameters.inertia),
+            (", b = ", parameters.law.depth_limit),
+            (", T = ", parameters.law.healing_time),
+            (", M = ", parameters.law.inertia),
         ];
         let wider =
             wider.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
         let law = wider.collect::<String>();
-        let title = format!("{}, r = {}{law}", tip_name(&parameters.tip), short(parameters.r));
+        let title =
+            format!("{}, r = {}{law}", tip_name(&(&parameters.tip.0).into()), short(parameters.r));
         let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);
         let mut threshold = PanelDocument::new("", ("pitch (σ)", "critical α"));
         let one_way = CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha);

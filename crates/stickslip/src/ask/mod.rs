@@ -19,8 +19,10 @@ pub(crate) mod context;
 pub(crate) mod cycle;
 pub mod exponents;
 pub(crate) mod failure;
+pub mod lines;
 pub(crate) mod model;
 pub(crate) mod question;
+pub(crate) mod raster_boundary;
 pub(crate) mod stability;
 pub(crate) mod walking;
 

@@ -1,7 +1,7 @@
 //! `stickslip/raster-stability`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, ModelParameters, PathName, Question, SpacingName, TipDocument};
+use crate::{Document, ModelParameters, PathName, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{RasterCertificate, RasterCritical};
@@ -135,75 +135,6 @@ impl Tabular for RasterStabilityFound {
             ("crest_angle", column(|at| at.crest_angle)),
             ("wavelength_x", column(|at| Some(at.wavelength_x))),
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
-        ]
-    }
-}
-
-/// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterBoundaryFound {
-    /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
-    pub pitch: Vec<f64>,
-    /// Critical α of one-way lines.
-    pub alpha: Vec<f64>,
-    /// Wave number along the lines there, in 1/σ.
-    pub q: Vec<f64>,
-    /// Wave number across them, in 1/σ.
-    pub kappa: Vec<f64>,
-    /// Between crests and scan axis, in degrees.
-    pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
-    pub alpha_zigzag: Vec<Option<f64>>,
-}
-
-/// The document of that.
-pub type RasterBoundaryDocument = Document<RasterBoundaryParameters>;
-
-impl Question for RasterBoundaryParameters {
-    const FORMAT: &'static str = "stickslip/raster-boundary";
-    type Answer = RasterBoundaryFound;
-}
-
-/// Pitches, and what scans.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterBoundaryParameters {
-    /// Footprint f.
-    pub tip: TipDocument,
-    /// Dimensionless support velocity r (12).
-    pub r: f64,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
-    pub width_y: Option<f64>,
-    /// First and last distance of the lines, in σ.
-    pub pitch_range: [f64; 2],
-    /// How many.
-    pub points: usize,
-    /// How they lie.
-    pub spacing: SpacingName,
-    /// b of (61), in kσ²/a, where there is a depth limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_limit: Option<f64>,
-    /// T, in Γ/k, where the surface heals.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub healing_time: Option<f64>,
-    /// M, in Γ²/k, where the tip has inertia.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<f64>,
-    /// X, how far the support goes along each line, in σ, where the surface heals.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub length: Option<f64>,
-}
-
-impl Tabular for RasterBoundaryFound {
-    fn columns(&self) -> Vec<Named<'_>> {
-        vec![
-            ("pitch", Column::of(&self.pitch)),
-            ("alpha", Column::of(&self.alpha)),
-            ("q", Column::of(&self.q)),
-            ("kappa", Column::of(&self.kappa)),
-            ("crest_angle", Column::of(&self.crest_angle)),
-            ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
         ]
     }
 }

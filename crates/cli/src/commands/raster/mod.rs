@@ -5,7 +5,6 @@ mod scan;
 
 pub(in crate::commands) use heights::field;
 
-use super::footprint::footprint;
 use super::job::{Job, format};
 use super::model::wide_model;
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
@@ -16,6 +15,7 @@ use crate::failure::{Failure, Typed};
 use crate::files::columns::read_area;
 use crate::files::distinct::distinct;
 use crate::interrupt::Interrupt;
+use stickslip::lines::footprint;
 use stickslip::{
     KnownScales, MemoryName, ModelParameters, PathName, Physical, RasterDocument, RasterParameters,
 };

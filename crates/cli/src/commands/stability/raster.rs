@@ -1,12 +1,11 @@
 //! `stickslip stability --pitch`.
 
 use crate::arguments::StabilityArguments;
-use crate::commands::footprint::footprint;
-use crate::commands::grooves::left;
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::commands::model::{model_under, refused_wider, tip, wider};
 use crate::failure::{Failure, Typed};
+use stickslip::lines::{footprint, left};
 use stickslip::{
     Document, KnownScales, ModelParameters, PathName, Physical, RasterGrowth,
     RasterStabilityDocument, RasterStabilityFound, RasterStabilityParameters,

@@ -2,9 +2,9 @@
 
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
-use crate::commands::footprint::footprint;
 use crate::failure::Failure;
 use crate::message::remark;
+use stickslip::lines::footprint;
 use stickslip::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model};

@@ -7,12 +7,12 @@ use super::work::compute;
 use crate::arguments::RasterSweepArguments;
 use crate::arithmetic::arithmetic;
 use crate::commands::finished::{Finished, Part};
-use crate::commands::footprint::footprint;
 use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::model::{tip, wider};
 use crate::failure::{Failure, Typed};
 use crate::interrupt::Interrupt;
+use stickslip::lines::footprint;
 use stickslip::{
     Document, PathName, Physical, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
     RasterSweepPoint,

@@ -1,0 +1,84 @@
+//! What questions about scan lines beside each other share.
+
+use crate::Refused;
+use stickslip_stability::StabilityError;
+use stickslip_tip::{Footprint, TipFunction, Wider};
+
+/// The f(x,y) of a tip, and V of f(x,y) = f(x) exp(-y²/(2V²)) for one that has f(x) alone: the width asked for, or that of
+/// all its Gaussians.
+///
+/// # Errors
+/// The tip has an f(x,y) and a width is given; it has none and no single width; the width is not above 0.
+pub fn footprint(
+    width_y: Option<f64>,
+    tip: &TipFunction,
+) -> Result<(Footprint, Option<f64>), Refused> {
+    let refused = |why: &str| match width_y {
+        Some(width) => Refused::number("width_y", width, why),
+        None => Refused::whole("width_y", why),
+    };
+    match (tip.footprint(), width_y.or_else(|| common_width(tip))) {
+        (Some(_), _) if width_y.is_some() => {
+            Err(refused("the tip file has its own f(x,y): leave the option out"))
+        }
+        (Some(own), _) => Ok((own.clone(), None)),
+        (None, Some(width)) => match Footprint::separable(tip.clone(), width) {
+            Ok(footprint) => Ok((footprint, Some(width))),
+            Err(_) => Err(refused("must be a finite number above 0")),
+        },
+        (None, None) => Err(refused(
+            "the tip has no single width of its own: give the width V in f(x,y) = f(x) exp(-y²/(2 V²))",
+        )),
+    }
+}
+
+/// The width of all Gaussians of the tip, if it is the same.
+fn common_width(tip: &TipFunction) -> Option<f64> {
+    let TipFunction::Gaussians(sum) = tip else { return None };
+    let width = sum.terms().first()?.width;
+    // A table is made of narrow Gaussians whose width says nothing of the tip.
+    let alike = sum.terms().len() <= 3;
+    let same = |w: f64| (w - width).abs() <= 1e-12 * width;
+    (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
+}
+
+/// The part of a groove that is left after another line of this length, in σ, dragged at r.
+///
+/// # Errors
+/// The surface heals and no length above 0 is given, or it does not and one is.
+pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
+    match (length, law.healing_time) {
+        (None, None) => Ok(1.0),
+        (Some(length), Some(_)) if length.is_finite() && length > 0.0 => {
+            Ok(law.left_after(length / r))
+        }
+        (Some(length), Some(_)) => {
+            Err(Refused::number("length", length, "must be a finite number above 0"))
+        }
+        (None, Some(_)) => Err(Refused::whole(
+            "length",
+            "give the length of the lines, {length}: a surface heals while the support goes along them",
+        )),
+        (Some(_), None) => Err(Refused::whole(
+            "length",
+            "counts for nothing where the surface does not heal: leave it out, or give {healing_time}",
+        )),
+    }
+}
+
+/// Why a raster has no threshold; what is not of r, the law, the path or the tip is of its pitches.
+pub(crate) fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
+    match error {
+        StabilityError::R(_) => Refused::number("r", r, error),
+        StabilityError::NoSupport => Refused::whole("no_spring", error),
+        StabilityError::Corner => Refused::whole("depth_limit", error),
+        StabilityError::Wider(error) => (*error).into(),
+        StabilityError::HealingZigzag => {
+            Refused { parameter: "path", value: Some("zigzag".into()), why: error.to_string() }
+        }
+        StabilityError::PapersLawOnly(_) | StabilityError::NoRipples => {
+            Refused::whole("tip", error)
+        }
+        error => Refused { why: error.to_string(), ..pitches() },
+    }
+}

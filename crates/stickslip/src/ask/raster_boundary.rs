@@ -1,0 +1,165 @@
+//! The question `raster-boundary`: where ripples begin to grow from line to line, over the distance of the lines.
+
+use super::lines::{footprint, left, refused};
+use crate::documents::table::{Column, Named, Tabular};
+use crate::{
+    Ask, Boundary, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip, Typed,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
+use stickslip_tip::{Footprint, Wider};
+
+/// The critical α of rasters over a range of distances of their lines.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct RasterBoundary {
+    /// Footprint f of the tip.
+    #[serde(default)]
+    pub tip: Tip,
+    /// Dimensionless support velocity r (12); above 0.
+    pub r: f64,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y), or one width.
+    #[serde(default)]
+    pub width_y: Option<f64>,
+    /// First and last distance of the lines, in σ.
+    pub pitch_range: [f64; 2],
+    /// Distances from first to last.
+    pub points: usize,
+    /// How they are divided.
+    #[serde(default)]
+    pub spacing: SpacingName,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// X, how far the support goes along each line, in σ, where the surface heals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+}
+
+/// A boundary of rasters and the question that it answers.
+pub type RasterBoundaryDocument = Document<RasterBoundary>;
+
+impl Question for RasterBoundary {
+    const FORMAT: &'static str = "stickslip/raster-boundary";
+    type Answer = RasterBoundaryFound;
+}
+
+impl RasterBoundary {
+    /// Refuses a range that is none, or of too few or too many points.
+    fn judged(&self) -> Result<(), Refused> {
+        let [low, high] = self.pitch_range;
+        if !(high.is_finite() && 0.0 < low && low < high) {
+            let why = "must be two finite numbers above 0, the first below the second";
+            return Err(Refused { why: why.into(), ..self.pitches() });
+        }
+        if !(2..=Boundary::MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 2 to {}", Boundary::MOST_POINTS);
+            return Err(Refused::number("points", self.points as f64, why));
+        }
+        Ok(())
+    }
+
+    /// The range as it would be typed.
+    fn pitches(&self) -> Refused {
+        let [low, high] = self.pitch_range.map(Typed);
+        let value = Some(format!("{low}:{high}:{}", self.points));
+        Refused { parameter: "pitch_range", value, why: String::new() }
+    }
+}
+
+impl Ask for RasterBoundary {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.judged()?;
+        let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
+        left(self.length, &self.law.into(), self.r)?;
+        Ok(Self { width_y, ..self })
+    }
+
+    fn answer(&self, context: &Context) -> Result<(RasterBoundaryFound, Vec<String>), Failure> {
+        let law: Wider = self.law.into();
+        let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        let left = left(self.length, &law, self.r)?;
+        let (mut found, mut left_out) = (RasterBoundaryFound::default(), vec![]);
+        let pitches = self.spacing.values(self.pitch_range, self.points);
+        for (n, pitch) in pitches.into_iter().enumerate() {
+            match thresholds(&footprint, law, (self.r, pitch), left) {
+                Ok((one_way, zigzag)) => found.push(pitch, &one_way, zigzag),
+                // That nothing grows is an answer of the wider law.
+                Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
+                Err(StabilityError::Stopped) => return Err(Failure::Cancelled),
+                Err(error) => return Err(refused(&error, self.r, || self.pitches()).into()),
+            }
+            context.counted(n + 1, self.points, "pitches")?;
+        }
+        Ok((found, remark(&left_out).into_iter().collect()))
+    }
+}
+
+/// Where ripples of lines that go one way begin to grow, and the α of a zigzag; of that none over a surface that heals, and
+/// none where nothing grows.
+fn thresholds(
+    footprint: &Footprint,
+    law: Wider,
+    (r, pitch): (f64, f64),
+    left: f64,
+) -> Result<(RasterCritical, Option<f64>), StabilityError> {
+    let raster = Raster::new(footprint, law, (r, pitch), left)?;
+    let one_way = raster.critical(RasterPath::OneWay)?;
+    match raster.critical(RasterPath::Zigzag) {
+        Ok(zigzag) => Ok((one_way, Some(zigzag.alpha))),
+        Err(StabilityError::HealingZigzag | StabilityError::NoCrossing { .. }) => {
+            Ok((one_way, None))
+        }
+        Err(error) => Err(error),
+    }
+}
+
+fn remark(left_out: &[f64]) -> Option<String> {
+    let (first, last) = (left_out.first()?, left_out.last()?);
+    Some(format!(
+        "{} pitches from {first} to {last} are left out: no ripple grows there, however large alpha",
+        left_out.len()
+    ))
+}
+
+/// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterBoundaryFound {
+    /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
+    pub pitch: Vec<f64>,
+    /// Critical α of one-way lines.
+    pub alpha: Vec<f64>,
+    /// Wave number along the lines there, in 1/σ.
+    pub q: Vec<f64>,
+    /// Wave number across them, in 1/σ.
+    pub kappa: Vec<f64>,
+    /// Between crests and scan axis, in degrees.
+    pub crest_angle: Vec<f64>,
+    /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
+    pub alpha_zigzag: Vec<Option<f64>>,
+}
+
+impl RasterBoundaryFound {
+    fn push(&mut self, pitch: f64, one_way: &RasterCritical, zigzag: Option<f64>) {
+        self.pitch.push(pitch);
+        self.alpha.push(one_way.alpha);
+        self.q.push(one_way.q);
+        self.kappa.push(one_way.kappa.unwrap_or_default());
+        self.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
+        self.alpha_zigzag.push(zigzag);
+    }
+}
+
+impl Tabular for RasterBoundaryFound {
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![
+            ("pitch", Column::of(&self.pitch)),
+            ("alpha", Column::of(&self.alpha)),
+            ("q", Column::of(&self.q)),
+            ("kappa", Column::of(&self.kappa)),
+            ("crest_angle", Column::of(&self.crest_angle)),
+            ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
+        ]
+    }
+}

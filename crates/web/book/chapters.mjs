@@ -71,7 +71,7 @@ writeFileSync(join(src, 'commands.md'), commands());
 function libraries() {
   const rows = readdirSync(join(root, 'crates')).sort().flatMap((name) => {
     const manifest = join(root, 'crates', name, 'Cargo.toml');
-    if (!existsSync(manifest) || name === 'web' || name === 'python') return [];
+    if (!existsSync(manifest) || ['cli', 'web', 'python'].includes(name)) return [];
     const of = (key) => readFileSync(manifest, 'utf8').match(new RegExp(`^${key} = "(.*)"`, 'm'))[1];
     return [`| [\`${of('name')}\`](api/${of('name').replaceAll('-', '_')}/index.html) | ${of('description')} |`];
   });

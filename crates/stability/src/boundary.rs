@@ -3,7 +3,7 @@
 use super::axis::{Axis, AxisPoint};
 use super::critical::{Critical, OnsetKind, bessel_wave_number, by_cosine, unless_stopped};
 use super::crossings::Scan;
-use super::{StabilityError, corner};
+use super::{StabilityError, corner, limits};
 use stickslip_tip::{TipFunction, Wider};
 
 /// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below it.
@@ -84,6 +84,17 @@ impl Boundary {
                 Ok(Critical::on_curve(r, first.ok_or_else(none)?))
             }
             Search::General(scan) => self.first(scan, r)?.ok_or_else(none),
+        }
+    }
+
+    /// b_c(r), as [`least_depth_limit`](super::least_depth_limit), without scanning again where nothing heals.
+    ///
+    /// # Errors
+    /// As [`least_depth_limit`](super::least_depth_limit); the basic law, of which Gaussians and J0 are not scanned.
+    pub fn least_depth_limit(&self, r: f64) -> Result<f64, StabilityError> {
+        match &self.search {
+            Search::General(scan) => limits::least_on(scan, &self.law, r),
+            _ => Err(StabilityError::NoLimit("the boundary of the basic law has no depth limit")),
         }
     }
 
@@ -220,6 +231,14 @@ impl Boundary {
 mod tests {
     use super::*;
 
+    /// 61 rows of a lobed footprint.
+    fn table() -> TipFunction {
+        let x: Vec<f64> = (0..=60).map(|i| 0.2 * f64::from(i)).collect();
+        let bell = |x: f64| (-0.5 * x * x).exp();
+        let f: Vec<f64> = x.iter().map(|x| bell(*x) - 0.4 * bell(x - 2.5)).collect();
+        TipFunction::table(&x, &f).unwrap()
+    }
+
     /// The branches of the basic law against the code for any law, which shares the transforms with them and no search.
     #[test]
     fn branches_of_the_basic_law_find_what_the_general_code_finds() {
@@ -232,6 +251,7 @@ mod tests {
             triple(1.0),
             triple(1.9),
             TipFunction::Bessel,
+            table(),
         ];
         for tip in tips {
             let special = Boundary::new(&law, &tip);

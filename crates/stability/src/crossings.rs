@@ -66,9 +66,23 @@ impl Scan {
         Self { wider: *wider, footprint, samples }
     }
 
+    pub(super) fn tip(&self) -> &TipFunction {
+        self.footprint.tip()
+    }
+
     /// The law at this r, with A = 1.
     pub(super) fn law_at(&self, r: f64) -> Law {
-        Law::on(&self.wider, &self.footprint, r, 1.0)
+        self.law_under(&self.wider, r)
+    }
+
+    /// Another law at this r, with A = 1; the transforms that are kept are its own where it heals alike.
+    pub(super) fn law_under(&self, wider: &Wider, r: f64) -> Law {
+        Law::on(wider, &self.footprint, r, 1.0)
+    }
+
+    /// Ω, with the transforms there if they do not depend on r.
+    pub(super) fn samples(&self) -> impl Iterator<Item = (f64, Option<&Transforms>)> {
+        self.samples.iter().map(|sample| (sample.wave_number, sample.kept.as_ref()))
     }
 
     /// Whether the steady tip is on the corner of |h| in a depth limit.

@@ -1,8 +1,9 @@
 //! What depth limit and what healing leave nothing unstable.
 
 use super::StabilityError;
-use super::crossings::{beside_resonance, least, wave_numbers};
+use super::crossings::{Scan, beside_resonance, least, wave_numbers};
 use super::law::Law;
+use super::one_sided::Transforms;
 use num_complex::Complex64;
 use stickslip_tip::roots::halved_between;
 use stickslip_tip::{TipFunction, Wider};
@@ -23,6 +24,12 @@ const LEAST: f64 = 1e-6;
 /// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] where nothing is
 /// unstable at any b.
 pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
+    least_on(&Scan::new(wider, tip), wider, r)
+}
+
+/// The same with the imaginary axis at hand.
+pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, StabilityError> {
+    let tip = scan.tip();
     if !(r.is_finite() && r > 0.0) {
         return Err(StabilityError::R(r));
     }
@@ -34,14 +41,17 @@ pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64
     }
     let limited = Wider { depth_limit: Some(1.0), ..*wider };
     limited.validate()?;
-    let law = Law::with_density(&limited, tip, r, 1.0);
+    let law = scan.law_under(&limited, r);
     if Law::has_corner(&limited, tip, &law.steady) {
         return Err(StabilityError::Corner);
     }
-    let mut samples = wave_numbers(tip);
-    samples.extend(beside_resonance(&law));
-    samples.sort_by(f64::total_cmp);
-    let values: Vec<f64> = samples.iter().map(|q| inverse_limit(&law, *q)).collect();
+    let at = |(q, kept): (f64, Option<&Transforms>)| {
+        (q, kept.map_or_else(|| inverse_limit(&law, q), |t| inverse_limit_with(&law, q, t)))
+    };
+    let mut known: Vec<(f64, f64)> = scan.samples().map(at).collect();
+    known.extend(beside_resonance(&law).into_iter().map(|q| (q, inverse_limit(&law, q))));
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (samples, values): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
     let mut largest = f64::NEG_INFINITY;
     for (q, value) in samples.windows(3).zip(values.windows(3)) {
         largest = largest.max(value[1]);
@@ -65,10 +75,16 @@ pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64
 ///
 /// With X = q + A(G(p) - G(s)) and Y = qφ(p) + A(sφ(s)φ1(p) - G(s)φ(p)), N = X ± (A/b)Y: A makes X/Y real.
 fn inverse_limit(law: &Law, wave_number: f64) -> f64 {
+    let p = Complex64::new(law.fading, wave_number);
+    inverse_limit_with(law, wave_number, &law.footprint.at(p))
+}
+
+/// The same with the transforms there at hand.
+fn inverse_limit_with(law: &Law, wave_number: f64, t: &Transforms) -> f64 {
     let lambda = Complex64::new(0.0, wave_number);
     let unlimited = Law { inverse_limit: 0.0, ..law.clone() };
-    let [bare, groove, _] = unlimited.by_density(lambda);
-    let [_, with, second] = law.by_density(lambda);
+    let [bare, groove, _] = unlimited.expanded(lambda, t);
+    let [_, with, second] = law.expanded(lambda, t);
     let first = with - groove;
     let cross = |a: Complex64, b: Complex64| (a * b.conj()).im;
     let coefficients =

@@ -9,8 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use stickslip_stability::{
-    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, least_depth_limit,
-    memory_length, onset_at,
+    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, memory_length, onset_at,
 };
 use stickslip_tip::{TipFunction, Wider};
 
@@ -157,7 +156,7 @@ impl Boundary {
                 Err(StabilityError::Wider(error)) => return Err(Refused::from(error).into()),
                 Err(error) => return Err(self.refused(error).into()),
             }
-            least.push(least_depth_limit(law, tip, *r).ok());
+            least.push(boundary.least_depth_limit(*r).ok());
             context.counted(n + 1, self.points, "steps")?;
         }
         let found = BoundaryFound {

@@ -67,7 +67,7 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
 }
 
 /// Why a raster has no threshold; what is not of r, the law, the path or the tip is of its pitches.
-pub(crate) fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
+pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
     match error {
         StabilityError::R(_) => Refused::number("r", r, error),
         StabilityError::NoSupport => Refused::whole("no_spring", error),

@@ -141,7 +141,6 @@ impl Stability {
     /// With α and r.
     fn placed(self, law: Wider) -> Result<Self, Refused> {
         self.judge_solved_for(&law)?;
-        let critical = self.critical(&law)?;
         let (has_alpha, has_r) = (self.indentation != Indentation::default(), self.r.is_some());
         if has_alpha && has_r {
             let indentation = self.indentation.resolved(&self.tip.0, law, self.velocity()?)?;
@@ -151,7 +150,7 @@ impl Stability {
             SolveFor::Alpha => ("r", self.r, "alpha"),
             SolveFor::R => ("alpha", self.indentation.alpha, "r"),
         };
-        let at = critical.map_err(|error| {
+        let at = self.critical(&law)?.map_err(|error| {
             let why = format!("{error}; give {{{other}}} for the growth exponents there");
             Refused::number(given, value.unwrap_or(f64::NAN), why)
         })?;

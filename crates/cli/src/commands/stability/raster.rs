@@ -3,12 +3,12 @@
 use crate::arguments::StabilityArguments;
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
-use crate::commands::model::{model_under, refused_wider, tip, wider};
+use crate::commands::model::{model_under, tip, wider};
 use crate::failure::{Failure, Typed};
-use stickslip::lines::{footprint, left};
+use stickslip::lines::{self, footprint, left};
 use stickslip::{
     Document, KnownScales, ModelParameters, PathName, Physical, RasterGrowth,
-    RasterStabilityDocument, RasterStabilityFound, RasterStabilityParameters,
+    RasterStabilityDocument, RasterStabilityFound, RasterStabilityParameters, Refused,
 };
 use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
@@ -106,17 +106,8 @@ fn raster(
 
 /// What a raster was refused for, by its option.
 fn refused(error: &StabilityError, (r, pitch): (f64, Option<f64>)) -> Failure {
-    match error {
-        StabilityError::R(_) => Failure::input(format!("--r {}", Typed(r)), error),
-        StabilityError::NoSupport => Failure::input("--no-spring", error),
-        StabilityError::Corner => Failure::input("--depth-limit", error),
-        StabilityError::Wider(error) => refused_wider(error),
-        StabilityError::HealingZigzag => Failure::input("--path zigzag", error),
-        StabilityError::PapersLawOnly(_) | StabilityError::NoRipples => {
-            Failure::input("--tip", error)
-        }
-        error => Failure::input(format!("--pitch {}", Typed(pitch.unwrap_or_default())), error),
-    }
+    let given = || Refused::number("pitch", pitch.unwrap_or_default(), "");
+    lines::refused(error, r, given).into()
 }
 
 fn document(

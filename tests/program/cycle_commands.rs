@@ -158,7 +158,7 @@ fn what_cannot_be_used_is_refused() {
     let damaged = String::from_utf8(folder.read("cycle.json")).unwrap();
     folder.write("damaged.json", damaged.replace("\"extension\":[", "\"extension\":[7,"));
     for (line, words) in [
-        ("cycle --alpha 1.2", &["--r", "missing"][..]),
+        ("cycle --alpha 1.2", &["--r", "is needed"][..]),
         ("cycle --alpha 1.2 --r 1 --tolerance 1", &["--tolerance 1", "1e-4"]),
         ("cycle --alpha 1.2 --r 1 --points 0", &["--points 0"]),
         ("cycle --alpha 1.2 --r 1 --tip bessel", &["bessel", "fades"]),

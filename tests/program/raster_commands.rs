@@ -348,7 +348,7 @@ fn what_no_raster_can_be_made_of_is_refused_with_advice() {
             ["--sample-at 11", "each line"],
         ),
         ("boundary --pitch-range -1:1:3 --r 1", ["--pitch-range -1:1:3", "above 0"]),
-        ("boundary --pitch-range 1:2:3", ["--r", "required"]),
+        ("boundary --pitch-range 1:2:3", ["--r", "support velocity"]),
         ("stability --r 1 --pitch -1", ["--pitch -1", "above 0"]),
         ("stability --r 1 --path zigzag", ["--pitch", "distance"]),
         ("stability --r 1 --path repeat", ["--alpha", "growth"]),

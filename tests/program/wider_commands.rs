@@ -257,7 +257,7 @@ fn without_a_spring_stability_lists_steady_walks() {
     let table = String::from_utf8(folder.prints(&format!("{lorenz} --format csv"))).unwrap();
     assert!(table.starts_with("speed,re,im\n") && table.lines().count() == 5, "{table}");
     folder.refuses(&format!("{lorenz} --pitch 1"), &["--pitch", "--no-spring"]);
-    folder.refuses(&format!("{lorenz} --re-above=-3"), &["--re-above -3", "--roots"]);
+    folder.refuses(&format!("{lorenz} --re-above=-3"), &["--re-above -3", "--no-spring"]);
     folder.refuses(&format!("{lorenz} --r 1"), &["--r 1", "leave it out"]);
     folder.refuses(
         "stability --no-spring --tip cosine --alpha -2",

@@ -32,6 +32,7 @@
 mod ask;
 mod document;
 mod documents;
+pub mod parameter;
 
 pub use stickslip_convolution as convolution;
 pub use stickslip_cycles as cycles;
@@ -50,11 +51,19 @@ pub use ask::boundary::{
     SpacingName,
 };
 pub use ask::context::Context;
+pub use ask::continuation::{
+    Continue, ContinueDocument, ContinueFound, CycleBranch, EndName, OverName, SpecialDocument,
+    SpecialName,
+};
 pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
 pub use ask::lines;
 pub use ask::raster_boundary::{RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound};
+pub use ask::raster_stability::{
+    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStability,
+    RasterStabilityDocument, RasterStabilityFound,
+};
 pub use ask::stability::{Stability, StabilityDocument};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
 pub use document::{Document, Question};
@@ -62,10 +71,6 @@ pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
 pub use documents::compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareFound, CompareParameters,
     DifferenceDocument, GridDocument, GridName, GridWork,
-};
-pub use documents::continuation::{
-    ContinueDocument, ContinueFound, ContinueParameters, CycleBranch, EndName, OverName,
-    SpecialDocument, SpecialName,
 };
 
 pub use ask::model::{
@@ -86,7 +91,8 @@ pub use documents::measured_tip::{
     MeasuredTipFound, MeasuredTipParameters,
 };
 pub use documents::outcome::{
-    CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, to_its_digits,
+    CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, digits,
+    to_its_digits,
 };
 pub use documents::physical::{
     InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units,
@@ -97,10 +103,6 @@ pub use documents::raster::{
     RasterCompared, RasterComparedWork, RasterDocument, RasterHistory, RasterLine,
     RasterParameters, RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
     RasterSweepFound, RasterSweepParameters, RasterSweepPoint, RasterWork,
-};
-pub use documents::raster_stability::{
-    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStabilityDocument,
-    RasterStabilityFound, RasterStabilityParameters,
 };
 pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use documents::reproduction::{

@@ -1,11 +1,10 @@
 //! `stickslip continue`.
 
 use super::examples::examples;
-use super::named::named;
-use super::{CycleStart, InUnitsArguments, OutletArguments};
+use super::{AnswerArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip::OverName;
+use stickslip::Continue;
 
 /// A branch of cycles in α or r, stable or not, with the points where something happens to it.
 ///
@@ -16,54 +15,14 @@ use stickslip::OverName;
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct ContinueArguments {
     #[command(flatten)]
-    pub(crate) start: CycleStart,
+    pub(crate) options: Options<Continue>,
 
-    /// What varies.
-    #[arg(long, value_parser = named::<OverName>(), value_name = "NAME", help_heading = "Branch")]
-    pub(crate) over: OverName,
-
-    /// Its last value [default: none, the branch ends otherwise].
-    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Branch")]
-    pub(crate) to: Option<f64>,
-
-    /// Follow the branches of twice the period too, from each period doubling.
-    #[arg(long, help_heading = "Branch")]
-    pub(crate) switch: bool,
-
-    /// The branch ends where the period is longer than this, in Γ/k.
-    #[arg(
-        long,
-        value_name = "T",
-        default_value_t = 300.0,
-        allow_hyphen_values = true,
-        help_heading = "Branch"
-    )]
-    pub(crate) longest_period: f64,
-
-    /// Longest step from one cycle to the next, in relative changes of parameter, period and l.
-    #[arg(
-        long,
-        value_name = "S",
-        default_value_t = 0.05,
-        allow_hyphen_values = true,
-        help_heading = "Branch"
-    )]
-    pub(crate) longest_step: f64,
-
-    /// Each branch ends with this many cycles.
-    #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Branch")]
-    pub(crate) most_points: usize,
+    /// Begin with the cycle in a document of `stickslip cycle`, with its tip, r and α where they are not given.
+    #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
+    pub(crate) from: Option<PathBuf>,
 
     #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw amplitude and period over what varies, stable cycles solid and unstable ones dashed, to this .svg
-    /// or .png; by their logarithm where they become large.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
 
 const USAGE: &str = "stickslip continue --over alpha --r <R> [OPTIONS]

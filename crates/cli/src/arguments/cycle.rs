@@ -1,32 +1,10 @@
 //! `stickslip cycle`.
 
 use super::examples::examples;
-use super::{InUnitsArguments, ModelArguments, OutletArguments};
+use super::{AnswerArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
-
-/// How a cycle is asked for, of the commands that need one to begin with.
-#[derive(Debug, Clone, Args)]
-pub(crate) struct CycleStart {
-    #[command(flatten)]
-    pub(crate) model: ModelArguments,
-
-    /// Start from the cycle in a document of `stickslip cycle` or from its tip, r and α where they are not
-    /// given; without it, from the oscillation born at αc or from a short run.
-    #[arg(long, value_name = "CYCLE.json", help_heading = "Start")]
-    pub(crate) from: Option<PathBuf>,
-
-    /// Largest residual that the equation of motion (18) may have at any time, in units of kσ/Γ; from
-    /// 1e-11 to 1e-4.
-    #[arg(
-        long,
-        value_name = "E",
-        default_value = "1e-9",
-        allow_hyphen_values = true,
-        help_heading = "Accuracy"
-    )]
-    pub(crate) tolerance: f64,
-}
+use stickslip::Cycle;
 
 /// The periodic motion at given α and r, and its stability, without waiting for it.
 ///
@@ -36,22 +14,15 @@ pub(crate) struct CycleStart {
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
-    pub(crate) start: CycleStart,
+    pub(crate) options: Options<Cycle>,
 
-    /// Intervals of the profile, about, and not fewer. They are uneven in time: each step of the cycle's mesh, short
-    /// where the motion is fast, is divided evenly, in two at least.
-    #[arg(long, value_name = "N", default_value_t = 400, help_heading = "Output")]
-    pub(crate) points: usize,
-
-    #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
+    /// Start from the cycle in a document of `stickslip cycle`, with its tip, r and α where they are not
+    /// given; without it, from the oscillation born at αc or from a short run.
+    #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
+    pub(crate) from: Option<PathBuf>,
 
     #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw l(t), the tip's velocity and the ripple left behind to this .svg or .png.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
 
 const USAGE: &str = "stickslip cycle (--alpha <A> | --alpha-above <D>) --r <R> [OPTIONS]

@@ -1,6 +1,7 @@
 //! The ends of a range, and how many values there are in it: `LO:HI:N`, the one way in which all ranges are typed.
 
 use crate::failure::Failure;
+use std::fmt::{self, Display};
 use std::str::FromStr;
 
 /// `LO:HI`, or `LO:HI:N` with the number of values; `LO,HI` is understood too.
@@ -35,6 +36,12 @@ impl FromStr for Interval {
     }
 }
 
+impl Display for Interval {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.typed)
+    }
+}
+
 impl Interval {
     /// Both ends, the first below the second.
     pub(crate) fn ends(&self, option: &str) -> Result<(f64, f64), Failure> {
@@ -42,6 +49,16 @@ impl Interval {
             return Ok((self.low, self.high));
         }
         Err(self.refused(option, "needs two finite numbers LO:HI with LO below HI"))
+    }
+
+    /// Both ends, whatever they are.
+    pub(super) fn numbers(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
+    /// How many values it has, if it says so.
+    pub(super) fn counted(&self) -> Option<usize> {
+        self.points
     }
 
     /// How many values it has, if it says so: at least both ends.

@@ -1,5 +1,6 @@
 //! What can be typed. Parsing only: values are judged where they are used.
 
+mod answer;
 mod boundary;
 mod compare;
 mod continuation;
@@ -14,6 +15,7 @@ mod model;
 mod named;
 mod outlet;
 mod plot;
+mod question;
 mod range;
 mod raster;
 mod raster_sweep;
@@ -31,10 +33,11 @@ mod tip;
 mod units;
 mod verify;
 
+pub(crate) use answer::AnswerArguments;
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use continuation::ContinueArguments;
-pub(crate) use cycle::{CycleArguments, CycleStart};
+pub(crate) use cycle::CycleArguments;
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use fit::{FitArguments, ScanName};
@@ -43,6 +46,7 @@ pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, WiderArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
+pub(crate) use question::{Either, Options, Questions};
 pub(crate) use range::Range;
 pub(crate) use raster::RasterArguments;
 pub(crate) use raster_sweep::RasterSweepArguments;
@@ -121,6 +125,7 @@ const EXAMPLES: &str = "Examples:
 `stickslip COMMAND --help` explains each command and gives examples.";
 
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 pub(crate) enum Command {
     Run(RunArguments),
     Verify(VerifyArguments),

@@ -28,6 +28,14 @@ pub(crate) struct TipArguments {
     pub(crate) tip_file: Option<PathBuf>,
 }
 
+impl TipArguments {
+    /// Whether any of them was given.
+    pub(crate) fn is_given(&self) -> bool {
+        let Self { tip, beta, width, tip_file } = self;
+        tip.is_some() || beta.is_some() || width.is_some() || tip_file.is_some()
+    }
+}
+
 /// Commands that cannot do without r add `mut_arg("r", |r| r.required(true))`.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]

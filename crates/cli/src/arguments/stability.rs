@@ -1,79 +1,23 @@
 //! `stickslip stability`.
 
 use super::examples::examples;
-use super::named::named;
-use super::{InUnitsArguments, ModelArguments, OutletArguments};
+use super::{AnswerArguments, Either, Options};
 use clap::Args;
-use std::path::PathBuf;
-use stickslip::{PathName, SolveFor};
+use stickslip::{RasterStability, Stability, Walking};
 
 /// Where steady motion loses its stability, and all growth exponents.
 ///
 /// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical
-/// point. With --no-spring: the speeds of steady walks, and their growth exponents.
+/// point. With --pitch: where ripples begin to grow from scan line to scan line. With --no-spring: the speeds of steady walks,
+/// and their growth exponents.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct StabilityArguments {
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
-
-    /// Which of the two is varied to find the critical point.
-    #[arg(long, value_parser = named::<SolveFor>(), default_value = "alpha", value_name = "NAME")]
-    pub(crate) solve_for: SolveFor,
-
-    /// Distance of scan lines that lie beside each other, in σ: where ripples begin to grow from line to line, and at
-    /// what angle their crests stand, in place of a single line.
-    #[arg(
-        long,
-        value_name = "D",
-        allow_hyphen_values = true,
-        conflicts_with_all = ["solve_for", "roots", "re_above"],
-        help_heading = "Raster"
-    )]
-    pub(crate) pitch: Option<f64>,
-
-    /// How the support goes from one line to the next [default: one-way].
-    #[arg(
-        long,
-        value_parser = named::<PathName>(),
-        value_name = "PATH",
-        conflicts_with_all = ["solve_for", "roots", "re_above"],
-        help_heading = "Raster"
-    )]
-    pub(crate) path: Option<PathName>,
-
-    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip that has no f(x,y) of its own [default: the width of the tip's
-    /// Gaussians].
-    #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Raster")]
-    pub(crate) width_y: Option<f64>,
-
-    /// How far the support goes along each line, in σ, for a surface that heals meanwhile.
-    #[arg(
-        long,
-        value_name = "X",
-        allow_hyphen_values = true,
-        requires = "pitch",
-        help_heading = "Raster"
-    )]
-    pub(crate) length: Option<f64>,
-
-    /// At least N growth exponents: all those right of a line chosen so [default: 10].
-    #[arg(long, value_name = "N", conflicts_with = "re_above")]
-    pub(crate) roots: Option<usize>,
-
-    /// All growth exponents λ with Re λ of at least this, in k/Γ.
-    #[arg(long, value_name = "BOUND", allow_hyphen_values = true)]
-    pub(crate) re_above: Option<f64>,
+    pub(crate) options: Options<Either<Stability, Either<RasterStability, Walking>>>,
 
     #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw the growth exponents in the complex plane, or of a raster the growth from line to line, to this .svg or .png.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
 
 const USAGE: &str = "stickslip stability --r <R> [OPTIONS]

@@ -1,29 +1,56 @@
-//! `stickslip cycle`.
+//! `stickslip cycle`, and the cycle that `stickslip continue` begins with.
 
-pub(super) mod start;
-
-use super::asking::context;
-use super::in_units::scales;
-use super::job::{Job, judge_places};
-use crate::arguments::CycleArguments;
+use super::ask::answer;
+use super::job::judge_places;
+use crate::arguments::{CycleArguments, Options, Questions};
 use crate::failure::Failure;
-use stickslip::{Ask, Cycle, CycleDocument, Physical};
+use crate::files::input::read_document;
+use serde_json::{Map, Value};
+use std::path::Path;
+use stickslip::{Cycle, CycleDocument, Unusable, parameter};
 
 pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
-    let model = &arguments.start.model;
+    let CycleArguments { options, from, answer: place } = arguments;
     // Another cycle may take the place of the one that it came from; the same one again would be for nothing.
-    let is_another = model.r.or(model.alpha).or(model.alpha_above).is_some();
-    let from = arguments.start.from.as_deref().filter(|_| !is_another);
-    let tip_file = model.tip.tip_file.as_deref();
-    judge_places(
-        &arguments.outlet,
-        arguments.plot.as_deref(),
-        &[("--tip-file", tip_file), ("--from", from)],
-    )?;
-    let context = context();
-    let question = Cycle { points: arguments.points, ..start::question(&arguments.start)? };
-    let question = question.resolved(&context)?;
-    let scales = scales(&arguments.in_units, tip_file, Some(question.r))?;
-    let job = Job::open::<CycleDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    job.finish(question.answered(&context)?.in_units(scales.as_ref()))
+    let is_another = ["r", "alpha", "alpha_above"].into_iter().any(|name| options.has(name));
+    let [tip_file, parameters] = options.files();
+    let read = [tip_file, parameters, ("--from", from.as_deref().filter(|_| !is_another))];
+    judge_places(&place.outlet, place.plot.as_deref(), &read)?;
+    let start = from.as_deref().map(read_cycle).transpose()?;
+    let values = values(options, start.as_ref())?;
+    let question: Cycle = parameter::question(values)?;
+    let start = start.as_ref().map(|(path, document)| again(path, document)).transpose()?;
+    let question = Cycle { start: start.and_then(|again| again.start), ..question };
+    answer(question, place, tip_file.1)
+}
+
+/// A cycle to start from, and its file.
+pub(super) type Start<'a> = (&'a Path, CycleDocument);
+
+pub(super) fn read_cycle(path: &Path) -> Result<Start<'_>, Failure> {
+    Ok((path, read_document("--from", path, CycleDocument::FORMAT)?))
+}
+
+fn again(path: &Path, document: &CycleDocument) -> Result<Cycle, Failure> {
+    let unusable = |error: Unusable| Failure::input(format!("--from {}", path.display()), error);
+    Cycle::again(document).map_err(unusable)
+}
+
+/// The options, in place of the footprint, law, α and r of a cycle to start from.
+pub(super) fn values<Q: Questions>(
+    options: &Options<Q>,
+    start: Option<&Start>,
+) -> Result<Map<String, Value>, Failure> {
+    let Some((_, document)) = start else { return options.values() };
+    if options.tip.is_given() && super::model::tip(&options.tip)? != document.parameters.tip.0 {
+        let message = "the footprint is that of the document: leave --tip and its options out";
+        return Err(Failure::input("--from", message));
+    }
+    let failed = |error: serde_json::Error| Failure::Run(error.to_string());
+    let Value::Object(mut base) = serde_json::to_value(&document.parameters).map_err(failed)?
+    else {
+        return options.values();
+    };
+    base.retain(|name, _| !["tolerance", "points"].contains(&name.as_str()));
+    options.values_instead_of(base)
 }

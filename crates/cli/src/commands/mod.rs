@@ -1,6 +1,6 @@
 //! One file per command.
 
-mod asking;
+mod ask;
 pub(crate) mod boundary;
 pub(crate) mod compare;
 pub(crate) mod continuation;

@@ -4,7 +4,7 @@ use super::judged::judge_table;
 use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip::{GaussianDocument, Indentation, Law, NamedTip, Refused, TipName, judge_details};
+use stickslip::{GaussianDocument, Indentation, NamedTip, Refused, TipName, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
 /// Refuses what has no steady motion: without a support, or with a past that has no end.
@@ -27,11 +27,6 @@ pub(crate) fn refuse_endless_past(
         return Err(Failure::input("--tip cosine", message));
     }
     Ok(())
-}
-
-/// What is added to the basic law, in a question.
-pub(crate) fn law(arguments: &WiderArguments) -> Law {
-    wider(arguments).into()
 }
 
 /// What the options ask for of the wider law.
@@ -61,10 +56,6 @@ pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
 }
 
 /// α, or αc(r) + D.
-pub(crate) fn indentation(arguments: &ModelArguments) -> Result<Indentation, Failure> {
-    one_of(arguments.alpha, arguments.alpha_above)
-}
-
 fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
     if alpha.is_some() && alpha_above.is_some() {
         return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));

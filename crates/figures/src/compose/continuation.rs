@@ -33,7 +33,7 @@ impl Drawn for ContinueDocument {
         if !self.branches.iter().all(lengths) {
             return Err(FigureError::Damaged("the columns of a branch differ in length".into()));
         }
-        let model = &self.parameters.model;
+        let model = &self.parameters.model_parameters();
         let over_alpha = self.parameters.over == OverName::Alpha;
         let fixed = match over_alpha {
             true => format!("r = {}", seven_digits(model.r)),

@@ -11,7 +11,7 @@ use stickslip::{
 
 impl Drawn for RasterStabilityDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.model;
+        let model = &self.parameters.model_parameters();
         let Some(growth) = &self.growth else {
             let message =
                 "there is no growth over wave numbers to draw: give --alpha, and no zigzag";

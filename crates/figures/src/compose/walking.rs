@@ -12,7 +12,7 @@ impl Drawn for WalkingDocument {
         if self.walks.is_empty() {
             return Err(FigureError::Nothing("there is no steady walk to draw".into()));
         }
-        let model = &self.parameters.model;
+        let model = &self.parameters.model_parameters();
         let title = format!("Steady walks, {}", model_name(model));
         let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {

@@ -1,6 +1,7 @@
 //! The question `boundary`, and its answer.
 
 use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
 use crate::{
     Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
     OnsetKindName, Question, Refused, Tip, Typed,
@@ -17,14 +18,18 @@ use stickslip_tip::{TipFunction, Wider};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Boundary {
     /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     #[serde(default)]
     pub tip: Tip,
-    /// First and last r, above 0.
+    /// First and last r, above 0, and how many there are, both included.
+    #[schemars(extend("x-option" = option("LO:HI:N", "Boundary", 20)))]
     pub r_range: [f64; 2],
-    /// Number of values of r, both ends included; from 2 to 100,000.
+    /// Number of values, where the range does not say it; from 2 to 100,000.
+    #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "default_points")]
     pub points: usize,
     /// How that range is divided.
+    #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
     /// What is added to the basic law.
@@ -101,7 +106,7 @@ impl Boundary {
     fn refused(&self, why: impl ToString) -> Refused {
         let [low, high] = self.r_range.map(Typed);
         let value = Some(format!("{low}:{high}:{}", self.points));
-        Refused { parameter: "r_range", value, why: why.to_string() }
+        Refused { parameter: "r_range".into(), value, why: why.to_string() }
     }
 
     /// Under the basic law: with criticality and all stretches of the curve.

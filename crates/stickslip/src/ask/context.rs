@@ -14,8 +14,8 @@ pub struct Context {
     clock: Option<fn() -> f64>,
 }
 
-/// Takes the part that is done, from 0 to 1, and what is counted, such as `12 of 60 points`.
-type Progress = dyn Fn(f64, &str) + Send + Sync;
+/// Takes the part that is done, from 0 to 1, where that is known, and what is counted, such as `12 of 60 points`.
+type Progress = dyn Fn(Option<f64>, &str) + Send + Sync;
 
 impl Context {
     /// Nobody watches; the work ends early once `cancel` is set.
@@ -24,9 +24,9 @@ impl Context {
         Self { cancel, ..Self::default() }
     }
 
-    /// Calls `progress` with the part that is done, from 0 to 1, and what is counted.
+    /// Calls `progress` with the part that is done, from 0 to 1, where that is known, and what is counted.
     #[must_use]
-    pub fn watched_by(self, progress: impl Fn(f64, &str) + Send + Sync + 'static) -> Self {
+    pub fn watched_by(self, progress: impl Fn(Option<f64>, &str) + Send + Sync + 'static) -> Self {
         Self { progress: Some(Arc::new(progress)), ..self }
     }
 
@@ -46,10 +46,32 @@ impl Context {
     /// # Errors
     /// The work is cancelled.
     pub(crate) fn counted(&self, done: usize, all: usize, parts: &str) -> Result<(), Failure> {
+        self.reached(Some(done as f64 / all as f64), &format!("{done} of {all} {parts}"))
+    }
+
+    /// Reports the part that is done, from 0 to 1, where that is known, and what is counted.
+    ///
+    /// # Errors
+    /// The work is cancelled.
+    pub(crate) fn reached(&self, part: Option<f64>, counted: &str) -> Result<(), Failure> {
         if let Some(progress) = &self.progress {
-            progress(done as f64 / all as f64, &format!("{done} of {all} {parts}"));
+            progress(part, counted);
         }
-        if self.cancel.load(Ordering::Relaxed) { Err(Failure::Cancelled) } else { Ok(()) }
+        if self.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
+    }
+
+    /// Whether the work is to end early.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    /// Work that ends early once it is cancelled, with what there is by then.
+    pub(crate) fn keeping<T>(
+        &self,
+        work: impl FnOnce() -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let done = stop::where_asked_by(&self.cancel, work);
+        if done.is_err() && self.is_cancelled() { Err(Failure::Cancelled) } else { done }
     }
 
     /// Work that ends early once it is cancelled.
@@ -57,8 +79,8 @@ impl Context {
         &self,
         work: impl FnOnce() -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let done = stop::where_asked_by(&self.cancel, work);
-        if self.cancel.load(Ordering::Relaxed) { Err(Failure::Cancelled) } else { done }
+        let done = self.keeping(work)?;
+        if self.is_cancelled() { Err(Failure::Cancelled) } else { Ok(done) }
     }
 }
 

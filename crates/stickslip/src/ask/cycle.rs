@@ -1,6 +1,7 @@
 //! The question `cycle`, and its answer.
 
 use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
 use crate::{
     Ask, ComplexDocument, Context, Document, Failure, History, Indentation, Law, ModelParameters,
     Question, Refused, Tip, Unusable,
@@ -21,21 +22,25 @@ const MOST_POINTS: usize = 1_000_000;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Cycle {
     /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     #[serde(default)]
     pub tip: Tip,
     /// α, or αc(r) + D.
     #[serde(flatten)]
     pub indentation: Indentation,
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: f64,
     /// What is added to the basic law.
     #[serde(flatten)]
     pub law: Law,
     /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
+    #[schemars(extend("x-option" = option("E", "Accuracy", 20)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
     /// Intervals of the profile, about, and not fewer; up to 1,000,000. They are uneven in time: each step of the cycle's
     /// mesh, short where the motion is fast, is divided evenly, in two at least.
+    #[schemars(extend("x-option" = option("N", "Output", 30)))]
     #[serde(default = "default_points")]
     pub points: usize,
     /// One period of a motion nearby from which Newton's method starts; without it the small oscillation at αc or a short
@@ -128,7 +133,7 @@ impl Cycle {
         if matches!(self.tip.0, TipFunction::Bessel) {
             let value = Some("bessel".into());
             let why = CycleError::NeverFades.to_string();
-            return Err(Refused { parameter: "tip", value, why });
+            return Err(Refused { parameter: "tip".into(), value, why });
         }
         if !(1..=MOST_POINTS).contains(&self.points) {
             let why = format!("must be from 1 to {MOST_POINTS}");
@@ -144,6 +149,10 @@ impl Question for Cycle {
 }
 
 impl Ask for Cycle {
+    fn support_velocity(&self) -> Option<f64> {
+        Some(self.r)
+    }
+
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         self.judged()?;
         let law = self.law.dragged(&self.tip.0)?;

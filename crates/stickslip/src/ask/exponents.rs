@@ -37,7 +37,7 @@ pub fn failed(error: &StabilityError, advice: &str) -> Failure {
         StabilityError::Stopped => Failure::Cancelled,
         StabilityError::TooFarApart { alpha, r } => {
             let value = Some(format!("{} and {}", Typed(*alpha), Typed(*r)));
-            Refused { parameter: "alpha and r", value, why: error.to_string() }.into()
+            Refused { parameter: "alpha and r".into(), value, why: error.to_string() }.into()
         }
         error => Failure::Failed(format!("{error}; {advice}")),
     }

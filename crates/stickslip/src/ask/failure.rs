@@ -1,5 +1,6 @@
 //! Why a question has no answer, in words that every face can use.
 
+use std::borrow::Cow;
 use std::fmt::{self, Display};
 use stickslip_cycles::CycleError;
 use stickslip_stability::StabilityError;
@@ -26,7 +27,7 @@ pub enum Failure {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refused {
     /// Its name, or several joined by " and ".
-    pub parameter: &'static str,
+    pub parameter: Cow<'static, str>,
     /// As it would be typed, or those of several joined by " and "; `None` where it is missing or the name says enough.
     pub value: Option<String>,
     /// The reason and the remedy.
@@ -35,13 +36,14 @@ pub struct Refused {
 
 impl Refused {
     /// A parameter and a number that it cannot have.
-    pub fn number(parameter: &'static str, value: f64, why: impl Display) -> Self {
-        Self { parameter, value: Some(Typed(value).to_string()), why: why.to_string() }
+    pub fn number(parameter: impl Into<Cow<'static, str>>, value: f64, why: impl Display) -> Self {
+        let value = Some(Typed(value).to_string());
+        Self { parameter: parameter.into(), value, why: why.to_string() }
     }
 
     /// A parameter, whatever its value.
-    pub fn whole(parameter: &'static str, why: impl Display) -> Self {
-        Self { parameter, value: None, why: why.to_string() }
+    pub fn whole(parameter: impl Into<Cow<'static, str>>, why: impl Display) -> Self {
+        Self { parameter: parameter.into(), value: None, why: why.to_string() }
     }
 
     /// The parameter with its value, such as `--r 0`; several, such as `--alpha 1 --r 0`.

@@ -73,9 +73,11 @@ pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) ->
         StabilityError::NoSupport => Refused::whole("no_spring", error),
         StabilityError::Corner => Refused::whole("depth_limit", error),
         StabilityError::Wider(error) => (*error).into(),
-        StabilityError::HealingZigzag => {
-            Refused { parameter: "path", value: Some("zigzag".into()), why: error.to_string() }
-        }
+        StabilityError::HealingZigzag => Refused {
+            parameter: "path".into(),
+            value: Some("zigzag".into()),
+            why: error.to_string(),
+        },
         StabilityError::PapersLawOnly(_) | StabilityError::NoRipples => {
             Refused::whole("tip", error)
         }

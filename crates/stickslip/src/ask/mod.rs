@@ -16,6 +16,7 @@
 
 pub(crate) mod boundary;
 pub(crate) mod context;
+pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub mod exponents;
 pub(crate) mod failure;
@@ -23,6 +24,7 @@ pub mod lines;
 pub(crate) mod model;
 pub(crate) mod question;
 pub(crate) mod raster_boundary;
+pub(crate) mod raster_stability;
 pub(crate) mod stability;
 pub(crate) mod walking;
 
@@ -30,6 +32,11 @@ use crate::{Context, Document, Failure, Question};
 
 /// A question that one function answers.
 pub trait Ask: Question {
+    /// The velocity r of the support, if there is one: it makes v0 of an experiment a scale of time.
+    fn support_velocity(&self) -> Option<f64> {
+        None
+    }
+
     /// The question with everything that it leaves to be computed first, such as α of αc(r) + D: as a document holds it.
     ///
     /// # Errors

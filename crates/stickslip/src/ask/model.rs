@@ -1,5 +1,6 @@
 //! The model in a document.
 
+use crate::parameter::{NOTHING_DRAGS, option};
 use crate::{Refused, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -146,16 +147,21 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
 /// What is added to the basic law. A question without them is about the basic law.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Law {
-    /// Depth limit b of (61), in kσ²/a; above 0.
+    /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b).
+    #[schemars(extend("x-option" = option("B", "Wider law", 10)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_limit: Option<f64>,
-    /// Relaxation time T of the surface, in Γ/k; above 0.
+    /// Time T in which the surface heals, as exp(-t/T), in Γ/k; above 0.
+    #[schemars(extend("x-option" = option("T", "Wider law", 11)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub healing_time: Option<f64>,
     /// Inertia M of the tip, in Γ²/k; above 0.
+    #[schemars(extend("x-option" = option("M", "Wider law", 12)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
-    /// Whether there is no spring.
+    /// No spring and no support: a particle driven by its own past. There is no r then, α may be below 0, and the start is
+    /// flat.
+    #[schemars(extend("x-option" = option("", "Wider law", 13)))]
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub no_spring: bool,
 }
@@ -177,13 +183,12 @@ impl Law {
     /// never heals.
     pub(crate) fn dragged(self, tip: &TipFunction) -> Result<Wider, Refused> {
         if self.no_spring {
-            let why = "nothing drags the tip: there is no steady motion behind a support";
-            return Err(Refused::whole("no_spring", why));
+            return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
         if *tip == TipFunction::Cosine && self.healing_time.is_none() {
             let why = "does not fade, so that steady motion leaves an infinite groove: give {healing_time}";
             return Err(Refused {
-                parameter: "tip",
+                parameter: "tip".into(),
                 value: Some("cosine".into()),
                 why: why.into(),
             });

@@ -1,5 +1,6 @@
 //! Parameters that several questions share: footprint, law, indentation rate.
 
+use crate::parameter::option;
 use crate::{
     GaussianDocument, Law, LayerDocument, ModelParameters, Refused, TipDocument, Typed,
     judge_details,
@@ -164,9 +165,11 @@ impl JsonSchema for Tip {
 /// Dimensionless indentation rate, given as α or by its distance from the critical one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Indentation {
-    /// Dimensionless indentation rate α (13); 0 or above with a spring.
+    /// Dimensionless indentation rate α = Γ N a/(σ² k²), (13); 0 or above with a spring.
+    #[schemars(extend("x-option" = option("A", "Model", 3)))]
     pub alpha: Option<f64>,
-    /// D of α = αc(r) + D; dimensionless.
+    /// D of α = αc(r) + D, above the critical one (below, if negative); dimensionless.
+    #[schemars(extend("x-option" = option("D", "Model", 4)))]
     pub alpha_above: Option<f64>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::lines::{footprint, left, refused};
 use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
 use crate::{
     Ask, Boundary, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip, Typed,
 };
@@ -14,26 +15,40 @@ use stickslip_tip::{Footprint, Wider};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct RasterBoundary {
     /// Footprint f of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     #[serde(default)]
     pub tip: Tip,
-    /// Dimensionless support velocity r (12); above 0.
+    /// Dimensionless support velocity r (12) of the lines; above 0.
+    #[schemars(extend("x-option" = option("R", "Raster", 31)))]
     pub r: f64,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y), or one width.
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Raster", 32)))]
     #[serde(default)]
     pub width_y: Option<f64>,
-    /// First and last distance of the lines, in σ.
+    /// First and last distance of scan lines beside each other, in σ, and how many there are: where ripples begin to grow from
+    /// line to line, and the angle of their crests.
+    #[schemars(extend("x-option" = option("LO:HI:N", "Raster", 30)))]
     pub pitch_range: [f64; 2],
-    /// Distances from first to last.
+    /// Number of values, where the range does not say it; from 2 to 100,000.
+    #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
+    #[serde(default = "default_points")]
     pub points: usize,
-    /// How they are divided.
+    /// How that range is divided.
+    #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
     /// What is added to the basic law.
     #[serde(flatten)]
     pub law: Law,
-    /// X, how far the support goes along each line, in σ, where the surface heals.
+    /// X, how far the support goes along each line, in σ, for a surface that heals meanwhile.
+    #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
+}
+
+fn default_points() -> usize {
+    Boundary::DEFAULT_POINTS
 }
 
 /// A boundary of rasters and the question that it answers.
@@ -63,11 +78,15 @@ impl RasterBoundary {
     fn pitches(&self) -> Refused {
         let [low, high] = self.pitch_range.map(Typed);
         let value = Some(format!("{low}:{high}:{}", self.points));
-        Refused { parameter: "pitch_range", value, why: String::new() }
+        Refused { parameter: "pitch_range".into(), value, why: String::new() }
     }
 }
 
 impl Ask for RasterBoundary {
+    fn support_velocity(&self) -> Option<f64> {
+        Some(self.r)
+    }
+
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         self.judged()?;
         let (_, width_y) = footprint(self.width_y, &self.tip.0)?;

@@ -1,6 +1,7 @@
 //! The question `stability`: where steady motion loses its stability, and how small deviations grow.
 
 use super::exponents::{failed, judge_count, leftmost, remarks};
+use crate::parameter::option;
 use crate::{
     Ask, ComplexDocument, Context, CriticalDocument, Document, Failure, Indentation, Law,
     LimitsDocument, ModelParameters, OnsetDocument, Question, Refused, SolveFor, StabilityFound,
@@ -21,6 +22,7 @@ const CORNER: &str = "critical: the height under the tip is 0 in steady motion, 
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Stability {
     /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     #[serde(default)]
     pub tip: Tip,
     /// α, or αc(r) + D. Without either, α is the critical one.
@@ -28,20 +30,24 @@ pub struct Stability {
     pub indentation: Indentation,
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0. May be left out with `solve_for` "r": r is the critical one
     /// then.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: Option<f64>,
     /// What is added to the basic law.
     #[serde(flatten)]
     pub law: Law,
     /// Which of α and r the critical point is solved for, at the given value of the other.
+    #[schemars(extend("x-option" = option("NAME", "Critical point", 20)))]
     #[serde(default)]
     pub solve_for: SolveFor,
     /// Whether α and r are those of the critical point, for want of one of them.
     #[serde(default)]
     pub at_critical_point: bool,
-    /// Least number of growth exponents: all those right of a line chosen so. Null where a bound is given.
+    /// Least number of growth exponents: all those right of a line chosen so; 10 where no bound is given.
+    #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]
     pub roots: Option<usize>,
-    /// All growth exponents whose real part is at least this, in k/Γ. Null where a number is given.
+    /// All growth exponents whose real part is at least this, in k/Γ; in place of a number of them.
+    #[schemars(extend("x-option" = option("BOUND", "Growth exponents", 41)))]
     #[serde(default)]
     pub re_above: Option<f64>,
 }
@@ -124,7 +130,7 @@ impl Stability {
         if !law.is_papers() {
             let why = "rc(α) is of the basic law: give {r}, for αc(r)";
             return Err(Refused {
-                parameter: "solve_for",
+                parameter: "solve_for".into(),
                 value: Some("r".into()),
                 why: why.into(),
             });
@@ -205,6 +211,10 @@ fn has_corner(critical: Option<&Critical>) -> bool {
 }
 
 impl Ask for Stability {
+    fn support_velocity(&self) -> Option<f64> {
+        self.r
+    }
+
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         let law = self.law.dragged(&self.tip.0)?;
         let question = self.placed(law)?;

@@ -2,13 +2,15 @@
 
 use super::exponents::{failed, judge_count, remarks};
 use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
 use crate::{
-    Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, ModelParameters,
-    Question, Refused,
+    Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, Indentation, Law,
+    ModelParameters, Question, Refused, Stability, Tip,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{self as theory, Walk};
+use stickslip_tip::Model;
 
 /// Steady walks of a tip that no spring drags, x0 = vt. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -31,25 +33,63 @@ impl Question for Walking {
 /// Steady walks of a footprint without a spring, and their growth exponents.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Walking {
-    /// Footprint and α; r is 0.
+    /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, of either sign.
     #[serde(flatten)]
-    pub model: ModelParameters,
+    pub indentation: Indentation,
+    /// 0: there is no support.
+    #[serde(default)]
+    pub r: f64,
+    /// What is added to the basic law; it has no spring.
+    #[serde(flatten)]
+    pub law: Law,
     /// Least number of growth exponents of each walk.
+    #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
+    #[serde(default = "default_roots")]
     pub roots: usize,
+}
+
+fn default_roots() -> usize {
+    Stability::DEFAULT_ROOTS
+}
+
+impl Walking {
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    fn model(&self) -> Result<Model, Refused> {
+        if let Some(above) = self.indentation.alpha_above {
+            let why = "without a spring there is no onset: give {alpha}";
+            return Err(Refused::number("alpha_above", above, why));
+        }
+        if self.r.abs() > 0.0 {
+            let why = "without a spring there is no support that could move: leave it out";
+            return Err(Refused::number("r", self.r, why));
+        }
+        let law = self.law.into();
+        let indentation = self.indentation.resolved(&self.tip.0, law, 0.0)?;
+        indentation.model(&self.tip.0, law, 0.0)
+    }
 }
 
 impl Ask for Walking {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         judge_count("roots", self.roots)?;
-        if !self.model.law.no_spring {
+        if !self.law.no_spring {
             let why = "a tip on its spring does not walk: give {no_spring}";
             return Err(Refused::whole("no_spring", why).into());
         }
+        self.model()?;
         Ok(self)
     }
 
     fn answer(&self, _: &Context) -> Result<(WalkingFound, Vec<String>), Failure> {
-        let model = self.model.model().map_err(|error| Failure::Failed(error.to_string()))?;
+        let model = self.model()?;
         let speeds = theory::walking_speeds(&model);
         let speeds = speeds.map_err(|error| failed(&error, "move {alpha} a little"))?;
         let (mut walks, mut said) = (vec![], vec![]);

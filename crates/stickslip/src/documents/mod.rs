@@ -3,7 +3,6 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod compare;
-pub(crate) mod continuation;
 pub(crate) mod figure;
 pub(crate) mod fit;
 pub(crate) mod history;
@@ -12,7 +11,6 @@ pub(crate) mod measured_tip;
 pub(crate) mod outcome;
 pub(crate) mod physical;
 pub(crate) mod raster;
-pub(crate) mod raster_stability;
 pub(crate) mod read;
 pub(crate) mod reproduction;
 pub(crate) mod response;

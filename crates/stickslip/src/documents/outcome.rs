@@ -201,3 +201,28 @@ fn plainly(value: f64, error: f64) -> String {
     }
     format!("{value:.*}({off:.0})", last.unsigned_abs() as usize)
 }
+
+/// A value with `count` significant digits, without zeros at its end.
+///
+/// ```
+/// use stickslip::digits;
+///
+/// let cases = [(1.0690361749, 7), (0.0, 7), (2e-9, 3), (1234567.0, 7), (-0.5, 3), (1e300, 4)];
+/// let shown = cases.map(|(value, count)| digits(value, count));
+/// assert_eq!(shown, ["1.069036", "0", "2e-9", "1234567", "-0.5", "1e300"]);
+/// ```
+pub fn digits(value: f64, count: usize) -> String {
+    let exponent = if value.abs() > 0.0 { place(value) } else { 0 };
+    if !value.is_finite() || !PLAIN.contains(&exponent) {
+        let mantissa = format!("{value:.*e}", count - 1);
+        let Some((number, exponent)) = mantissa.split_once('e') else { return mantissa };
+        return format!("{}e{exponent}", without_zeros(number));
+    }
+    let decimals = i64::try_from(count).unwrap_or(0) - 1 - i64::from(exponent);
+    let decimals = usize::try_from(decimals).unwrap_or(0);
+    without_zeros(&format!("{value:.decimals$}")).into()
+}
+
+fn without_zeros(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}

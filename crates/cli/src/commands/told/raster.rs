@@ -52,7 +52,8 @@ impl Product for RasterStabilityDocument {
             Some(at) => format!("ripples grow from line to line above α = {}", number(at.alpha)),
             None => "every α makes some ripple of a repeated line grow".into(),
         };
-        let alpha = (!self.parameters.at_critical_point).then_some(self.parameters.model.alpha);
+        let alpha =
+            self.parameters.indentation.alpha.filter(|_| !self.parameters.at_critical_point);
         let here = alpha.map(|alpha| format!("; α = {}{stable}", digits(alpha, 10)));
         let angle = at.and_then(|at| at.crest_angle).map(|angle| format!("{} °", digits(angle, 6)));
         Told::new(headline + &here.unwrap_or_default())

@@ -9,7 +9,7 @@ const WALK: usize = 10;
 
 impl Product for WalkingDocument {
     fn told(&self) -> Told {
-        let alpha = digits(self.parameters.model.alpha, WALK);
+        let alpha = digits(self.parameters.indentation.alpha.unwrap_or(f64::NAN), WALK);
         let stable = self.walks.iter().filter(|walk| walk.stable).count();
         let headline = match self.walks.len() {
             0 => format!("no steady walk at α = {alpha}"),

@@ -7,10 +7,11 @@ use stickslip_raster::{Area, AreaLine, Path, Plan};
 use stickslip_tip::{Footprint, Force, Pulse, Scenario};
 
 /// How the support goes from one line to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PathName {
     /// Every line from x = 0 in the same direction, with the spring relaxed.
+    #[default]
     OneWay,
     /// The support turns back at the end of a line and goes one pitch further; the tip starts where it was.
     Zigzag,

@@ -1,0 +1,204 @@
+//! The options of a question: made of its parameters, which the question declares.
+
+use super::TipArguments;
+use super::interval::Interval;
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
+use serde_json::{Map, Value, json};
+use std::marker::PhantomData;
+use std::path::PathBuf;
+use stickslip::Question;
+use stickslip::parameter::{Kind, Parameter, parameters};
+
+/// The questions that a command may be about.
+pub(crate) trait Questions {
+    /// The parameters of all of them.
+    fn parameters() -> Vec<Parameter>;
+    /// The formats of their documents.
+    fn formats() -> Vec<&'static str>;
+}
+
+impl<Q: Question> Questions for Q {
+    fn parameters() -> Vec<Parameter> {
+        parameters::<Q>()
+    }
+
+    fn formats() -> Vec<&'static str> {
+        vec![Q::FORMAT]
+    }
+}
+
+/// One of two questions, or of more: whichever the options are those of.
+#[derive(Debug)]
+pub(crate) struct Either<A, B>(PhantomData<(A, B)>);
+
+impl<A: Questions, B: Questions> Questions for Either<A, B> {
+    fn parameters() -> Vec<Parameter> {
+        let mut all = A::parameters();
+        let others = B::parameters();
+        let is_new = |other: &Parameter| all.iter().all(|one| one.name != other.name);
+        let more: Vec<Parameter> = others.into_iter().filter(is_new).collect();
+        all.extend(more);
+        all
+    }
+
+    fn formats() -> Vec<&'static str> {
+        [A::formats(), B::formats()].concat()
+    }
+}
+
+/// What was given of the parameters of `Q`.
+#[derive(Debug, Clone)]
+pub(crate) struct Options<Q> {
+    /// By the names of the parameters; the footprint is not among them.
+    pub(crate) given: Map<String, Value>,
+    pub(crate) tip: TipArguments,
+    /// A file that has the others.
+    pub(crate) parameters: Option<PathBuf>,
+    /// A range that cannot be, as it was typed, and why.
+    pub(crate) refused_range: Option<(String, &'static str)>,
+    question: PhantomData<fn() -> Q>,
+}
+
+impl<Q: Questions> Args for Options<Q> {
+    fn augment_args(command: Command) -> Command {
+        let command =
+            Q::parameters().into_iter().fold(command, |command, parameter| match parameter.kind {
+                Kind::Tip => TipArguments::augment_args(command),
+                _ => command.next_help_heading(None).arg(argument(&parameter)),
+            });
+        let file = Arg::new("parameters")
+            .long("parameters")
+            .value_name("FILE.json")
+            .value_parser(value_parser!(PathBuf))
+            .help_heading("Model")
+            .help("Parameters from a document of this program, or from its \"parameters\" alone; options take their place");
+        command.next_help_heading(None).arg(file)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<Q: Questions> FromArgMatches for Options<Q> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut given = Map::new();
+        for parameter in Q::parameters() {
+            if parameter.kind != Kind::Tip && is_given(matches, &parameter.name) {
+                insert(&mut given, parameter, matches);
+            }
+        }
+        let refused_range = refused_range::<Q>(matches);
+        let tip = TipArguments::from_arg_matches(matches)?;
+        let parameters = matches.get_one("parameters").cloned();
+        Ok(Self { given, tip, parameters, refused_range, question: PhantomData })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// A range that cannot be, as it was typed, and why.
+fn refused_range<Q: Questions>(matches: &ArgMatches) -> Option<(String, &'static str)> {
+    let ranges = Q::parameters().into_iter().filter(|parameter| parameter.kind == Kind::Ends);
+    let named = ranges.filter_map(|parameter| {
+        let interval: &Interval = matches.get_one(&parameter.name)?;
+        Some((format!("--{} {interval}", long(&parameter.name)), interval))
+    });
+    let (typed, interval) = named.into_iter().next()?;
+    let [low, high] = interval.numbers();
+    let why = match interval.counted() {
+        _ if !(low.is_finite() && high.is_finite() && low < high) => {
+            "needs two finite numbers LO:HI with LO below HI"
+        }
+        Some(_) if is_given(matches, "points") => {
+            "says how many values there are, and --points too: leave one out"
+        }
+        Some(0 | 1) => "needs 2 values or more: LO:HI:N with N of at least 2",
+        _ => return None,
+    };
+    Some((typed, why))
+}
+
+fn is_given(matches: &ArgMatches, name: &str) -> bool {
+    matches.value_source(name) == Some(clap::parser::ValueSource::CommandLine)
+}
+
+/// A parameter as an option.
+fn argument(parameter: &Parameter) -> Arg {
+    let Parameter { name, kind, default, symbol, group, .. } = parameter;
+    let argument = Arg::new(name.clone())
+        .long(long(name))
+        .help_heading(group.clone())
+        .help(help(parameter, default.as_ref()));
+    let valued = argument.clone().value_name(symbol.clone()).allow_hyphen_values(true);
+    match kind {
+        _ if is_spacing(name) => argument
+            .action(ArgAction::SetTrue)
+            .help("Equal ratios from one to the next, in place of equal differences"),
+        Kind::Switch => argument.action(ArgAction::SetTrue),
+        Kind::Integer => valued.value_parser(value_parser!(u64)),
+        Kind::Name(names) => {
+            let value = |(name, meaning): &(String, String)| {
+                PossibleValue::new(name.clone()).help(meaning.clone())
+            };
+            let names: Vec<PossibleValue> = names.iter().map(value).collect();
+            valued.value_parser(PossibleValuesParser::new(names))
+        }
+        Kind::Ends => valued.value_parser(value_parser!(Interval)),
+        _ => valued.value_parser(value_parser!(f64)),
+    }
+}
+
+/// Of two ways to divide a range the one that is not usual is a switch, `--logarithmic`.
+fn is_spacing(name: &str) -> bool {
+    name == "spacing"
+}
+
+fn long(name: &str) -> String {
+    if is_spacing(name) { "logarithmic".into() } else { name.replace('_', "-") }
+}
+
+/// In one paragraph, without its last full stop, as is usual for help; `names` of parameters are those of options.
+fn help(parameter: &Parameter, default: Option<&Value>) -> String {
+    let parts = parameter.description.trim_end_matches('.').split('`').enumerate();
+    let text: String = parts
+        .map(|(i, part)| if i % 2 == 1 { format!("--{}", long(part)) } else { part.to_owned() })
+        .collect();
+    match default {
+        Some(Value::String(name)) => format!("{text} [default: {name}]"),
+        Some(Value::Number(number)) if number.is_f64() => {
+            format!("{text} [default: {}]", stickslip::Typed(number.as_f64().unwrap_or_default()))
+        }
+        Some(Value::Number(number)) => format!("{text} [default: {number}]"),
+        _ => text,
+    }
+}
+
+/// A number as JSON, which has none that is not finite: that is refused by the name of its parameter later.
+fn number(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { json!(stickslip::Typed(value).to_string()) }
+}
+
+/// Puts what was given of a parameter among the others; a range may say how many values it has.
+fn insert(given: &mut Map<String, Value>, parameter: Parameter, matches: &ArgMatches) {
+    let Parameter { name, kind, .. } = parameter;
+    let value = match kind {
+        _ if is_spacing(&name) => json!("logarithmic"),
+        Kind::Switch => json!(true),
+        Kind::Integer => json!(matches.get_one::<u64>(&name)),
+        Kind::Name(_) => json!(matches.get_one::<String>(&name)),
+        Kind::Ends => {
+            let Some(interval) = matches.get_one::<Interval>(&name) else { return };
+            if let Some(points) = interval.counted() {
+                given.insert("points".into(), json!(points));
+            }
+            json!(interval.numbers().map(number))
+        }
+        _ => number(*matches.get_one::<f64>(&name).unwrap_or(&f64::NAN)),
+    };
+    given.insert(name, value);
+}

@@ -1,0 +1,189 @@
+//! From the options of a command to a question, and from its answer to what is written: the same way for all.
+
+use super::in_units::scales;
+use super::job::{Job, Product};
+use super::model::tip;
+use super::progress::Progress;
+use crate::arguments::{AnswerArguments, Options, Questions};
+use crate::failure::Failure;
+use crate::files::distinct::Named;
+use crate::files::text::{LARGEST_TABLE, read_text};
+use crate::host;
+use crate::message::remark;
+use serde_json::{Map, Value};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+use stickslip::parameter::overridden;
+use stickslip::{self as documents, Ask, Context, Document, Physical, Refused, Tip, parameter};
+use stickslip_figures::Drawn;
+
+/// Progress goes to the terminal or to the host, which may cancel.
+pub(crate) fn context() -> Context {
+    context_cancelled_by(host::current().map(|host| Arc::clone(host.stop())).unwrap_or_default())
+}
+
+/// The same, cancelled by a flag.
+pub(crate) fn context_cancelled_by(flag: Arc<AtomicBool>) -> Context {
+    let progress: Mutex<Option<Progress>> = Mutex::new(None);
+    Context::cancelled_by(flag).timed_by(seconds).watched_by(move |part, counted| {
+        let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+        let bar = progress.get_or_insert_with(|| match part {
+            Some(_) => Progress::new(0.0, 1.0).at_every_call(),
+            None => Progress::without_end().at_every_call(),
+        });
+        bar.counted(part.unwrap_or_default(), || counted);
+    })
+}
+
+/// Seconds since the first call.
+fn seconds() -> f64 {
+    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
+/// A parameter as an option: `--alpha-above` for `alpha_above`.
+pub(crate) fn option(parameter: &str) -> String {
+    format!("--{}", parameter.replace('_', "-"))
+}
+
+impl<Q: Questions> Options<Q> {
+    /// The files that they name.
+    pub(crate) fn files(&self) -> [Named<'_>; 2] {
+        [("--tip-file", self.tip.tip_file.as_deref()), ("--parameters", self.parameters.as_deref())]
+    }
+
+    /// Whether an option was given.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.given.contains_key(name)
+    }
+
+    /// The values of the parameters: those of --parameters, with what was given in their place.
+    ///
+    /// # Errors
+    /// A file that cannot be read, a footprint that is none.
+    pub(crate) fn values(&self) -> Result<Map<String, Value>, Failure> {
+        let base = self.parameters.as_deref().map(read_parameters::<Q>).transpose()?;
+        self.values_instead_of(base.unwrap_or_default())
+    }
+
+    /// Other values, with what was given in their place.
+    ///
+    /// # Errors
+    /// A footprint that is none.
+    pub(crate) fn values_instead_of(
+        &self,
+        base: Map<String, Value>,
+    ) -> Result<Map<String, Value>, Failure> {
+        if let Some((range, why)) = &self.refused_range {
+            return Err(Failure::input(range, why));
+        }
+        let mut given = self.given.clone();
+        if self.tip.is_given() {
+            let tip = serde_json::to_value(Tip(tip(&self.tip)?));
+            given.insert("tip".into(), tip.map_err(|error| Failure::Run(error.to_string()))?);
+        }
+        Ok(overridden(base, given))
+    }
+}
+
+/// What a file has of the parameters of `Q`: a document, or its `parameters` alone.
+fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Failure> {
+    const OPTION: &str = "--parameters";
+    let named = || format!("{OPTION} {}", path.display());
+    let text = read_text(OPTION, path, LARGEST_TABLE)?;
+    let value: Value = serde_json::from_str(&text)
+        .map_err(|error| Failure::input(named(), format!("is not JSON: {error}")))?;
+    let mut whole = match value {
+        Value::Object(whole) => whole,
+        _ => return Err(Failure::input(named(), "needs an object, {\"r\": 1, …}, or a document")),
+    };
+    let Some(Value::String(format)) = whole.remove("format") else { return Ok(whole) };
+    let Some(Value::Object(mut parameters)) = whole.remove("parameters") else {
+        return Err(Failure::input(named(), "is a document without \"parameters\""));
+    };
+    if !Q::formats().contains(&format.as_str()) {
+        let known = Q::parameters();
+        parameters.retain(|name, _| known.iter().any(|parameter| parameter.name == *name));
+        let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
+        remark(format_args!(
+            "stickslip: {}: a document {format}, of which {} are taken",
+            named(),
+            names.join(", ")
+        ));
+    }
+    Ok(parameters)
+}
+
+/// Answers a question, in physical units too where they were asked for.
+///
+/// # Errors
+/// A parameter is refused, or nothing is found.
+pub(crate) fn answered<Q: Ask>(
+    question: Q,
+    place: &AnswerArguments,
+    tip_file: Option<&Path>,
+) -> Result<Document<Q>, Failure> {
+    let context = context();
+    let question = question.resolved(&context)?;
+    let scales = scales(&place.in_units, tip_file, question.support_velocity())?;
+    Ok(question.answered(&context)?.in_units(scales.as_ref()))
+}
+
+/// Answers a question, and writes, draws and tells the answer.
+///
+/// # Errors
+/// As [`answered`], or the answer cannot be written.
+pub(crate) fn answer<Q: Ask>(
+    question: Q,
+    place: &AnswerArguments,
+    tip_file: Option<&Path>,
+) -> Result<(), Failure>
+where
+    Document<Q>: Product + Drawn,
+{
+    let context = context();
+    let question = question.resolved(&context)?;
+    let scales = scales(&place.in_units, tip_file, question.support_velocity())?;
+    let job = Job::open::<Document<Q>>(&place.outlet, place.plot.as_deref())?;
+    job.finish(question.answered(&context)?.in_units(scales.as_ref()))
+}
+
+/// The same of the question with these values, which options made; `chosen_by` is the option by which it is this question.
+///
+/// # Errors
+/// As [`answer`], or a parameter is missing, or is none of the question.
+pub(crate) fn asked<Q: Ask, K: Questions>(
+    options: &Options<K>,
+    values: Map<String, Value>,
+    place: &AnswerArguments,
+    chosen_by: &str,
+) -> Result<(), Failure>
+where
+    Document<Q>: Product + Drawn,
+{
+    if let Some(name) = parameter::stranger::<Q>(&values) {
+        let message = format!("has no meaning with {chosen_by}: leave one of them out");
+        let value = parameter::typed(&values[name]);
+        return Err(Failure::input(format!("{} {value}", option(name)), message));
+    }
+    let question: Q = parameter::question(values)?;
+    answer(question, place, options.tip.tip_file.as_deref())
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        Self::input(refused.named(option), refused.reason(option))
+    }
+}
+
+impl From<documents::Failure> for Failure {
+    fn from(failure: documents::Failure) -> Self {
+        match failure {
+            documents::Failure::Refused(refused) => refused.into(),
+            documents::Failure::Cancelled => Self::Stopped(signal_hook::consts::SIGINT as u8),
+            other => Self::Run(other.described(option)),
+        }
+    }
+}

@@ -1,0 +1,520 @@
+//! The question `continue`: a branch of cycles, and those of twice its period.
+
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Cycle, CycleDocument, Document, Failure, Indentation, Law, ModelParameters,
+    Question, Refused, Tip, Unusable, digits,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+use stickslip_cycles::{
+    self as cycles, Branch, Continuation, CycleError, End, Parameter, Point, Special, SpecialKind,
+};
+use stickslip_stability::trapping_alpha;
+use stickslip_tip::Trajectory;
+
+/// Branches of twice the period, of four times and so on: a cascade has no end.
+const MOST_BRANCHES: usize = 12;
+/// Period doublings nearer to each other than this, relatively, are one.
+const SAME: f64 = 1e-6;
+
+/// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
+/// peak-to-peak.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContinueFound {
+    /// The first, and with --switch those of twice its period, of four times, ….
+    pub branches: Vec<CycleBranch>,
+    /// Where something happens to the cycles of a branch, in order of the branches.
+    pub special: Vec<SpecialDocument>,
+    /// The value of what varies at which the tip can be trapped for ever; null if there is none.
+    pub trapping: Option<f64>,
+    /// Whether a signal stopped it.
+    pub interrupted: bool,
+}
+
+/// A branch of cycles in α or r, stable or not, with the points where something happens to it. It begins at the cycle of α and r;
+/// where the one that varies is not given, at the onset of oscillation.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Continue {
+    /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
+    #[serde(default)]
+    pub r: Option<f64>,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// What varies.
+    #[schemars(extend("x-option" = option("NAME", "Branch", 20)))]
+    pub over: OverName,
+    /// Its last value; without one the branch ends otherwise.
+    #[schemars(extend("x-option" = option("V", "Branch", 21)))]
+    #[serde(default)]
+    pub to: Option<f64>,
+    /// Follow the branches of twice the period too, from each period doubling.
+    #[schemars(extend("x-option" = option("", "Branch", 22)))]
+    #[serde(default)]
+    pub switch: bool,
+    /// The branch ends where the period is longer than this, in Γ/k.
+    #[schemars(extend("x-option" = option("T", "Branch", 23)))]
+    #[serde(default = "default_longest_period")]
+    pub longest_period: f64,
+    /// Longest step from one cycle to the next, in relative changes of parameter, period and l.
+    #[schemars(extend("x-option" = option("S", "Branch", 24)))]
+    #[serde(default = "default_longest_step")]
+    pub longest_step: f64,
+    /// Each branch ends with this many cycles.
+    #[schemars(extend("x-option" = option("N", "Branch", 25)))]
+    #[serde(default = "default_most_points")]
+    pub most_points: usize,
+    /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
+    #[schemars(extend("x-option" = option("E", "Accuracy", 30)))]
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// One period of a motion near the first cycle, from which Newton's method starts.
+    #[serde(skip)]
+    pub start: Option<Trajectory>,
+}
+
+fn default_longest_period() -> f64 {
+    300.0
+}
+
+fn default_longest_step() -> f64 {
+    0.05
+}
+
+fn default_most_points() -> usize {
+    2000
+}
+
+fn default_tolerance() -> f64 {
+    cycles::DEFAULT_TOLERANCE
+}
+
+/// Branches of cycles and the question that they answer.
+pub type ContinueDocument = Document<Continue>;
+
+impl Question for Continue {
+    const FORMAT: &'static str = "stickslip/continue";
+    type Answer = ContinueFound;
+}
+
+/// A branch, and the special point of another (branch, place in its list) that it began at.
+struct Found {
+    branch: Branch,
+    from: Option<(usize, usize)>,
+}
+
+impl Continue {
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        let r = self.r.unwrap_or(f64::NAN);
+        ModelParameters::asked(&self.tip, self.indentation, r, self.law)
+    }
+
+    /// The cycle that the first branch begins with; none where it begins at onset.
+    fn first(&self) -> Result<Option<Cycle>, Failure> {
+        let alpha = self.indentation != Indentation::default();
+        let is_there = match self.over {
+            OverName::Alpha => alpha,
+            OverName::R => self.r.is_some(),
+        };
+        let Some(r) = self.r.filter(|_| is_there) else {
+            return match is_there {
+                true => Err(Refused::whole("r", "missing: give {r}, at which α is to vary").into()),
+                false => Ok(None),
+            };
+        };
+        let cycle = Cycle::new(self.tip.clone(), self.indentation, r);
+        let (law, tolerance, start) = (self.law, self.tolerance, self.start.clone());
+        Ok(Some(Cycle { law, tolerance, start, ..cycle }))
+    }
+
+    /// The value, where a branch begins at onset, of what does not vary.
+    fn other(&self) -> Result<f64, Refused> {
+        let (name, value) = match self.over {
+            OverName::Alpha => ("r", self.r),
+            OverName::R => ("alpha", self.indentation.alpha),
+        };
+        let varies = if name == "r" { "α" } else { "r" };
+        let why = || format!("missing: give {{{name}}}, at which {varies} is to vary");
+        value.ok_or_else(|| Refused::whole(name, why()))
+    }
+
+    fn settings(&self) -> Result<Continuation, Refused> {
+        let positive = |name: &'static str, value: f64| {
+            let is_positive = value.is_finite() && value > 0.0;
+            let refused = || Refused::number(name, value, "must be a finite number above 0");
+            is_positive.then_some(value).ok_or_else(refused)
+        };
+        let nowhere = match self.over {
+            OverName::Alpha => f64::INFINITY,
+            OverName::R => 0.0,
+        };
+        if self.most_points == 0 {
+            return Err(Refused::number("most_points", 0.0, "1 or more will do"));
+        }
+        Ok(Continuation {
+            over: self.over.into(),
+            to: self.to.map_or(Ok(nowhere), |to| positive("to", to))?,
+            tolerance: self.tolerance,
+            longest_period: positive("longest_period", self.longest_period)?,
+            longest_step: positive("longest_step", self.longest_step)?,
+            most_points: self.most_points,
+        })
+    }
+
+    fn branches(&self, context: &Context) -> Result<(Vec<Found>, Vec<String>), Failure> {
+        let settings = self.settings()?;
+        let (mut remarks, mut count) = (vec![], 0);
+        let name = if self.over == OverName::Alpha { "α" } else { "r" };
+        let mut observe = |cycle: &cycles::Cycle| {
+            let model = cycle.model();
+            let at = if self.over == OverName::Alpha { model.alpha() } else { model.r() };
+            count += 1;
+            // How far a branch goes, and whether it turns back, nobody knows before.
+            match context.reached(None, &format!("{count} cycles, {name} = {}", digits(at, 6))) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            }
+        };
+        let first = match self.first()? {
+            Some(cycle) => settings.from_cycle(&cycle.solve()?, &mut observe),
+            None => {
+                let law = self.law.dragged(&self.tip.0)?;
+                settings.from_onset_under((&law, &self.tip.0), self.other()?, &mut observe)
+            }
+        };
+        let first = first.map_err(|error| self.explained(&error))?;
+        let mut found = vec![Found { branch: first, from: None }];
+        let mut next = 0;
+        while self.switch && next < found.len() && !context.is_cancelled() {
+            for i in 0..found[next].branch.special.len() {
+                let special = &found[next].branch.special[i];
+                let is_known =
+                    special.kind != SpecialKind::PeriodDoubling || is_end_of(special, &found);
+                if is_known || found.len() >= MOST_BRANCHES {
+                    continue;
+                }
+                match settings.switched(special, &mut observe) {
+                    Ok(branch) => found.push(Found { branch, from: Some((next, i)) }),
+                    Err(error) => remarks.push(format!("a branch of twice the period: {error}")),
+                }
+            }
+            next += 1;
+        }
+        Ok((found, remarks))
+    }
+
+    fn explained(&self, error: &CycleError) -> Failure {
+        match (error, self.over) {
+            (CycleError::Stability(error), OverName::Alpha) => {
+                Refused::number("r", self.r.unwrap_or_default(), error).into()
+            }
+            (CycleError::Stability(error), OverName::R) => {
+                Refused::number("alpha", self.indentation.alpha.unwrap_or_default(), error).into()
+            }
+            // There is no nearer one that it could start from.
+            (CycleError::NotConverged { alpha, r }, over) if self.start.is_none() => {
+                let further = match over {
+                    OverName::Alpha => format!("{{alpha}} {}", digits(1.05 * alpha, 4)),
+                    OverName::R => format!("{{r}} {}", digits(0.95 * r, 4)),
+                };
+                Failure::Failed(format!(
+                    "no cycle was reached where the branch begins, at alpha = {alpha:?}, r = {r:?}: begin further on, \
+                     with {further}, or with {{from}} and a document of `stickslip cycle`"
+                ))
+            }
+            _ => error.clone().into(),
+        }
+    }
+
+    /// The branches in a document.
+    fn found(&self, found: &[Found], interrupted: bool) -> ContinueFound {
+        let first = &found[0].branch.points[0];
+        // Where the special points of each branch begin in the list of all.
+        let counts = found.iter().map(|f| f.branch.special.len());
+        let offsets: Vec<usize> = counts
+            .scan(0, |sum, count| {
+                *sum += count;
+                Some(*sum - count)
+            })
+            .collect();
+        let special = found.iter().enumerate().flat_map(|(i, f)| {
+            f.branch.special.iter().map(move |special| SpecialDocument::of(i, special))
+        });
+        let from = |f: &Found| f.from.map(|(branch, place)| offsets[branch] + place);
+        // In steady creep α/r is what counts; under a depth limit, or where the surface heals, no tip is held for ever.
+        let law: stickslip_tip::Wider = self.law.into();
+        let ratio = trapping_alpha(&self.tip.0, 1.0).ok().filter(|_| law.traps());
+        let trapping = ratio.map(|ratio| match self.over {
+            OverName::Alpha => ratio * first.r,
+            OverName::R => first.alpha / ratio,
+        });
+        let branches = found.iter().map(|f| CycleBranch::of(&f.branch, from(f))).collect();
+        ContinueFound { branches, special: special.collect(), trapping, interrupted }
+    }
+
+    /// A branch that begins at the cycle of a document.
+    ///
+    /// # Errors
+    /// The history of the document is damaged.
+    pub fn beginning_with(self, document: &CycleDocument) -> Result<Self, Unusable> {
+        Ok(Self { start: Cycle::again(document)?.start, ..self })
+    }
+}
+
+impl Ask for Continue {
+    fn resolved(self, context: &Context) -> Result<Self, Failure> {
+        self.settings()?;
+        let indentation = match self.first()? {
+            Some(cycle) => cycle.resolved(context)?.indentation,
+            None => {
+                Cycle::judge_tolerance(self.tolerance)?;
+                self.other()?;
+                let law = self.law.dragged(&self.tip.0)?;
+                law.validate().map_err(Refused::from)?;
+                self.indentation
+            }
+        };
+        Ok(Self { indentation, ..self })
+    }
+
+    fn answer(&self, context: &Context) -> Result<(ContinueFound, Vec<String>), Failure> {
+        let (found, remarks) = self.branches(context)?;
+        Ok((self.found(&found, context.is_cancelled()), remarks))
+    }
+
+    /// Its α and r are those of the first cycle. What was found before it was cancelled is kept.
+    fn answered(self, context: &Context) -> Result<ContinueDocument, Failure> {
+        let (answer, remarks) = context.keeping(|| self.answer(context))?;
+        let first = &answer.branches[0];
+        let alpha_above = self.indentation.alpha_above;
+        let indentation = Indentation { alpha: Some(first.alpha[0]), alpha_above };
+        let question = Self { indentation, r: Some(first.r[0]), ..self };
+        Ok(Document::new(question, answer, remarks))
+    }
+
+    fn support_velocity(&self) -> Option<f64> {
+        self.r.filter(|_| self.over == OverName::Alpha)
+    }
+}
+
+/// Whether a branch that was followed already has come back there.
+fn is_end_of(doubling: &Special, found: &[Found]) -> bool {
+    let special = found.iter().flat_map(|f| &f.branch.special);
+    special.filter(|s| s.kind == SpecialKind::PeriodHalving).any(|s| {
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME * b;
+        near(s.alpha, doubling.alpha) && near(s.r, doubling.r) && near(s.period, doubling.period)
+    })
+}
+
+/// What varies along a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OverName {
+    /// α at fixed r.
+    Alpha,
+    /// r at fixed α.
+    R,
+}
+
+/// Cycles in the order in which they were found; columns of equal length.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CycleBranch {
+    /// Index in `special` of the period doubling that it began at; null for the first branch.
+    pub from: Option<usize>,
+    /// α of each cycle, dimensionless (13).
+    pub alpha: Vec<f64>,
+    /// r of each cycle, dimensionless (12).
+    pub r: Vec<f64>,
+    /// T of each cycle, in Γ/k.
+    pub period: Vec<f64>,
+    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    pub amplitude_x0: Vec<f64>,
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    pub amplitude_u: Vec<f64>,
+    /// Whether every small deviation from the cycle but a shift in time dies out.
+    pub stable: Vec<bool>,
+    /// Real part of the largest Floquet multiplier but that of a shift in time, dimensionless; 0 where all are
+    /// below 1e-6.
+    pub multiplier_re: Vec<f64>,
+    /// Its imaginary part.
+    pub multiplier_im: Vec<f64>,
+    /// Why it ends where it does.
+    pub end: EndName,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum EndName {
+    /// What varies has its last value.
+    Reached,
+    /// The period exceeds the longest one.
+    LongPeriod,
+    /// The cycle has shrunk to steady motion.
+    Steady,
+    /// It joins the branch of half the period.
+    Halved,
+    /// Enough cycles.
+    ManyPoints,
+    /// No cycle was found a shortest step further on.
+    Lost,
+    /// A signal.
+    Interrupted,
+}
+
+/// A point where something happens to the cycles of a branch.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpecialDocument {
+    /// What.
+    pub kind: SpecialName,
+    /// Index in `branches`.
+    pub branch: usize,
+    /// α there, dimensionless (13).
+    pub alpha: f64,
+    /// r there, dimensionless (12).
+    pub r: f64,
+    /// T of the cycle there, in Γ/k; at a Hopf point that of the oscillation that is born.
+    pub period: f64,
+    /// Half peak-to-peak of l of the cycle there, in σ; 0 at a Hopf point.
+    pub amplitude_x0: f64,
+}
+
+/// Kinds of special points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpecialName {
+    /// The cycle vanishes into steady motion.
+    Hopf,
+    /// The branch turns back.
+    Fold,
+    /// A multiplier passes -1: a branch of twice the period begins.
+    PeriodDoubling,
+    /// The branch joins one of half the period, where that doubles it; period and amplitude are that one's.
+    PeriodHalving,
+    /// A second multiplier passes 1, and the branch does not turn: another branch crosses.
+    BranchPoint,
+    /// A complex pair crosses the unit circle: a torus is born.
+    Torus,
+}
+
+impl CycleBranch {
+    /// A branch, and the index in `special` of the period doubling that it began at.
+    pub fn of(branch: &Branch, from: Option<usize>) -> Self {
+        let points = &branch.points;
+        let column = |of: fn(&Point) -> f64| points.iter().map(of).collect();
+        Self {
+            from,
+            alpha: column(|p| p.alpha),
+            r: column(|p| p.r),
+            period: column(|p| p.period),
+            amplitude_x0: column(|p| p.amplitude_x0),
+            amplitude_u: column(|p| p.amplitude_u),
+            stable: points.iter().map(|p| p.stable).collect(),
+            multiplier_re: column(|p| p.leading.re),
+            multiplier_im: column(|p| p.leading.im),
+            end: branch.end.into(),
+        }
+    }
+}
+
+impl SpecialDocument {
+    /// A point of the branch with this index.
+    pub fn of(branch: usize, special: &Special) -> Self {
+        Self {
+            kind: special.kind.into(),
+            branch,
+            alpha: special.alpha,
+            r: special.r,
+            period: special.period,
+            amplitude_x0: special.cycle.as_ref().map_or(0.0, |cycle| cycle.amplitude_x0()),
+        }
+    }
+}
+
+impl From<OverName> for Parameter {
+    fn from(name: OverName) -> Self {
+        match name {
+            OverName::Alpha => Self::Alpha,
+            OverName::R => Self::R,
+        }
+    }
+}
+
+impl From<End> for EndName {
+    fn from(end: End) -> Self {
+        match end {
+            End::Reached => Self::Reached,
+            End::LongPeriod => Self::LongPeriod,
+            End::Steady => Self::Steady,
+            End::Halved => Self::Halved,
+            End::ManyPoints => Self::ManyPoints,
+            End::Lost => Self::Lost,
+            End::Interrupted => Self::Interrupted,
+        }
+    }
+}
+
+impl From<SpecialKind> for SpecialName {
+    fn from(kind: SpecialKind) -> Self {
+        match kind {
+            SpecialKind::Hopf => Self::Hopf,
+            SpecialKind::Fold => Self::Fold,
+            SpecialKind::PeriodDoubling => Self::PeriodDoubling,
+            SpecialKind::PeriodHalving => Self::PeriodHalving,
+            SpecialKind::BranchPoint => Self::BranchPoint,
+            SpecialKind::Torus => Self::Torus,
+        }
+    }
+}
+
+impl Tabular for ContinueFound {
+    /// The cycles of all branches, one after the other.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
+            self.branches.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+        };
+        let numbers = self.branches.iter().enumerate();
+        let numbers: Vec<f64> = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect();
+        let stable = self.branches.iter().flat_map(|b| &b.stable);
+        let stable: Vec<f64> = stable.map(|stable| f64::from(u8::from(*stable))).collect();
+        vec![
+            ("branch", numbers.into()),
+            ("alpha", joined(|b| &b.alpha)),
+            ("r", joined(|b| &b.r)),
+            ("period", joined(|b| &b.period)),
+            ("amplitude_x0", joined(|b| &b.amplitude_x0)),
+            ("amplitude_u", joined(|b| &b.amplitude_u)),
+            ("stable", stable.into()),
+            ("multiplier_re", joined(|b| &b.multiplier_re)),
+            ("multiplier_im", joined(|b| &b.multiplier_im)),
+        ]
+    }
+
+    fn note(&self) -> Option<String> {
+        self.interrupted.then(|| "interrupted: more of the branches was asked for".into())
+    }
+
+    /// A branch cut short says so.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let columns = self.columns().into_iter();
+        let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
+        let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
+        columns.chain(mark).collect()
+    }
+}

@@ -1,0 +1,294 @@
+//! The question `raster-stability`: where ripples begin to grow from line to line, and how fast.
+
+use super::lines::{footprint, left, refused};
+use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Document, Failure, Indentation, Law, ModelParameters, PathName, Question,
+    Refused, Tip,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{Raster, RasterCertificate, RasterCritical, RasterPath, StabilityError};
+use stickslip_tip::Wider;
+
+/// Wave numbers at which growth is computed.
+const WAVE_NUMBERS: u32 = 200;
+/// Of the band of f: beyond, ripples neither grow nor do they hold.
+const SHOWN: f64 = 0.4;
+
+/// Linear stability of many scan lines beside each other. Lengths in σ.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterStabilityFound {
+    /// Where a ripple first does not fade from line to line; null for a line that is repeated, where every α makes some
+    /// ripple grow.
+    pub critical: Option<RasterCriticalDocument>,
+    /// Whether every ripple fades from line to line at the α of `parameters`; null where none was given.
+    pub stable: Option<bool>,
+    /// By how much ripples e^{iqx} change from line to line at the α of `parameters`; null where none was given.
+    pub growth: Option<RasterGrowth>,
+}
+
+/// Scan lines beside each other: the critical α, and the growth of ripples from line to line at a given one.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct RasterStability {
+    /// Footprint f of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D of a single line. Without either, α is the critical one.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
+    pub r: f64,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Raster", 32)))]
+    #[serde(default)]
+    pub width_y: Option<f64>,
+    /// How the support goes from one line to the next.
+    #[schemars(extend("x-option" = option("PATH", "Raster", 31)))]
+    #[serde(default)]
+    pub path: PathName,
+    /// Distance of scan lines that lie beside each other, in σ: where ripples begin to grow from line to line, and at what
+    /// angle their crests stand, in place of a single line.
+    #[schemars(extend("x-option" = option("D", "Raster", 30)))]
+    #[serde(default)]
+    pub pitch: Option<f64>,
+    /// X, how far the support goes along each line, in σ, for a surface that heals meanwhile.
+    #[schemars(extend("x-option" = option("X", "Raster", 33)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Whether α is the critical one, for want of another.
+    #[serde(default)]
+    pub at_critical_point: bool,
+}
+
+/// The stability of a raster and the question that it answers.
+pub type RasterStabilityDocument = Document<RasterStability>;
+
+impl Question for RasterStability {
+    const FORMAT: &'static str = "stickslip/raster-stability";
+    type Answer = RasterStabilityFound;
+}
+
+/// A threshold, or that there is none.
+type Threshold = Result<RasterCritical, StabilityError>;
+
+impl RasterStability {
+    /// The same as documents hold it.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    fn raster(&self, law: Wider) -> Result<Raster, Failure> {
+        let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        let pitch = match (self.path, self.pitch) {
+            (PathName::Repeat, Some(pitch)) => {
+                let why = "has no meaning with {path} repeat: leave one of them out";
+                return Err(Refused::number("pitch", pitch, why).into());
+            }
+            (PathName::Repeat, None) if !law.is_papers() => {
+                let why = "linear theory of a repeated line covers the basic law only: leave out {depth_limit}, \
+                           {healing_time} and {inertia}";
+                let value = Some("repeat".into());
+                return Err(Refused { parameter: "path".into(), value, why: why.into() }.into());
+            }
+            // That of no other line.
+            (PathName::Repeat, None) => 1e6,
+            (_, Some(pitch)) => pitch,
+            (_, None) => {
+                return Err(
+                    Refused::whole("pitch", "give the distance of the lines, {pitch}").into()
+                );
+            }
+        };
+        let left = left(self.length, &law, self.r)?;
+        let raster = Raster::new(&footprint, law, (self.r, pitch), left);
+        Ok(raster.map_err(|error| self.refused(&error))?)
+    }
+
+    fn refused(&self, error: &StabilityError) -> Refused {
+        let pitch = || Refused::number("pitch", self.pitch.unwrap_or_default(), "");
+        refused(error, self.r, pitch)
+    }
+
+    /// Of a repeated line none. That nothing grows is an answer for a given α.
+    fn threshold(&self, raster: &Raster) -> Result<Option<Threshold>, Refused> {
+        let path = match self.path {
+            PathName::OneWay => RasterPath::OneWay,
+            PathName::Zigzag => RasterPath::Zigzag,
+            PathName::Repeat => return Ok(None),
+        };
+        let is_given = self.indentation != Indentation::default();
+        match raster.critical(path) {
+            Err(error) if !(is_given && matches!(error, StabilityError::NoCrossing { .. })) => {
+                Err(self.refused(&error))
+            }
+            threshold => Ok(Some(threshold)),
+        }
+    }
+}
+
+impl Ask for RasterStability {
+    fn support_velocity(&self) -> Option<f64> {
+        Some(self.r)
+    }
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        let law = self.law.dragged(&self.tip.0)?;
+        let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
+        let raster = self.raster(law)?;
+        let question = Self { width_y, ..self };
+        if question.indentation != Indentation::default() {
+            let indentation = question.indentation.resolved(&question.tip.0, law, question.r)?;
+            indentation.model(&question.tip.0, law, question.r)?;
+            return Ok(Self { indentation, ..question });
+        }
+        let why = "a repeated line has no critical α: give {alpha} for the growth there";
+        let threshold = question.threshold(&raster)?;
+        let threshold = threshold.ok_or_else(|| Refused::whole("alpha", why))?;
+        let critical = threshold.map_err(|error| question.refused(&error))?;
+        let indentation = Indentation::given(critical.alpha);
+        Ok(Self { indentation, at_critical_point: true, ..question })
+    }
+
+    fn answer(&self, _: &Context) -> Result<(RasterStabilityFound, Vec<String>), Failure> {
+        let law = self.law.dragged(&self.tip.0)?;
+        let raster = self.raster(law)?;
+        let model = self.indentation.model(&self.tip.0, law, self.r)?;
+        let (alpha, is_given) = (model.alpha(), !self.at_critical_point);
+        let threshold = self.threshold(&raster)?;
+        let mut remarks = vec![];
+        if let Some(Err(none)) = &threshold {
+            remarks.push(format!("critical: {none}"));
+        }
+        if self.path == PathName::Zigzag && is_given {
+            remarks.push("growth: on a zigzag only the threshold is known".into());
+        }
+        if self.path == PathName::Repeat {
+            remarks
+                .push("critical: another pass deepens some ripple of the groove at every α".into());
+        }
+        let is_below =
+            |threshold: &Threshold| threshold.as_ref().map_or(true, |at| alpha < at.alpha);
+        let stable = threshold.as_ref().filter(|_| is_given).map(is_below);
+        let critical = threshold.as_ref().and_then(|threshold| threshold.as_ref().ok());
+        let has_growth = is_given && self.path != PathName::Zigzag;
+        let growth =
+            has_growth.then(|| RasterGrowth::of(&raster, self.path, alpha, self.tip.0.band()));
+        Ok((RasterStabilityFound { critical: critical.map(Into::into), stable, growth }, remarks))
+    }
+}
+
+impl RasterGrowth {
+    /// |z| and arg z over wave numbers.
+    fn of(raster: &Raster, path: PathName, alpha: f64, band: f64) -> Self {
+        let number = |i: u32| SHOWN * band * f64::from(i) / f64::from(WAVE_NUMBERS);
+        let q: Vec<f64> = (1..=WAVE_NUMBERS).map(number).collect();
+        let growth = |q: &f64| match path {
+            PathName::Repeat => raster.repeat_gain(alpha, *q).to_polar(),
+            _ => raster.growth(alpha, *q).to_polar(),
+        };
+        let (factor, phase) = q.iter().map(growth).unzip();
+        Self { factor, phase, q }
+    }
+}
+
+/// Where a ripple first does not fade.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterCriticalDocument {
+    /// The smallest α of such a ripple.
+    pub alpha: f64,
+    /// r
+    pub r: f64,
+    /// Its wave number along the lines, in 1/σ.
+    pub q: f64,
+    /// κ, the phase from line to line over the pitch, in 1/σ; null on a zigzag, where it goes to and fro.
+    pub kappa: Option<f64>,
+    /// Between crests and scan axis, atan(q/|κ|), in degrees; null on a zigzag.
+    pub crest_angle: Option<f64>,
+    /// 2π/q, in σ.
+    pub wavelength_x: f64,
+    /// Phase from one line to the next, from -π to π; on a zigzag that from a way there to the way back after it.
+    pub phase_per_line: f64,
+    /// Evidence that it is the threshold; missing in documents of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<RasterCertificateDocument>,
+}
+
+/// Evidence that no ripple grows below a threshold, and that one does above.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterCertificateDocument {
+    /// Largest relative distance of a lower threshold that the search over all wave numbers and phases does not rule out.
+    pub tolerance: f64,
+    /// Cells of wave numbers and phases that the search went through.
+    pub cells: usize,
+    /// Relative distance from the threshold of the two α at which the waves of its q that grow were counted.
+    pub margin: f64,
+    /// Waves that grow below the threshold, on a zigzag pairs ±z; null where lines feel each other too little for a count.
+    pub growing_below: Option<usize>,
+    /// Waves that grow above it.
+    pub growing_above: Option<usize>,
+}
+
+/// Growth of ripples over wave numbers along the lines.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterGrowth {
+    /// Wave numbers, in 1/σ.
+    pub q: Vec<f64>,
+    /// |z|: one way, the factor from line to line that comes to be after many; of a repeated line, the factor by which
+    /// its groove changes with another pass when it was passed once.
+    pub factor: Vec<f64>,
+    /// arg z, the phase from line to line.
+    pub phase: Vec<f64>,
+}
+
+impl From<&RasterCritical> for RasterCriticalDocument {
+    fn from(critical: &RasterCritical) -> Self {
+        let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, .. } = *critical;
+        let wavelength_x = critical.wavelength_x;
+        let certificate = Some((&critical.certificate).into());
+        Self { alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line, certificate }
+    }
+}
+
+impl From<&RasterCertificate> for RasterCertificateDocument {
+    fn from(certificate: &RasterCertificate) -> Self {
+        let RasterCertificate { tolerance, cells, margin, growing_below, growing_above } =
+            *certificate;
+        Self { tolerance, cells, margin, growing_below, growing_above }
+    }
+}
+
+impl Tabular for RasterStabilityFound {
+    /// The growth over wave numbers; without α the critical ripple.
+    fn columns(&self) -> Vec<Named<'_>> {
+        if let Some(RasterGrowth { q, factor, phase }) = &self.growth {
+            return vec![
+                ("q", Column::of(q)),
+                ("factor", Column::of(factor)),
+                ("phase", Column::of(phase)),
+            ];
+        }
+        let column = |of: fn(&RasterCriticalDocument) -> Option<f64>| {
+            Column::from(self.critical.iter().map(of).collect::<Vec<Option<f64>>>())
+        };
+        vec![
+            ("alpha", column(|at| Some(at.alpha))),
+            ("q", column(|at| Some(at.q))),
+            ("kappa", column(|at| at.kappa)),
+            ("crest_angle", column(|at| at.crest_angle)),
+            ("wavelength_x", column(|at| Some(at.wavelength_x))),
+            ("phase_per_line", column(|at| Some(at.phase_per_line))),
+        ]
+    }
+}

@@ -3,8 +3,8 @@
 use serde_json::Value;
 use std::io::{self, Read};
 use stickslip::{
-    Dimension, RegimeName, RunDocument, RunEnd, RunParameters, SCHEMAS, SteadyState, SweepDocument,
-    WorkDocument, dimension, read, read_from,
+    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, SweepDocument, WorkDocument,
+    dimension, read, read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
 
@@ -126,13 +126,8 @@ fn a_run_comes_back_from_its_document() {
             seconds: 0.0,
         },
     };
-    let document = RunDocument::new(
-        RunParameters::of(&scenario, None, &[], None),
-        SteadyState::of(&scenario.model),
-        &[],
-        Some((&done.trajectory).into()),
-        end,
-    );
+    let history = Some((&done.trajectory).into());
+    let document = Run::of(&scenario, &[], None).document(&[], history, end);
     let text = serde_json::to_string(&document).unwrap();
     let back: RunDocument = read(&text, RunDocument::FORMAT).unwrap();
     let again = run(&back.parameters.scenario().unwrap()).unwrap();
@@ -143,7 +138,9 @@ fn a_run_comes_back_from_its_document() {
     }
     let other = read::<RunDocument>(&text, "stickslip/cycle").unwrap_err();
     assert!(other.to_string().contains("is needed"), "{other}");
-    let none = RunDocument { history: None, ..back }.trajectory().unwrap_err();
+    let mut none = back;
+    none.history = None;
+    let none = none.trajectory().unwrap_err();
     assert!(none.to_string().contains("--history all"), "{none}");
 }
 

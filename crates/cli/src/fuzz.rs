@@ -8,6 +8,7 @@
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
 use crate::arguments::{Cli, Command, ModelArguments};
+use crate::commands::run::disturbance::parse_pulses;
 use crate::commands::sweep::merge;
 use crate::commands::{model, run};
 use crate::files::columns::parse_profile;
@@ -21,7 +22,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::path::Path;
 use std::time::{Duration, Instant};
-use stickslip::{RunDocument, SweepDocument};
+use stickslip::{Run, RunDocument, SweepDocument, parameter};
 use stickslip_figures::{self as figures, Size, View};
 use stickslip_outcome::Watched;
 use stickslip_surface::Surface;
@@ -228,7 +229,7 @@ fn any_run_document_is_taken_or_refused() {
         let Ok(document) = parse_run(text) else { return false };
         let again = serde_json::to_string(&document).unwrap();
         assert_eq!(serde_json::to_string(&parse_run(&again).unwrap()).unwrap(), again);
-        let Ok(model) = document.parameters.model.model() else { return false };
+        let Ok(model) = document.parameters.model_parameters().model() else { return false };
         let Ok(trajectory) = document.trajectory() else { return false };
         let scenario = document.parameters.scenario();
         let Some(Ok(initial)) = scenario.ok().map(|s| s.initial_surface()) else { return false };
@@ -322,7 +323,11 @@ fn any_command_line_is_taken_or_refused() {
         let Ok(cli) = Cli::try_parse_from(words) else { return false };
         match &cli.command {
             Command::Run(given) => {
-                judge_model(&given.model) && run::parse_pulses(&given.disturbance.pulse).is_ok()
+                let has_file = given.options.tip.tip_file.is_some();
+                let question = || given.options.values().map(parameter::question::<Run>);
+                let is_model =
+                    || question().is_ok_and(|run| run.is_ok_and(|run| run.model().is_ok()));
+                (has_file || is_model()) && parse_pulses(&given.disturbance.pulse).is_ok()
             }
             Command::Compare(given) => judge_model(&given.model),
             _ => true,

@@ -2,8 +2,8 @@
 
 use crate::{FigureFormat, Size, View, draw, of, saved, svg};
 use stickslip::{
-    ColourName, CurveDocument, FigureDocument, ModelParameters, PanelDocument, RunDocument,
-    RunParameters, ScaleName, StyleName,
+    ColourName, CurveDocument, FigureDocument, ModelParameters, PanelDocument, Run, RunDocument,
+    ScaleName, StyleName,
 };
 use stickslip_tip::{Model, TipFunction};
 
@@ -129,8 +129,8 @@ fn document(
     scenario: &stickslip_tip::Scenario,
     trajectory: &stickslip_tip::Trajectory,
 ) -> RunDocument {
-    let parameters = RunParameters::of(scenario, None, &[], None);
-    let model: ModelParameters = parameters.model.clone();
+    let parameters = Run::of(scenario, &[], None);
+    let model: ModelParameters = parameters.model_parameters();
     let text = serde_json::json!({
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},
         "parameters": parameters, "steady_state": {"l": scenario.model.steady_l(), "lag": 0.0, "surface_behind": null},

@@ -1,11 +1,13 @@
 //! The envelope of a document: what was asked, who answered, the answer, and remarks on it.
 
 use crate::documents::table::{Array, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, Physical, Software};
+use crate::parameter::strictly;
+use crate::{FORMAT_VERSION, History, InUnits, Physical, Software};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{DeserializeOwned, DeserializeSeed, Error, IntoDeserializer, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 use std::fmt::{self, Debug};
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
@@ -18,6 +20,11 @@ pub trait Question:
     const FORMAT: &'static str;
     /// The result, whose fields stand in the document beside its envelope.
     type Answer: Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static;
+
+    /// The dense history in an answer, if it has one: it is large, and nothing of it is repeated in physical units.
+    fn history(_: &mut Self::Answer) -> Option<&mut Option<History>> {
+        None
+    }
 }
 
 /// A question and its answer, as they are saved. The fields of the answer stand beside those of the envelope.
@@ -85,6 +92,15 @@ impl<Q: Question> Physical for Document<Q> {
     fn physical_mut(&mut self) -> &mut Option<InUnits> {
         &mut self.physical
     }
+
+    fn lean(&mut self) -> serde_json::Result<Value> {
+        let history = Q::history(&mut self.answer).and_then(Option::take);
+        let value = serde_json::to_value(&*self);
+        if let Some(place) = Q::history(&mut self.answer) {
+            *place = history;
+        }
+        value
+    }
 }
 
 impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
@@ -105,12 +121,21 @@ impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
     }
 }
 
+/// A question that has no names but its parameters.
+struct Strict<Q>(Q);
+
+impl<'de, Q: Question> Deserialize<'de> for Strict<Q> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        strictly(deserializer).map(Self)
+    }
+}
+
 /// The fields of the envelope, as far as they have been read.
 struct Envelope<Q> {
     format: Option<String>,
     format_version: Option<u32>,
     software: Option<Software>,
-    parameters: Option<Q>,
+    parameters: Option<Strict<Q>>,
     remarks: Option<Vec<String>>,
     physical: Option<Option<InUnits>>,
 }
@@ -199,7 +224,7 @@ impl<'de, Q: Question> Visitor<'de> for Whole<Q> {
             format: envelope.format.ok_or_else(|| missing("format"))?,
             format_version: envelope.format_version.ok_or_else(|| missing("format_version"))?,
             software: envelope.software.ok_or_else(|| missing("software"))?,
-            parameters: envelope.parameters.ok_or_else(|| missing("parameters"))?,
+            parameters: envelope.parameters.ok_or_else(|| missing("parameters"))?.0,
             answer,
             remarks: envelope.remarks.unwrap_or_default(),
             physical: envelope.physical.flatten(),

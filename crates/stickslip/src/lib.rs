@@ -12,12 +12,12 @@
 //! they say otherwise.
 //!
 //! ```
-//! use stickslip::tip::{Model, Scenario, TipFunction};
-//! use stickslip::{RunDocument, RunParameters, read};
+//! use stickslip::tip::TipFunction;
+//! use stickslip::{Ask, Context, Indentation, Run, RunDocument, Tip, read};
 //!
-//! let model = Model::new(TipFunction::gaussian(1.0)?, 1.2, 1.0)?; // α = 1.2, r = 1
-//! let parameters = RunParameters::of(&Scenario::new(model, 50.0), None, &[], None);
-//! assert!(parameters.scenario()?.until > 49.0);
+//! let tip = Tip(TipFunction::gaussian(1.0)?);
+//! let run = Run::new(tip, Indentation::given(1.2), 1.0, 50.0).ask(&Context::default())?; // α = 1.2, r = 1, to t = 50
+//! assert_eq!(run.regime.to_string(), "steady"); // below αc = 1.879
 //! // What is not a whole document of the format asked for is refused with a reason.
 //! let refused = read::<RunDocument>("{}", RunDocument::FORMAT).unwrap_err();
 //! assert!(refused.to_string().contains("format is missing"));
@@ -64,10 +64,17 @@ pub use ask::raster_stability::{
     RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStability,
     RasterStabilityDocument, RasterStabilityFound,
 };
+pub use ask::response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
+pub use ask::run::{
+    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
+    SupportPathParameters,
+};
+pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became};
+pub use ask::sampling::{Sampling, Times};
 pub use ask::stability::{Stability, StabilityDocument};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
 pub use document::{Document, Question};
-pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat, Times};
+pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat};
 pub use documents::compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareFound, CompareParameters,
     DifferenceDocument, GridDocument, GridName, GridWork,
@@ -108,15 +115,7 @@ pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };
-pub use documents::response::{
-    ModeDocument, ResponseDocument, ResponseFound, ResponseParameters, ResponseSamples,
-};
-pub use documents::run::{LoopDocument, RunDocument, Samples};
-pub use documents::run_lines::{RunEnd, RunHead, RunLine, SampleLine};
-pub use documents::scenario::{
-    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, RunParameters, StartName,
-    SupportPathParameters,
-};
+pub use documents::run_lines::{RunHead, RunLine};
 pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
@@ -129,16 +128,15 @@ pub use documents::surface::{
 pub use documents::sweep::{
     AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
     StatisticsDocument, SweepDocument, SweepFound, SweepParameters, SweepPoint, SweepRunParameters,
-    SweepStartName,
 };
 pub use documents::table::{Array, Column, Named, Tabular};
 pub use documents::units::{
     CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
 };
 pub use documents::verification::{
-    ClaimDocument, EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
-    VerifyDocument,
+    EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
 };
+pub use documents::verify::{ClaimDocument, VerifyDocument};
 
 pub use documents::work::{SteadyState, WorkDocument};
 

@@ -3,7 +3,8 @@
 
 use crate::{Refused, Typed};
 use schemars::{JsonSchema, schema_for};
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
 
 /// The key of a property of a schema that makes it a parameter which a user may give: see [`option`].
@@ -55,8 +56,12 @@ pub enum Kind {
     Name(Vec<(String, String)>),
     /// Both ends of a range; `points` and `spacing` of the same question say how it is divided.
     Ends,
+    /// Numbers.
+    Numbers,
     /// A footprint, as [`Tip`](crate::Tip) reads it.
     Tip,
+    /// Anything else, such as a table.
+    Other,
 }
 
 /// The parameters that a user may give, in the order of a help page.
@@ -71,7 +76,7 @@ pub fn parameters<Q: JsonSchema>() -> Vec<Parameter> {
             Some(Parameter {
                 name: name.clone(),
                 description: text(&property["description"]).replace('\n', " "),
-                kind: kind(property, &schema),
+                kind: kind(name, property, &schema),
                 default: property.get("default").filter(|value| !value.is_null()).cloned(),
                 is_required: required.contains(&name.as_str()),
                 symbol: text(&option["symbol"]),
@@ -89,7 +94,10 @@ fn properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
 }
 
 /// By the type of a property, or by what it refers to.
-fn kind(property: &Value, schema: &Value) -> Kind {
+fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
+    if name == "tip" {
+        return Kind::Tip;
+    }
     let types = match &property["type"] {
         Value::String(one) => vec![one.as_str()],
         Value::Array(several) => several.iter().filter_map(Value::as_str).collect(),
@@ -105,13 +113,17 @@ fn kind(property: &Value, schema: &Value) -> Kind {
         return Kind::Switch;
     }
     if types.contains(&"array") {
-        return Kind::Ends;
+        return match (&property["items"]["type"], &property["maxItems"]) {
+            (Value::String(of), Value::Null) if of == "number" => Kind::Numbers,
+            (Value::String(of), _) if of == "number" => Kind::Ends,
+            _ => Kind::Other,
+        };
     }
     let alternatives = property["anyOf"].as_array().into_iter().flatten();
     let reference = alternatives.chain([property]).find_map(|one| one["$ref"].as_str());
     let names = reference.and_then(|path| schema.pointer(path.trim_start_matches('#')));
     let names = names.map(names_of).unwrap_or_default();
-    if names.is_empty() { Kind::Tip } else { Kind::Name(names) }
+    if names.is_empty() { Kind::Other } else { Kind::Name(names) }
 }
 
 /// The names of an enumeration whose every name is explained.
@@ -137,7 +149,7 @@ pub fn question<Q: JsonSchema + DeserializeOwned>(
         let Some(property) = known(name) else {
             return Err(Refused::whole(name.clone(), "is no parameter here: leave it out"));
         };
-        if let Some(why) = mistaken(&kind(property, &schema), value) {
+        if let Some(why) = mistaken(&kind(name, property, &schema), value) {
             let value = Some(typed(value));
             return Err(Refused { parameter: name.clone().into(), value, why });
         }
@@ -151,10 +163,29 @@ pub fn question<Q: JsonSchema + DeserializeOwned>(
         let meaning = meaning.trim_end_matches('.').replace('\n', " ");
         return Err(Refused::whole(name.to_owned(), format!("is needed: {meaning}")));
     }
-    serde_json::from_value(Value::Object(values)).map_err(|error| {
-        // All else has been looked at.
-        Refused::whole("tip", error)
+    serde_json::from_value(Value::Object(values.clone())).map_err(|error| {
+        let parameter = culprit::<Q>(&values).unwrap_or("tip").to_owned();
+        Refused::whole(parameter, error)
     })
+}
+
+/// Reads a question as [`question`] does: serde alone lets names pass that are none of its parameters, where some of these are
+/// grouped.
+pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwned>(
+    deserializer: D,
+) -> Result<Q, D::Error> {
+    let refused = |refused: Refused| D::Error::custom(refused.described(str::to_owned));
+    question(Map::deserialize(deserializer)?).map_err(refused)
+}
+
+/// The parameter without which the others can be read.
+fn culprit<Q: DeserializeOwned>(values: &Map<String, Value>) -> Option<&str> {
+    let is_read_without = |name: &&str| {
+        let mut others = values.clone();
+        others.remove(*name);
+        serde_json::from_value::<Q>(Value::Object(others)).is_ok()
+    };
+    values.keys().map(String::as_str).find(is_read_without)
 }
 
 /// A value as one would type it.
@@ -176,7 +207,8 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
             Kind::Ends => value
                 .as_array()
                 .is_some_and(|ends| ends.len() == 2 && ends.iter().all(Value::is_number)),
-            Kind::Tip => true,
+            Kind::Numbers => value.as_array().is_some_and(|all| all.iter().all(Value::is_number)),
+            Kind::Tip | Kind::Other => true,
         };
     (!is_right).then(|| match kind {
         Kind::Number => "must be a finite number".into(),
@@ -187,7 +219,8 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
             let names: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
             format!("must be one of {}", names.join(", "))
         }
-        Kind::Tip => String::new(),
+        Kind::Numbers => "must be finite numbers".into(),
+        Kind::Tip | Kind::Other => String::new(),
     })
 }
 

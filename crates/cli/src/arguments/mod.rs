@@ -55,7 +55,7 @@ pub(crate) use run::{HistoryName, RunArguments};
 pub(crate) use sampling::SamplingArguments;
 pub(crate) use scan::ScanArguments;
 pub(crate) use stability::StabilityArguments;
-pub(crate) use start::{StartArguments, StartChoice};
+pub(crate) use start::StartArguments;
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, SweepArguments, SweepThen};
 pub(crate) use tip::MeasuredTipArguments;
@@ -127,12 +127,12 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Subcommand)]
 #[command(defer = true)]
 pub(crate) enum Command {
-    Run(RunArguments),
+    Run(Box<RunArguments>),
     Verify(VerifyArguments),
     Surface(SurfaceArguments),
     Stability(StabilityArguments),
     Boundary(BoundaryArguments),
-    Compare(CompareArguments),
+    Compare(Box<CompareArguments>),
     Response(ResponseArguments),
     Cycle(CycleArguments),
     Continue(ContinueArguments),

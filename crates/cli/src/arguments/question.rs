@@ -149,6 +149,7 @@ fn argument(parameter: &Parameter) -> Arg {
             valued.value_parser(PossibleValuesParser::new(names))
         }
         Kind::Ends => valued.value_parser(value_parser!(Interval)),
+        Kind::Numbers => valued.value_parser(value_parser!(f64)).value_delimiter(','),
         _ => valued.value_parser(value_parser!(f64)),
     }
 }
@@ -197,6 +198,10 @@ fn insert(given: &mut Map<String, Value>, parameter: Parameter, matches: &ArgMat
                 given.insert("points".into(), json!(points));
             }
             json!(interval.numbers().map(number))
+        }
+        Kind::Numbers => {
+            let all = matches.get_many::<f64>(&name).into_iter().flatten();
+            Value::Array(all.map(|value| number(*value)).collect())
         }
         _ => number(*matches.get_one::<f64>(&name).unwrap_or(&f64::NAN)),
     };

@@ -2,13 +2,10 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{
-    DisturbanceArguments, FieldArguments, InUnitsArguments, ModelArguments, SamplingArguments,
-    StartArguments,
-};
+use super::{DisturbanceArguments, FieldArguments, InUnitsArguments, Options};
 use clap::{Arg, Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use stickslip::{MemoryName, RunFormat};
+use stickslip::{Run, RunFormat};
 
 /// Which part of the dense history a document holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -24,46 +21,20 @@ pub(crate) enum HistoryName {
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required_unless_present_any(["resume", "no_spring"])),
     mut_args(not_on_resume)
 )]
 pub(crate) struct RunArguments {
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
-
-    /// Time at which the run ends (it starts when the support has pulled the tip to its start position:
-    /// about t = 16 by default), in Γ/k.
-    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "resume")]
-    pub(crate) until: Option<f64>,
-
-    #[command(flatten)]
-    pub(crate) start: StartArguments,
+    pub(crate) options: Options<Run>,
 
     #[command(flatten)]
     pub(crate) disturbance: DisturbanceArguments,
 
-    /// How the past is remembered. All memories give the same motion to the tolerance.
-    #[arg(
-        long,
-        value_parser = named::<MemoryName>(),
-        value_name = "MEMORY",
-        default_value = "auto",
-        help_heading = "Accuracy"
-    )]
-    pub(crate) memory: MemoryName,
-
-    /// Error of l(t) and x0(t) asked for, in σ; from 1e-13 to 1e-2.
-    #[arg(
-        long,
-        value_name = "E",
-        default_value = "1e-9",
-        allow_hyphen_values = true,
-        help_heading = "Accuracy"
-    )]
-    pub(crate) tolerance: f64,
-
-    #[command(flatten)]
-    pub(crate) sampling: SamplingArguments,
+    /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R` of times and
+    /// displacements, from 0,0 on, straight between the rows (steps, holds, trace and retrace); --r is the
+    /// velocity before.
+    #[arg(long, value_name = "FILE", help_heading = "Start")]
+    pub(crate) support_path: Option<PathBuf>,
 
     /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
     /// arrays, .jsonl for samples written as the run passes them, in memory that does not grow; `-` is

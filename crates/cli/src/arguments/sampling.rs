@@ -1,6 +1,7 @@
 //! When a motion is sampled: the options of every command that gives one.
 
 use clap::Args;
+use stickslip::Sampling;
 
 #[derive(Debug, Args)]
 pub(crate) struct SamplingArguments {
@@ -23,4 +24,10 @@ pub(crate) struct SamplingArguments {
         help_heading = "Output"
     )]
     pub(crate) sample_at: Option<Vec<f64>>,
+}
+
+impl SamplingArguments {
+    pub(crate) fn sampling(&self) -> Sampling {
+        Sampling { sample_every: self.sample_every, sample_at: self.sample_at.clone() }
+    }
 }

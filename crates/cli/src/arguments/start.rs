@@ -1,26 +1,16 @@
 //! How a run begins: the options of every command that makes one.
 
-use clap::{Args, ValueEnum};
+use super::named::named;
+use clap::Args;
 use std::path::PathBuf;
-
-/// What the tip finds at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StartChoice {
-    /// The steady state, as after an infinite past.
-    Steady,
-    /// A flat surface, the spring relaxed, the support above the tip.
-    Flat,
-    /// As the paper's simulations start: noise of 1e-4 on a grid of 0.05 unless told otherwise, the spring stretched
-    /// by r + alpha/r; the surface flat for a tip whose f has no volume (beta = 1), else that of steady motion.
-    Paper,
-}
+use stickslip::StartName;
 
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Start")]
 pub(crate) struct StartArguments {
     /// What the tip finds at the start [default: steady; flat with --no-spring].
-    #[arg(long, value_enum, value_name = "START")]
-    pub(crate) start: Option<StartChoice>,
+    #[arg(long, value_parser = named::<StartName>(), value_name = "START")]
+    pub(crate) start: Option<StartName>,
 
     /// Position of the tip at the start, in σ.
     #[arg(long, value_name = "X", default_value_t = 14.0, allow_hyphen_values = true)]
@@ -39,12 +29,4 @@ pub(crate) struct StartArguments {
     /// velocity before.
     #[arg(long, value_name = "FILE")]
     pub(crate) support_path: Option<PathBuf>,
-}
-
-impl StartArguments {
-    /// What the tip finds.
-    pub(crate) fn choice(&self, has_spring: bool) -> StartChoice {
-        let usual = if has_spring { StartChoice::Steady } else { StartChoice::Flat };
-        self.start.unwrap_or(usual)
-    }
 }

@@ -1,8 +1,9 @@
 //! Points of `stickslip sweep` that are runs: how they begin, each option a range.
 
+use super::named::named;
 use super::range::Range;
-use super::start::StartChoice;
 use clap::Args;
+use stickslip::StartName;
 
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Runs")]
@@ -12,8 +13,8 @@ pub(crate) struct SweepRunArguments {
     pub(crate) until: Option<f64>,
 
     /// What the tip finds at the start [default: steady].
-    #[arg(long, value_enum, value_name = "START", requires = "until")]
-    pub(crate) start: Option<StartChoice>,
+    #[arg(long, value_parser = named::<StartName>(), value_name = "START", requires = "until")]
+    pub(crate) start: Option<StartName>,
 
     /// Position of the tip at the start, in σ [default: 14].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]

@@ -4,8 +4,8 @@ use super::in_units::scales;
 use super::job::{Job, Product};
 use super::model::tip;
 use super::progress::Progress;
-use crate::arguments::{AnswerArguments, Options, Questions};
-use crate::failure::Failure;
+use crate::arguments::{AnswerArguments, Options, Questions, TipArguments};
+use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
 use crate::host;
@@ -45,7 +45,28 @@ fn seconds() -> f64 {
 
 /// A parameter as an option: `--alpha-above` for `alpha_above`.
 pub(crate) fn option(parameter: &str) -> String {
-    format!("--{}", parameter.replace('_', "-"))
+    match parameter {
+        "pulses" => "--pulse".into(),
+        "force" => "--force-file".into(),
+        _ => format!("--{}", parameter.replace('_', "-")),
+    }
+}
+
+/// A refusal in the words of a command line: what came from a file is refused by the name of that file, a footprint by the
+/// number that was given of it.
+pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[Named]) -> Failure {
+    let documents::Failure::Refused(refused) = &failure else { return failure.into() };
+    if let (Some(beta), None, "tip") = (tip.beta, &tip.tip_file, &*refused.parameter) {
+        return Failure::input(format!("--beta {}", Typed(beta)), refused.reason(option));
+    }
+    let named = match &*refused.parameter {
+        "tip" => "--tip-file".into(),
+        parameter => option(parameter),
+    };
+    match files.iter().find_map(|(option, path)| path.filter(|_| *option == named)) {
+        Some(path) => Failure::input(format!("{named} {}", path.display()), refused.reason(option)),
+        None => failure.into(),
+    }
 }
 
 impl<Q: Questions> Options<Q> {

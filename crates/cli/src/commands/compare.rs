@@ -5,16 +5,19 @@ mod grid;
 mod pace;
 mod raster;
 
+use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
-use super::run::disturbance::{Disturbance, files_read, warn_of_idle};
+use super::model::{indentation, tip, wider};
+use super::run::disturbance::{disturbed, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
+use crate::files::distinct::Named;
 use closed::Closed;
 use grid::{Discretisation, Motion};
 use stickslip::{
-    CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document, KnownScales,
-    Physical, RunParameters,
+    Ask, CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document,
+    KnownScales, Physical, Run, Tip,
 };
 use stickslip_tip::Scenario;
 
@@ -25,8 +28,7 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     if arguments.scan.lines.is_some() || arguments.scan.area.is_some() {
         return raster::compare(arguments);
     }
-    let read = files_read(&arguments.model, &arguments.disturbance);
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
+    judge_places(&arguments.outlet, arguments.plot.as_deref(), &files(arguments))?;
     let tip_file = arguments.model.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
     let asked = Asked::of(arguments, scales.as_ref())?;
@@ -40,8 +42,8 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
 
 /// The options, judged.
 struct Asked {
+    question: Run,
     scenario: Scenario,
-    disturbance: Disturbance,
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
@@ -51,9 +53,8 @@ struct Asked {
 
 impl Asked {
     fn of(arguments: &CompareArguments, scales: Option<&KnownScales>) -> Result<Self, Failure> {
-        let disturbance = Disturbance::of(&arguments.disturbance, scales)?;
-        let scenario = closed::scenario(arguments, &disturbance)?;
-        warn_of_idle(&arguments.disturbance, &disturbance, (scenario.start_time(), scenario.until));
+        let (question, scenario) = run_of(arguments, scales)?;
+        warn_of_idle(&arguments.disturbance, &question, (scenario.start_time(), scenario.until));
         let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
@@ -71,7 +72,7 @@ impl Asked {
             ));
         }
         let time_limit = time_limit(arguments)?;
-        Ok(Self { scenario, disturbance, discretisation, grid_until, time_limit })
+        Ok(Self { question, scenario, discretisation, grid_until, time_limit })
     }
 
     /// Where the surfaces are compared: all that the tip came within reach of.
@@ -84,6 +85,39 @@ impl Asked {
         self.discretisation.fits(high - low + 2.0 * reach)?;
         Ok(super::surface::evenly(low - reach, high + reach, POINTS))
     }
+}
+
+/// The files that it reads.
+fn files(arguments: &CompareArguments) -> [Named<'_>; 4] {
+    let tip_file = arguments.model.tip.tip_file.as_deref();
+    files_read(tip_file, &arguments.disturbance, arguments.start.support_path.as_deref())
+}
+
+/// The run that both sides make.
+fn run_of(
+    arguments: &CompareArguments,
+    scales: Option<&KnownScales>,
+) -> Result<(Run, Scenario), Failure> {
+    let CompareArguments { model, start, disturbance, .. } = arguments;
+    let until = arguments.until.unwrap_or_default();
+    let run = Run {
+        r: model.r,
+        law: wider(&model.wider).into(),
+        start: start.start,
+        start_position: start.start_position,
+        kick: start.kick,
+        start_velocity: start.start_velocity,
+        tolerance: arguments.tolerance,
+        memory: arguments.memory,
+        ..Run::new(Tip(tip(&model.tip)?), indentation(model)?, 0.0, until)
+    };
+    let run = disturbed(run, disturbance, start.support_path.as_deref(), scales)?;
+    let files = files(arguments);
+    let run = run.resolved(&context()).map_err(|failure| refusal(failure, &model.tip, &files))?;
+    let scenario = run.prepared().map_err(|failure| refusal(failure, &model.tip, &files))?;
+    let initial = scenario.initial_surface();
+    initial.map_err(|error| refusal(run.refused(&error), &model.tip, &files))?;
+    Ok((run, scenario))
 }
 
 /// Seconds that either side may take.
@@ -132,10 +166,8 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
-    let Disturbance { pulses, table, .. } = &asked.disturbance;
-    let above = arguments.model.alpha_above;
     CompareParameters {
-        run: RunParameters::of(&asked.scenario, above, pulses, table.clone()),
+        run: asked.question.clone(),
         grid: arguments.grid,
         spacing: asked.discretisation.spacing,
         grid_tolerance: asked.discretisation.tolerance(),

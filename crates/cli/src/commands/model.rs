@@ -56,6 +56,10 @@ pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
 }
 
 /// α, or αc(r) + D.
+pub(crate) fn indentation(arguments: &ModelArguments) -> Result<Indentation, Failure> {
+    one_of(arguments.alpha, arguments.alpha_above)
+}
+
 fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
     if alpha.is_some() && alpha_above.is_some() {
         return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));

@@ -2,18 +2,13 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
-pub(crate) mod document;
 mod integration;
-pub(crate) mod limits;
 mod order;
 mod record;
 mod resume;
-pub(crate) mod samples;
 mod write;
 
-pub(crate) use disturbance::parse_pulses;
-pub(crate) use order::{explain, option_at_fault};
-
+use super::ask::refusal;
 use super::fields::Fields;
 use super::job::Job;
 use crate::arguments::{FieldArguments, Format, RunArguments};
@@ -25,7 +20,7 @@ use checkpoint::Checkpoints;
 use integration::Integration;
 use record::{Record, SAMPLE_NUMBERS, Sink};
 use std::path::Path;
-use stickslip::{Order, RunDocument, RunEnd, RunFormat, Unusable};
+use stickslip::{Order, RunDocument, RunEnd, RunFormat};
 use stickslip_outcome::Watched;
 use stickslip_tip::{RunError, STEP_NUMBERS, Scenario};
 use write::Target;
@@ -39,11 +34,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
-    let said = |error: Unusable| Failure::input("the run", error);
-    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
-    let scenario = order.parameters.scenario().map_err(said)?;
-    let surface = scenario.initial_surface().map_err(explained)?;
-    let running = Watched::new(&scenario, &surface).map_err(explained)?;
+    let scenario = order.parameters.prepared()?;
+    let refused = |error: RunError| {
+        refusal(order.parameters.refused(&error), &arguments.options.tip, &order::files(arguments))
+    };
+    let surface = scenario.initial_surface().map_err(refused)?;
+    let running = Watched::new(&scenario, &surface).map_err(refused)?;
     let interrupt = Interrupt::listen()?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();

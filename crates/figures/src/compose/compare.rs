@@ -9,7 +9,7 @@ use stickslip::{
 
 impl Drawn for CompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.run.model;
+        let model = &self.parameters.run.model_parameters();
         let title = format!("Closed equation and grid, {}", model_name(model));
         let mut figure = FigureDocument::new("compare", &title, vec![model.clone()]);
         let lag = |x0: &[f64]| -> Vec<f64> {

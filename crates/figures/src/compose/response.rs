@@ -11,7 +11,7 @@ const WIDTHS: f64 = 5.0;
 impl Drawn for ResponseDocument {
     /// The deviation, and a ground where so many modes do not give it.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.model;
+        let model = &self.parameters.model_parameters();
         let title = format!("Linear response, {}", model_name(model));
         let mut figure = FigureDocument::new("response", &title, vec![model.clone()]);
         let mut panel = PanelDocument::new("", ("t (Γ/k)", "l − l₀ (σ)"));

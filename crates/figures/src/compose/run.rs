@@ -10,8 +10,8 @@ use crate::error::FigureError;
 use crate::number::{seven_digits, short};
 use ground::{Ground, MARGIN};
 use stickslip::{
-    CurveDocument, FigureDocument, PanelDocument, PulseParameters, RunDocument, RunParameters,
-    StyleName, to_its_digits,
+    CurveDocument, FigureDocument, PanelDocument, PulseParameters, Run, RunDocument, StyleName,
+    to_its_digits,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
@@ -27,7 +27,7 @@ const LOOP_POINTS: u32 = 4000;
 
 impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
-        let model = self.parameters.model.clone();
+        let model = self.parameters.model_parameters();
         let mut figure = FigureDocument::new("run", &title(self), vec![model]);
         if self.history.is_none() {
             figure
@@ -110,7 +110,7 @@ impl<'a> Shown<'a> {
 }
 
 fn title(run: &RunDocument) -> String {
-    let name = model_name(&run.parameters.model);
+    let name = model_name(&run.parameters.model_parameters());
     let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
         let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
         let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
@@ -130,8 +130,8 @@ fn steady(run: &RunDocument) -> Option<Level> {
 
 /// r, likewise.
 fn dragged(run: &RunDocument) -> Option<Level> {
-    let moves = run.parameters.support_path.is_none() && !run.parameters.model.law.no_spring;
-    let r = run.parameters.model.r;
+    let moves = run.parameters.support_path.is_none() && !run.parameters.law.no_spring;
+    let r = run.parameters.r.unwrap_or_default();
     moves.then(|| (r, format!("support, r = {}", short(r))))
 }
 
@@ -184,7 +184,7 @@ fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
 }
 
 /// The force, if there is one.
-fn force(run: &RunParameters, (from, to): (f64, f64)) -> Option<PanelDocument> {
+fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
     if run.pulses.is_empty() && run.force.is_none() {
         return None;
     }

@@ -25,6 +25,10 @@ pub(crate) mod model;
 pub(crate) mod question;
 pub(crate) mod raster_boundary;
 pub(crate) mod raster_stability;
+pub(crate) mod response;
+pub(crate) mod run;
+pub(crate) mod run_found;
+pub(crate) mod sampling;
 pub(crate) mod stability;
 pub(crate) mod walking;
 

@@ -185,15 +185,22 @@ impl Law {
         if self.no_spring {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
+        self.fading(tip)?;
+        Ok(self.into())
+    }
+
+    /// Refuses a footprint that never fades on a surface that never heals.
+    pub(crate) fn fading(self, tip: &TipFunction) -> Result<(), Refused> {
         if *tip == TipFunction::Cosine && self.healing_time.is_none() {
-            let why = "does not fade, so that steady motion leaves an infinite groove: give {healing_time}";
+            let why =
+                "goes on for ever, and so does what it left in steady motion: give {healing_time}";
             return Err(Refused {
                 parameter: "tip".into(),
                 value: Some("cosine".into()),
                 why: why.into(),
             });
         }
-        Ok(self.into())
+        Ok(())
     }
 }
 

@@ -71,6 +71,7 @@ impl Walking {
             let why = "without a spring there is no support that could move: leave it out";
             return Err(Refused::number("r", self.r, why));
         }
+        self.law.fading(&self.tip.0)?;
         let law = self.law.into();
         let indentation = self.indentation.resolved(&self.tip.0, law, 0.0)?;
         indentation.model(&self.tip.0, law, 0.0)

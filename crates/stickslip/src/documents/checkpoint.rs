@@ -1,6 +1,7 @@
 //! `stickslip/checkpoint`.
 
-use crate::{FORMAT_VERSION, KnownScales, RunParameters, Software};
+use crate::parameter::strictly;
+use crate::{FORMAT_VERSION, KnownScales, Run, Software, Times};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -41,7 +42,8 @@ pub struct CheckpointHead {
 #[serde(deny_unknown_fields)]
 pub struct Order {
     /// Everything that defines the run.
-    pub parameters: RunParameters,
+    #[serde(deserialize_with = "strictly")]
+    pub parameters: Run,
     /// When samples are taken.
     pub samples: Times,
     /// File to write, seen from the folder of the checkpoint; `-` for standard output.
@@ -87,25 +89,6 @@ pub struct Mark {
     pub crc32: u32,
 }
 
-/// The times at which a motion is sampled.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, deny_unknown_fields)]
-pub enum Times {
-    /// start, start + every, … `intervals` times, and not beyond end.
-    Every {
-        /// The first, in Γ/k.
-        start: f64,
-        /// From one to the next, in Γ/k.
-        every: f64,
-        /// None is beyond this time, in Γ/k.
-        end: f64,
-        /// Samples but the first.
-        intervals: u64,
-    },
-    /// As given.
-    At(Vec<f64>),
-}
-
 impl CheckpointHead {
     /// Its `format`.
     pub const FORMAT: &'static str = "stickslip/checkpoint";
@@ -115,42 +98,5 @@ impl CheckpointHead {
         self.format == Self::FORMAT
             && self.format_version == FORMAT_VERSION
             && self.software.version == Software::this().version
-    }
-}
-
-impl Times {
-    /// Whether they go on in time, and end.
-    pub fn are_usable(&self) -> bool {
-        match self {
-            Self::Every { every, .. } => *every > 0.0,
-            Self::At(_) => true,
-        }
-    }
-
-    /// How many there are.
-    pub fn count(&self) -> u64 {
-        match self {
-            Self::Every { intervals, .. } => intervals.saturating_add(1),
-            Self::At(times) => times.len() as u64,
-        }
-    }
-
-    /// The i-th of them.
-    pub fn at(&self, i: u64) -> Option<f64> {
-        match self {
-            Self::Every { start, every, end, intervals } => {
-                (i <= *intervals).then(|| (start + every * i as f64).min(*end))
-            }
-            Self::At(times) => times.get(usize::try_from(i).ok()?).copied(),
-        }
-    }
-
-    /// In the order in which a run passes them, and the place of each in the order asked for; no places where the
-    /// two are the same.
-    pub fn in_order(self) -> (Self, Vec<usize>) {
-        let Self::At(times) = self else { return (self, vec![]) };
-        let mut places: Vec<usize> = (0..times.len()).collect();
-        places.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
-        (Self::At(places.iter().map(|place| times[*place]).collect()), places)
     }
 }

@@ -1,7 +1,7 @@
 //! `stickslip/compare`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{Document, Question, RunParameters};
+use crate::{Document, Question, Run};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +37,7 @@ impl Question for CompareParameters {
 pub struct CompareParameters {
     /// The run of the closed equation; the grid is given the same.
     #[serde(flatten)]
-    pub run: RunParameters,
+    pub run: Run,
     /// Discretisation.
     pub grid: GridName,
     /// Δx, in σ.

@@ -1,9 +1,7 @@
 //! Which documents can be told in nm, s and nN, and their tables so.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{
-    Dimension, InUnits, KnownScales, RasterDocument, RasterSurfaceDocument, RunDocument, dimension,
-};
+use crate::{Dimension, InUnits, KnownScales, dimension};
 use serde::Serialize;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -27,31 +25,6 @@ pub trait Physical: Serialize + Sized {
         let values = lean.and_then(|(scales, lean)| Some(InUnits::of(&lean.ok()?, scales)));
         *self.physical_mut() = values;
         self
-    }
-}
-
-impl Physical for RunDocument {
-    fn physical_mut(&mut self) -> &mut Option<InUnits> {
-        &mut self.physical
-    }
-
-    fn lean(&mut self) -> serde_json::Result<Value> {
-        let history = self.history.take();
-        let value = serde_json::to_value(&*self);
-        self.history = history;
-        value
-    }
-}
-
-impl Physical for RasterSurfaceDocument {
-    fn physical_mut(&mut self) -> &mut Option<InUnits> {
-        &mut self.physical
-    }
-}
-
-impl Physical for RasterDocument {
-    fn physical_mut(&mut self) -> &mut Option<InUnits> {
-        &mut self.physical
     }
 }
 

@@ -10,7 +10,7 @@ pub use axis::{AxisDocument, AxisName};
 pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
 pub use point::{SourceName, SweepPoint};
 pub use shard::ShardDocument;
-pub use start::{SweepRunParameters, SweepStartName};
+pub use start::SweepRunParameters;
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::{Document, InUnits, Question, TipDocument};

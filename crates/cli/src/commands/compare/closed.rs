@@ -2,17 +2,12 @@
 
 use super::Asked;
 use super::pace::{Pace, stopped, timed};
-use crate::arguments::CompareArguments;
-use crate::commands::model::wide_model;
 use crate::commands::progress::Progress;
-use crate::commands::run::disturbance::Disturbance;
-use crate::commands::run::limits::within_range;
-use crate::commands::run::{explain, option_at_fault};
 use crate::failure::Failure;
 use std::ops::ControlFlow;
 use stickslip::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
-use stickslip_tip::{Run, RunError, Scenario, Trajectory, run_observed};
+use stickslip_tip::{Run, Scenario, Trajectory, run_observed};
 
 /// Steps between two looks at the clock: a step takes microseconds.
 const STEPS_PER_LOOK: u32 = 256;
@@ -24,34 +19,8 @@ pub(super) struct Closed {
     seconds: f64,
 }
 
-/// The run that both sides make.
-pub(super) fn scenario(
-    arguments: &CompareArguments,
-    disturbance: &Disturbance,
-) -> Result<Scenario, Failure> {
-    let until = arguments.until.unwrap_or_default();
-    let explained = |error: RunError| explain(&error, &arguments.start, &arguments.disturbance);
-    let scenario = Scenario {
-        tolerance: arguments.tolerance,
-        memory: arguments.memory.into(),
-        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, until)?
-    };
-    within_range(&arguments.model, &scenario)?;
-    scenario.validate().map_err(explained)?;
-    scenario.initial_surface().map_err(explained)?;
-    Ok(scenario)
-}
-
-/// What no judgement before the run found.
-fn at_run_time(error: &RunError) -> Failure {
-    match option_at_fault(error) {
-        Some(option) => Failure::input(option, error),
-        None => Failure::Run(error.to_string()),
-    }
-}
-
 pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
-    let Asked { scenario, time_limit, .. } = asked;
+    let Asked { question, scenario, time_limit, .. } = asked;
     let span = (scenario.start_time(), scenario.until);
     let once = || {
         let pace = Pace::new("--until", span, *time_limit);
@@ -69,7 +38,7 @@ pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
         // The run looks at every step whether anybody waits for it, and this at some.
         match failure.or_else(stopped) {
             Some(failure) => Err(failure),
-            None => Ok((run.map_err(|error| at_run_time(&error))?, seconds)),
+            None => Ok((run.map_err(|error| question.refused(&error))?, seconds)),
         }
     };
     let (run, seconds) = timed(once)?;

@@ -8,7 +8,6 @@ pub(in crate::commands) use heights::field;
 use super::job::{Job, format};
 use super::model::wide_model;
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
-use super::run::samples::times;
 use crate::arguments::{Format, ModelArguments, RasterArguments, SamplingArguments, ScanArguments};
 use crate::commands::in_units::{in_metres, scales};
 use crate::failure::{Failure, Typed};
@@ -143,7 +142,7 @@ pub(super) fn sample_times(sampling: &SamplingArguments, plan: &Plan) -> Result<
     // As many as the longest line has.
     let lines = plan.lines() as f64;
     if sampling.sample_at.is_some() || sampling.sample_every.is_some() {
-        let times = times(sampling, (0.0, duration), "each line")?;
+        let times = sampling.sampling().times((0.0, duration), "each line", true)?.all();
         return if times.len() as f64 * lines <= MOST_SAMPLES {
             Ok(times)
         } else {

@@ -1,39 +1,39 @@
 //! From the command line to an order: what is run, and what is written of it.
 
-use super::super::model::wide_model;
 use super::checkpoint;
-use super::disturbance::{Disturbance, files_read, warn_of_idle};
-use super::limits::within_range;
-use super::samples::sample_times;
-use crate::arguments::{DisturbanceArguments, Format, HistoryName, RunArguments, StartArguments};
+use super::disturbance::{disturbed, files_read, warn_of_idle};
+use crate::arguments::{Format, HistoryName, RunArguments};
+use crate::commands::ask::{context, refusal};
 use crate::commands::in_units::scales;
 use crate::commands::job;
-use crate::failure::{Failure, Typed};
-use crate::files::distinct::distinct;
+use crate::failure::Failure;
+use crate::files::distinct::{Named, distinct};
 use crate::files::paths::resolved;
+use serde_json::Value;
 use std::path::Path;
-use stickslip::{Order, RunFormat, RunParameters};
-use stickslip_tip::{RunError, Scenario};
+use stickslip::{Ask, Order, Run, RunFormat, parameter};
 
 /// What is asked for, judged as a whole.
 pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let format = format(arguments)?;
-    let tip_file = arguments.model.tip.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
-    let disturbance = Disturbance::of(&arguments.disturbance, scales.as_ref())?;
-    let scenario = scenario(arguments, &disturbance)?;
-    within_range(&arguments.model, &scenario)?;
-    scenario
-        .validate()
-        .map_err(|error| explain(&error, &arguments.start, &arguments.disturbance))?;
+    let RunArguments { options, disturbance, support_path, .. } = arguments;
+    let values = options.values()?;
+    let tip_file = options.tip.tip_file.as_deref();
+    let scales = scales(&arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let files = files(arguments);
+    let question: Run = parameter::question(values)?;
+    let question = disturbed(question, disturbance, support_path.as_deref(), scales.as_ref())?;
+    let question =
+        question.resolved(&context()).map_err(|failure| refusal(failure, &options.tip, &files))?;
+    let scenario = question.prepared().map_err(|failure| refusal(failure, &options.tip, &files))?;
     let span = (scenario.start_time(), scenario.until);
-    warn_of_idle(&arguments.disturbance, &disturbance, span);
+    warn_of_idle(disturbance, &question, span);
     let are_kept = format != RunFormat::Jsonl;
+    let samples = question.sampling.times(span, "the run", are_kept)?;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;
-    let Disturbance { pulses, table, .. } = disturbance;
     let order = Order {
-        samples: sample_times(&arguments.sampling, span, "the run", are_kept)?,
-        parameters: RunParameters::of(&scenario, arguments.model.alpha_above, &pulses, table),
+        samples,
+        parameters: question,
         output: resolved(arguments.output()),
         format,
         history: arguments.history == HistoryName::All,
@@ -47,7 +47,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
 
 /// What does not go together.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
-    files(arguments)?;
+    judge_files(arguments)?;
     if order.format != RunFormat::Jsonl {
         return Ok(order);
     }
@@ -74,14 +74,22 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     Ok(order)
 }
 
+/// The files that it reads.
+pub(super) fn files(arguments: &RunArguments) -> Vec<Named<'_>> {
+    let RunArguments { options, disturbance, support_path, .. } = arguments;
+    let [tip_file, parameters] = options.files();
+    let read = files_read(tip_file.1, disturbance, support_path.as_deref());
+    [&read[..], &[parameters]].concat()
+}
+
 /// Whether each file has a name of its own, which a checkpoint, if there is one, can hold.
-fn files(arguments: &RunArguments) -> Result<(), Failure> {
+fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
     let written = [
         ("--output", Some(arguments.output())),
         ("--plot", arguments.plot.as_deref()),
         ("--checkpoint", arguments.checkpoint.as_deref()),
     ];
-    distinct(&written, &files_read(&arguments.model, &arguments.disturbance))?;
+    distinct(&written, &files(arguments))?;
     let is_text = |path: &Path| resolved(path).to_str().is_some();
     let odd = written
         .into_iter()
@@ -108,63 +116,5 @@ fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
         Format::Csv => RunFormat::Csv,
         Format::Npz => RunFormat::Npz,
         Format::Text => RunFormat::Text,
-    })
-}
-
-fn scenario(arguments: &RunArguments, disturbance: &Disturbance) -> Result<Scenario, Failure> {
-    let until = arguments.until.ok_or_else(|| {
-        Failure::input("--until", "the end of the run is missing: give --until T")
-    })?;
-    Ok(Scenario {
-        tolerance: arguments.tolerance,
-        memory: arguments.memory.into(),
-        ..disturbance.scenario(&arguments.start, wide_model(&arguments.model)?, until)?
-    })
-}
-
-/// Names the option that an error of the library is about.
-pub(crate) fn explain(
-    error: &RunError,
-    start: &StartArguments,
-    disturbance: &DisturbanceArguments,
-) -> Failure {
-    let option = match error {
-        RunError::TooFar { .. } if start.start_position.abs() > 1e3 => {
-            format!("--start-position {}", start.start_position)
-        }
-        RunError::Profile(_) => {
-            let path = disturbance.initial_surface.as_deref().unwrap_or(Path::new(""));
-            format!("--initial-surface {}", path.display())
-        }
-        _ => match option_at_fault(error) {
-            Some(option) => option,
-            None => return Failure::Run(error.to_string()),
-        },
-    };
-    Failure::input(option, error)
-}
-
-/// The option that an error is about, as far as the error itself tells; `None` for a failure at run time.
-pub(crate) fn option_at_fault(error: &RunError) -> Option<String> {
-    Some(match error {
-        RunError::StartPosition(x) => format!("--start-position {}", Typed(*x)),
-        RunError::Kick(kick) => format!("--kick {}", Typed(*kick)),
-        RunError::Until { until, .. } => format!("--until {}", Typed(*until)),
-        RunError::Tolerance(tolerance) | RunError::TooFar { tolerance, .. } => {
-            format!("--tolerance {}", Typed(*tolerance))
-        }
-        RunError::Noise { noise, .. } => {
-            format!("--noise {} --noise-spacing {}", Typed(noise.amplitude), Typed(noise.spacing))
-        }
-        RunError::Modes(_) => "--memory modes".into(),
-        RunError::Profile(_) => "--initial-surface".into(),
-        RunError::StartVelocity(v) => format!("--start-velocity {}", Typed(*v)),
-        RunError::Path(_) | RunError::PathWithoutSpring | RunError::PathEnds { .. } => {
-            "--support-path".into()
-        }
-        RunError::NoSteadyStart(_) => "--start steady".into(),
-        RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
-            return None;
-        }
     })
 }

@@ -3,7 +3,6 @@
 use super::checkpoint::{self, Checkpoints};
 use super::integration::Integration;
 use super::record::Sink;
-use super::samples::are_of;
 use super::write::{self, Target};
 use super::{file, job, record};
 use crate::arguments::RunArguments;
@@ -126,7 +125,7 @@ fn judge(head: &CheckpointHead, t: f64, scenario: &Scenario) -> Result<(), &'sta
         return Err("is damaged: its time is not that of its state");
     }
     let span = (scenario.start_time(), scenario.until);
-    if !are_of(&head.order.samples, span, head.order.format != RunFormat::Jsonl) {
+    if !head.order.samples.are_of(span, head.order.format != RunFormat::Jsonl) {
         return Err("is damaged: its samples are not those of its run");
     }
     let (times, _) = head.order.samples.clone().in_order();

@@ -1,6 +1,5 @@
 //! A run on its way out.
 
-use super::document;
 use super::integration::Integrated;
 use super::record::{Record, Sink};
 use crate::commands::fields::Fields;
@@ -13,9 +12,10 @@ use crate::message::remark;
 use serde::Serialize;
 use std::path::Path;
 use stickslip::{
-    Array, InUnits, Named, Order, Physical, RunDocument, RunFormat, RunHead, SteadyState, Tabular,
+    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunFound, RunHead,
+    SteadyState, Tabular, became,
 };
-use stickslip_tip::{InitialSurface, Scenario, Trajectory, friction};
+use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
 
 /// What the run is written to.
 pub(super) enum Target {
@@ -35,6 +35,18 @@ pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> R
     }
 }
 
+/// What became of the run.
+fn end(
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    integrated: &Integrated,
+) -> Result<RunEnd, Failure> {
+    let Integrated { running, seconds, interrupt, .. } = integrated;
+    let found =
+        stop::where_asked_by(interrupt.flag(), || became(scenario, initial, running, *seconds));
+    Ok(RunEnd { interrupted: interrupt.signal().is_some(), ..found? })
+}
+
 /// The whole document, or the last line; and the figure.
 pub(super) fn all(
     order: &Order,
@@ -43,7 +55,7 @@ pub(super) fn all(
     mut integrated: Integrated,
     target: Target,
 ) -> Result<(), Failure> {
-    let end = document::end(scenario, initial, &integrated)?;
+    let end = end(scenario, initial, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
     let reached = signal.map(|_| end.end);
     if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
@@ -66,16 +78,9 @@ pub(super) fn all(
         }
         Target::Document(job) => {
             let samples = &integrated.record.samples;
-            let mut document = RunDocument::new(
-                order.parameters.clone(),
-                SteadyState::of(&scenario.model),
-                samples,
-                trajectory.as_ref().filter(|_| order.history).map(Into::into),
-                end.clone(),
-            );
-            let on_path = trajectory.as_ref().filter(|_| scenario.path.is_some());
-            document.loops =
-                on_path.map(|t| friction::loops(t).into_iter().map(Into::into).collect());
+            let history = trajectory.as_ref().filter(|_| order.history).map(Into::into);
+            let mut document = order.parameters.clone().document(samples, history, end.clone());
+            document.loops = trajectory.as_ref().and_then(|t| RunFound::loops_of(scenario, t));
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found =

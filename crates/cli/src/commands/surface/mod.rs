@@ -38,7 +38,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         )
     };
     let unusable = |error: Unusable| damaged(error.to_string());
-    let model = document.parameters.model.model().map_err(unusable)?;
+    let model = document.parameters.model_parameters().model().map_err(unusable)?;
     let trajectory = document.trajectory().map_err(unusable)?;
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
@@ -59,7 +59,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         None => SurfaceFound { surfaces: curves(arguments, &surface, &places)?, images: vec![] },
     };
     let parameters = SurfaceParameters {
-        model: document.parameters.model.clone(),
+        model: document.parameters.model_parameters(),
         far_behind: arguments.far_behind,
         across: images.as_ref().map(Images::parameters),
     };

@@ -1,8 +1,8 @@
 //! What varies beside footprint, r and α: each option alone is a number of the sweep, or an axis of its grid.
 
-use crate::arguments::{Range, StartChoice, SweepArguments};
+use crate::arguments::{Range, SweepArguments};
 use crate::failure::{Failure, Typed};
-use stickslip::{AxisDocument, AxisName, SweepParameters, SweepRunParameters, SweepStartName};
+use stickslip::{AxisDocument, AxisName, StartName, SweepParameters, SweepRunParameters};
 use stickslip_tip::Wider;
 
 /// Whole numbers up to here are themselves as f64.
@@ -42,7 +42,7 @@ pub(super) fn asked(
     let kick = axes.number(AxisName::Kick, run.kick.as_ref());
     let run = SweepRunParameters {
         until,
-        start: start_name(run.start.unwrap_or(StartChoice::Steady)),
+        start: run.start.unwrap_or(StartName::Steady),
         start_position: start_position.unwrap_or(START_POSITION),
         kick: kick.unwrap_or(0.0),
         start_velocity: axes.number(AxisName::StartVelocity, run.start_velocity.as_ref()),
@@ -86,20 +86,4 @@ pub(super) fn at(
         }
     }
     (law, run)
-}
-
-fn start_name(start: StartChoice) -> SweepStartName {
-    match start {
-        StartChoice::Steady => SweepStartName::Steady,
-        StartChoice::Flat => SweepStartName::Flat,
-        StartChoice::Paper => SweepStartName::Paper,
-    }
-}
-
-pub(super) fn start_choice(start: SweepStartName) -> StartChoice {
-    match start {
-        SweepStartName::Steady => StartChoice::Steady,
-        SweepStartName::Flat => StartChoice::Flat,
-        SweepStartName::Paper => StartChoice::Paper,
-    }
 }

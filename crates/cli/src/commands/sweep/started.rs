@@ -1,11 +1,10 @@
 //! A point that is a run: what `stickslip run` with the same options says of its end.
 
-use super::axes::start_choice;
-use crate::arguments::{DisturbanceArguments, StartArguments};
-use crate::commands::run::disturbance::Disturbance;
-use crate::commands::run::explain;
 use crate::failure::Failure;
-use stickslip::{OscillationDocument, SweepPoint, SweepRunParameters};
+use stickslip::{
+    Ask, Context, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
+    SweepRunParameters, Tip,
+};
 use stickslip_outcome::{Motion, Watched};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{Model, RunError, Scenario, Step};
@@ -19,33 +18,28 @@ pub(super) fn scenario(
     run: &SweepRunParameters,
     tolerance: f64,
 ) -> Result<Scenario, Failure> {
-    let (start, disturbance) = (start(run), disturbance(run));
-    let asked = Disturbance::of(&disturbance, None)?.scenario(&start, model, run.until)?;
-    let scenario = Scenario { tolerance, ..asked };
-    scenario.validate().map_err(|error| explain(&error, &start, &disturbance))?;
-    Ok(scenario)
-}
-
-fn start(run: &SweepRunParameters) -> StartArguments {
-    StartArguments {
-        start: Some(start_choice(run.start)),
+    let noise = run.noise.map(|amplitude| NoiseParameters {
+        amplitude,
+        spacing: run.noise_spacing.unwrap_or(NoiseParameters::SPACING),
+        // Judged to be whole.
+        seed: run.seed.map_or(NoiseParameters::SEED, |seed| seed as u64),
+    });
+    let question = Run {
+        law: (*model.wider()).into(),
+        start: Some(run.start),
         start_position: run.start_position,
         kick: run.kick,
         start_velocity: run.start_velocity,
-        support_path: None,
-    }
-}
-
-fn disturbance(run: &SweepRunParameters) -> DisturbanceArguments {
-    DisturbanceArguments {
-        noise: run.noise,
-        noise_spacing: run.noise_spacing,
-        // Judged to be whole.
-        seed: run.seed.map(|seed| seed as u64),
-        initial_surface: None,
-        pulse: vec![],
-        force_file: None,
-    }
+        noise,
+        tolerance,
+        ..Run::new(
+            Tip(model.tip().clone()),
+            Indentation::given(model.alpha()),
+            model.r(),
+            run.until,
+        )
+    };
+    Ok(question.resolved(&Context::default())?.prepared()?)
 }
 
 /// So many samples of l in the second half of a run.

@@ -123,7 +123,7 @@ fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
 
 impl Product for ResponseDocument {
     fn told(&self) -> Told {
-        let model = &self.parameters.model;
+        let model = self.parameters.model_parameters();
         let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, 7));
         let leading = self.modes.first().map(|mode| {
             let [re, im] = [mode.lambda.re, mode.lambda.im].map(|part| digits(part, 7));

@@ -11,7 +11,7 @@ use stickslip::{
 pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told {
     let verified = document.verification.as_ref().map_or(String::new(), kept);
     let told = Told::new(summary(end) + &verified);
-    let told = told.row("α, r", parameters(&document.parameters.model));
+    let told = told.row("α, r", parameters(&document.parameters.model_parameters()));
     let told = match &end.oscillation {
         Some(found) => oscillation(told, found),
         None => told,

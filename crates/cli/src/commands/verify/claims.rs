@@ -6,7 +6,6 @@
 
 use crate::commands::model::model_under;
 use crate::commands::progress::Progress;
-use crate::commands::run::document::became;
 use crate::failure::Failure;
 use crate::message::say;
 use serde::Serialize;
@@ -15,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
     ClaimDocument, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
-    SampleLine, SteadyState,
+    SampleLine, SteadyState, became,
 };
 use stickslip_outcome::Watched;
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
@@ -321,7 +320,9 @@ fn again(
     }
     is_cut &= running.t() < scenario.until;
     // As a run that a signal ended was judged.
-    became(scenario, &surface, &running, &Arc::new(AtomicBool::new(is_cut)))
+    let flag = Arc::new(AtomicBool::new(is_cut));
+    let found = stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0));
+    Ok(found?)
 }
 
 /// Of a document.
@@ -334,7 +335,7 @@ pub(super) fn of_document(
     trajectory: Option<&Trajectory>,
 ) -> Result<Vec<ClaimDocument>, Failure> {
     let mut claims = Claims::default();
-    claims.of_parameters(&run.parameters.model, scenario, run.steady_state.as_ref());
+    claims.of_parameters(&run.parameters.model_parameters(), scenario, run.steady_state.as_ref());
     claims.of_document(run, trajectory);
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();

@@ -39,7 +39,8 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let found = found?;
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
     let verification = VerificationDocument::from(&found);
-    let told = (&head.parameters.model, head.steady_state.as_ref());
+    let model = head.parameters.model_parameters();
+    let told = (&model, head.steady_state.as_ref());
     let differences =
         claims::of_lines(&scenario, told, samples.lines(), (until, extent.end.as_ref()))?;
     if let Some(flaw) = samples.flaw.take() {

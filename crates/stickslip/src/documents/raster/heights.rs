@@ -2,7 +2,7 @@
 
 use super::{RasterDocument, RasterParameters};
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, Software, Unusable};
+use crate::{FORMAT_VERSION, InUnits, Physical, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, Path, Plan, Scanned};
@@ -114,6 +114,12 @@ fn rows(plan: &Plan) -> Vec<f64> {
     // Lines that all lie at one y are looked at from both sides.
     let (low, high) = if high > low { (low, high) } else { (low - 1.0, high + 1.0) };
     (0..count).map(|i| low + (high - low) * i as f64 / (count - 1) as f64).collect()
+}
+
+impl Physical for RasterSurfaceDocument {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
+    }
 }
 
 impl Tabular for RasterSurfaceDocument {

@@ -18,7 +18,7 @@ pub use pattern::{PatternDocument, RasterRegimeName};
 pub use sweep::{RasterSweepDocument, RasterSweepFound, RasterSweepParameters, RasterSweepPoint};
 
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, Software, Unusable};
+use crate::{FORMAT_VERSION, InUnits, Physical, Software, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Written, pattern, volume};
@@ -114,6 +114,12 @@ impl RasterDocument {
         let plan = self.parameters.plan()?;
         let lines = self.history.lines(&plan)?;
         Ok((plan, lines))
+    }
+}
+
+impl Physical for RasterDocument {
+    fn physical_mut(&mut self) -> &mut Option<InUnits> {
+        &mut self.physical
     }
 }
 

@@ -1,5 +1,6 @@
 //! Points of a sweep that are runs.
 
+use crate::StartName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ pub struct SweepRunParameters {
     /// Time at which they end, in Γ/k.
     pub until: f64,
     /// What the tip finds.
-    pub start: SweepStartName,
+    pub start: StartName,
     /// X, in σ.
     pub start_position: f64,
     /// D, in σ.
@@ -23,16 +24,4 @@ pub struct SweepRunParameters {
     pub noise_spacing: Option<f64>,
     /// Its seed, where it was given.
     pub seed: Option<f64>,
-}
-
-/// What the tip of a run of a sweep finds at its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SweepStartName {
-    /// The steady state.
-    Steady,
-    /// A flat surface.
-    Flat,
-    /// As the paper's simulations start.
-    Paper,
 }

@@ -1,28 +1,21 @@
-//! `stickslip/run`.
+//! What becomes of a run.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{
-    CreepDocument, DriftDocument, FORMAT_VERSION, History, InUnits, OscillationDocument,
-    RegimeName, RunEnd, RunParameters, SampleLine, Software, SteadyState, TransientDocument,
-    Unusable, VerificationDocument, WorkDocument,
+    CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
+    Times, TransientDocument, VerificationDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::friction::Loop;
-use stickslip_tip::{Support, Trajectory};
+use stickslip_outcome::{Outcome, Watched};
+use stickslip_surface::{Surface, ripple_behind};
+use stickslip_tip::friction::{Loop, loops};
+use stickslip_tip::{InitialSurface, Scenario, Step, Support, Trajectory, Wider};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RunDocument {
-    /// "stickslip/run"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// Everything that defines the run.
-    pub parameters: RunParameters,
+pub struct RunFound {
     /// The steady motion at these parameters, whether or not it is stable; null without a spring.
     pub steady_state: Option<SteadyState>,
     /// l, lag, x0 and x0' at the times asked for.
@@ -45,39 +38,24 @@ pub struct RunDocument {
     /// What it seems to go to, where the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
-    /// Where round-off, the start, the tolerance or a disturbance decides; empty if nothing does.
-    #[serde(default)]
-    pub remarks: Vec<String>,
     /// Whether a signal stopped the run before `until`.
     pub interrupted: bool,
     /// The run against a repetition, where that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verification: Option<VerificationDocument>,
     /// What it took.
     pub work: WorkDocument,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
 }
 
-impl RunDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/run";
-
-    /// The document of a run that became what `end` says; `samples` in the order asked for.
+impl RunFound {
+    /// A run that became what `end` says; `samples` in the order asked for.
     pub fn new(
-        parameters: RunParameters,
         steady_state: Option<SteadyState>,
         samples: &[SampleLine],
         history: Option<History>,
         end: RunEnd,
     ) -> Self {
         Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
             steady_state,
             samples: samples.into(),
             history,
@@ -87,27 +65,142 @@ impl RunDocument {
             creep: end.creep,
             drifting: end.drifting,
             transient: end.transient,
-            remarks: end.remarks,
             interrupted: end.interrupted,
             verification: None,
             work: end.work,
         }
     }
 
-    /// The motion, as its dense history tells it.
-    ///
-    /// # Errors
-    /// The history was left out, or damaged.
-    pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
-        let missing = || Unusable::new("history: it was left out; run it again with --history all");
-        let history = self.history.as_ref().ok_or_else(missing)?;
-        let parameters = &self.parameters;
-        if parameters.support_path.is_none() && !parameters.model.law.no_spring {
-            let (wider, support) = (parameters.model.wider(), Support::Moving(parameters.model.r));
-            return history.under(wider, support);
+    /// The loops of a support on a path.
+    pub fn loops_of(scenario: &Scenario, trajectory: &Trajectory) -> Option<Vec<LoopDocument>> {
+        let has_path = scenario.path.is_some();
+        has_path.then(|| loops(trajectory).into_iter().map(Into::into).collect())
+    }
+}
+
+/// What a run that took so many seconds has come to. Once it is stopped, only what is known without further work is found.
+///
+/// # Errors
+/// It has no steps.
+pub fn became(
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    running: &Watched,
+    seconds: f64,
+) -> Result<RunEnd, Failure> {
+    let tail = running.tail().ok_or_else(|| Failure::Failed("the run has no steps".into()))?;
+    let outcome = running.outcome();
+    let oscillation = outcome.oscillation.as_ref().map(|found| {
+        let surface = Surface::new(&scenario.model, initial, &tail);
+        OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
+    });
+    let memory = (running.memory(), running.memory_reason());
+    let work = WorkDocument::of(&running.work(), memory, seconds);
+    Ok(RunEnd::of(running.t(), outcome, oscillation, work))
+}
+
+/// The motion at these times as far as it goes, in the order asked for.
+pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Vec<SampleLine> {
+    let (support, wider) = (trajectory.support(), trajectory.wider());
+    let (steps, end) = (trajectory.steps(), trajectory.end());
+    let all = (0..times.count()).map_while(|i| times.at(i)).filter(|t| *t <= end);
+    all.map(|t| {
+        // A time at which one step ends is the next one's.
+        let after = steps.partition_point(|step| step.end() <= t).min(steps.len() - 1);
+        SampleLine::of(&steps[after], (support, wider), t)
+    })
+    .collect()
+}
+
+/// l, x0 and x0' at one time.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SampleLine {
+    /// Time, in Γ/k.
+    pub t: f64,
+    /// l = rt - r - x0, in σ; null for a support on a path of its own, or none.
+    pub l: Option<f64>,
+    /// R - x0, the extension of the spring, in σ; null without a spring.
+    #[serde(default)]
+    pub lag: Option<f64>,
+    /// Position of the tip, in σ.
+    pub x0: f64,
+    /// x0', in kσ/Γ, one order less accurate than x0.
+    pub velocity: f64,
+    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+    /// w, the rate of indentation relative to α, where there is a depth limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+}
+
+impl SampleLine {
+    /// Of a motion at a time within one of its steps.
+    pub fn of(step: &Step, (support, wider): (&Support, &Wider), t: f64) -> Self {
+        let height = step.height(t);
+        Self {
+            t,
+            l: match support {
+                Support::Moving(r) => Some(step.l(*r, t)),
+                Support::Path(_) | Support::None => None,
+            },
+            lag: (*support != Support::None).then(|| step.lag(support, t)),
+            x0: step.position(support, t),
+            velocity: step.velocity(t),
+            height,
+            weight: height.map(|height| wider.weight(height)),
         }
-        let scenario = parameters.scenario()?;
-        history.under(*scenario.model.wider(), scenario.support())
+    }
+}
+
+/// What became of the run.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RunEnd {
+    /// Time reached, in Γ/k.
+    pub end: f64,
+    /// The kind of motion at the end of the run.
+    pub regime: RegimeName,
+    /// Period and amplitudes, where the regime is stick-slip.
+    pub oscillation: Option<OscillationDocument>,
+    /// The rate of creep, where the regime is trapped.
+    #[serde(default)]
+    pub creep: Option<CreepDocument>,
+    /// The velocity, where the regime is drifting.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drifting: Option<DriftDocument>,
+    /// What it seems to go to, where the regime is transient.
+    #[serde(default)]
+    pub transient: Option<TransientDocument>,
+    /// Where round-off, the start, the tolerance or a disturbance decides; empty if nothing does.
+    #[serde(default)]
+    pub remarks: Vec<String>,
+    /// Whether a signal stopped the run before `until`.
+    pub interrupted: bool,
+    /// What it took.
+    pub work: WorkDocument,
+}
+
+impl RunEnd {
+    /// What became of a run that nobody stopped, at the time `end`.
+    pub fn of(
+        end: f64,
+        outcome: Outcome,
+        oscillation: Option<OscillationDocument>,
+        work: WorkDocument,
+    ) -> Self {
+        Self {
+            end,
+            regime: outcome.regime.into(),
+            oscillation,
+            creep: outcome.creep.map(Into::into),
+            drifting: outcome.drifting.map(Into::into),
+            transient: outcome.prospect.map(Into::into),
+            remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
+            interrupted: false,
+            work,
+        }
     }
 }
 
@@ -193,7 +286,7 @@ impl From<&[SampleLine]> for Samples {
     }
 }
 
-impl Tabular for RunDocument {
+impl Tabular for RunFound {
     fn columns(&self) -> Vec<Named<'_>> {
         let Samples { t, l, lag, x0, velocity, height, weight } = &self.samples;
         let columns = [
@@ -214,9 +307,5 @@ impl Tabular for RunDocument {
         let samples = self.columns().into_iter();
         let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
         samples.chain(self.history.iter().flat_map(History::arrays)).collect()
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
     }
 }

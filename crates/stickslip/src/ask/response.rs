@@ -1,0 +1,315 @@
+//! The question `response`: what weak pulses do to steady motion, to first order.
+
+use super::exponents::{failed, judge_count, remarks};
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, Indentation, Law,
+    ModelParameters, PulseParameters, Question, Refused, Run, Sampling, SteadyState, Tip,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{self as theory, ResponseMode};
+use stickslip_tip::roots::bisected;
+use stickslip_tip::{Model, Pulse, TipFunction};
+
+/// What the modes left out may add, relative to the leading one, where the sum counts as valid.
+const VALID_TO: f64 = 1e-6;
+/// exp(-5.5²/2) = 3e-7: after so many widths a pulse is over.
+const WIDTHS_OF_PULSE: f64 = 5.5;
+/// Deviations above this part of the tip's width are no longer small.
+const SMALL: f64 = 0.01;
+
+/// Linear response of steady motion to weak pulses. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseFound {
+    /// The motion that the pulses disturb.
+    pub steady_state: SteadyState,
+    /// Terms of (A.9) by falling Re λ.
+    pub modes: Vec<ModeDocument>,
+    /// Time t0, in Γ/k, that the residues refer to, the center of the last pulse: from `valid_from` on,
+    /// l(t) - l0 = Σ residue e^{λ(t-t0)}.
+    pub origin: f64,
+    /// Time, in Γ/k, from which on, after the last pulse, the modes left out are estimated to add less than
+    /// `valid_to` of the leading mode. While a pulse lasts the sum over modes is off by up to a half of the whole: the
+    /// samples of that time are had by the inverse Laplace transform instead, to 1e-9 of their largest.
+    pub valid_from: f64,
+    /// 1e-6, a ratio.
+    pub valid_to: f64,
+    /// That no mode right of the last is missing.
+    pub certificate: CertificateDocument,
+    /// l at the times asked for.
+    pub samples: ResponseSamples,
+}
+
+/// The linear response of steady motion to weak pulses, as a sum of modes (A.9).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Response {
+    /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
+    pub r: f64,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// Gaussian pulses of external force.
+    pub pulses: Vec<PulseParameters>,
+    /// Least number of modes: all those right of a line chosen so.
+    #[schemars(extend("x-option" = option("N", "Accuracy", 50)))]
+    #[serde(default = "default_modes")]
+    pub modes: usize,
+    /// X, in σ: the samples begin where a run with this start position and a steady start begins, so that the two can be
+    /// compared one by one.
+    #[schemars(extend("x-option" = option("X", "Output", 62)))]
+    #[serde(default = "default_start_position")]
+    pub start_position: f64,
+    /// Time of the last sample, in Γ/k.
+    #[schemars(extend("x-option" = option("T", "Model", 5)))]
+    pub until: f64,
+    /// When samples are taken.
+    #[serde(flatten)]
+    pub sampling: Sampling,
+}
+
+fn default_modes() -> usize {
+    10
+}
+
+fn default_start_position() -> f64 {
+    14.0
+}
+
+/// A response and the question that it answers.
+pub type ResponseDocument = Document<Response>;
+
+impl Question for Response {
+    const FORMAT: &'static str = "stickslip/response";
+    type Answer = ResponseFound;
+}
+
+impl Response {
+    /// Footprint, law, α and r as other documents hold them.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    /// A run over the same time.
+    fn run(&self) -> Run {
+        let start_position = self.start_position;
+        let run = Run::new(self.tip.clone(), self.indentation, self.r, self.until);
+        Run { law: self.law, start_position, sampling: self.sampling.clone(), ..run }
+    }
+
+    /// When the samples begin and end.
+    ///
+    /// # Errors
+    /// They would begin after their end.
+    pub fn span(&self) -> Result<(f64, f64), Failure> {
+        let start = self.run().started_at()?;
+        Ok((start, self.until))
+    }
+}
+
+impl Ask for Response {
+    fn support_velocity(&self) -> Option<f64> {
+        Some(self.r)
+    }
+
+    fn resolved(self, context: &Context) -> Result<Self, Failure> {
+        self.law.dragged(&self.tip.0)?;
+        judge_count("modes", self.modes)?;
+        if self.pulses.is_empty() {
+            return Err(Refused::whole("pulses", "at least one is needed").into());
+        }
+        let Run { indentation, .. } = self.run().resolved(context)?;
+        let question = Self { indentation, ..self };
+        question.sampling.times(question.span()?, "the response", true)?;
+        Ok(question)
+    }
+
+    fn answer(&self, _: &Context) -> Result<(ResponseFound, Vec<String>), Failure> {
+        let pulsed = Pulsed::of(self)?;
+        let response = pulsed.response(self.modes)?;
+        let mut said = remarks(&response.spectrum, Some(self.modes), "modes");
+        if matches!(self.tip.0, TipFunction::Bessel) {
+            let message = "modes: the branch points ±ir of J0 add a term that falls like t^(-3/2), \
+                           which is left out here and in valid_from";
+            said.push(message.into());
+        }
+        let valid_from = pulsed.valid_from(&response)?;
+        let times = self.sampling.times(self.span()?, "the response", true)?;
+        let samples = pulsed.samples(&response, valid_from, times.all());
+        said.extend(pulsed.beyond_linear(&response, &samples));
+        let found = ResponseFound {
+            steady_state: (&pulsed.model).into(),
+            modes: response.modes.iter().map(mode).collect::<Result<_, _>>()?,
+            origin: pulsed.origin,
+            valid_from,
+            valid_to: VALID_TO,
+            certificate: (&response.spectrum.certificate).into(),
+            samples,
+        };
+        Ok((found, said))
+    }
+}
+
+/// Steady motion and what disturbs it.
+struct Pulsed {
+    model: Model,
+    pulses: Vec<Pulse>,
+    /// Center of the last pulse.
+    origin: f64,
+}
+
+impl Pulsed {
+    fn of(question: &Response) -> Result<Self, Refused> {
+        let law = question.law.dragged(&question.tip.0)?;
+        let model = question.indentation.model(&question.tip.0, law, question.r)?;
+        let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
+        let origin = pulses.iter().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
+        Ok(Self { model, pulses, origin })
+    }
+
+    /// Modes with residues that refer to the origin: e^{-λT} of a late pulse overflows.
+    fn response(&self, modes: usize) -> Result<theory::Response, Failure> {
+        let shifted = self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p });
+        let shifted: Vec<Pulse> = shifted.collect();
+        let found = theory::response(&self.model, &shifted, modes);
+        found.map_err(|error| failed(&error, "ask for another number with {modes}"))
+    }
+
+    /// When the modes beyond those of `listed` have faded against the leading one.
+    fn valid_from(&self, listed: &theory::Response) -> Result<f64, Failure> {
+        let more = self.response(listed.modes.len() + 20)?;
+        let beyond = more.modes.get(listed.modes.len()..).unwrap_or_default();
+        let size =
+            |mode: &ResponseMode, since: f64| mode.residue.norm() * (mode.lambda.re * since).exp();
+        let fading = |since: f64| {
+            let leading = listed.modes.first().map_or(0.0, |mode| size(mode, since));
+            beyond.iter().map(|mode| size(mode, since)).sum::<f64>() <= VALID_TO * leading
+        };
+        let over = self.pulses.iter().map(|p| p.time - self.origin + WIDTHS_OF_PULSE * p.width);
+        let over = over.fold(0.0, f64::max);
+        if fading(over) {
+            return Ok(self.origin + over);
+        }
+        let doubled = (0..60).map(|n| 0.01 * 2.0_f64.powi(n)).find(|d| fading(over + d));
+        let is_narrow = |(low, high): (f64, f64)| high - low <= 1e-3 * high;
+        let lasts = |longer: f64| !fading(over + longer);
+        let (_, longer) = bisected((0.0, doubled.unwrap_or(0.0)), lasts, is_narrow);
+        Ok(self.origin + over + longer)
+    }
+
+    /// From `valid_from` on the sum over modes, and before that the inverse transform: for J0, to whose modes something
+    /// is missing at any time, throughout.
+    fn samples(
+        &self,
+        response: &theory::Response,
+        valid_from: f64,
+        t: Vec<f64>,
+    ) -> ResponseSamples {
+        let l0 = self.model.steady_l();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let until = match self.model.tip() {
+            TipFunction::Bessel => t.iter().copied().fold(valid_from, f64::max),
+            _ => valid_from,
+        };
+        let early = response.while_pulses_last(&self.model, until - self.origin);
+        let at = |t: f64| match &early {
+            Some(early) if t < until => early.at(t - self.origin),
+            _ => response.at(t - self.origin),
+        };
+        let deviation: Vec<Option<f64>> = t.iter().map(|t| finite(at(*t))).collect();
+        let l = deviation.iter().map(|d| d.and_then(|d| finite(l0 + d))).collect();
+        ResponseSamples { t, l, deviation }
+    }
+
+    /// Where linear theory is not what the tip does.
+    fn beyond_linear(&self, response: &theory::Response, samples: &ResponseSamples) -> Vec<String> {
+        let sizes = samples.deviation.iter().flatten().map(|d| d.abs());
+        let widths = sizes.fold(0.0, f64::max) / self.model.tip().widths(1.0);
+        let strong = (widths > SMALL).then(|| {
+            format!(
+                "samples: l leaves l0 by up to {widths:.1e} widths of the tip; linear theory is off by about that part \
+                 of itself: make the pulses weaker, or integrate with `stickslip run --pulse A,T,W`"
+            )
+        });
+        let grows = response.modes.first().filter(|mode| mode.lambda.re > 0.0).map(|mode| {
+            format!(
+                "samples: steady motion is unstable here (α is above αc): the response grows at the rate {:.3} and holds \
+                 only as long as it is small",
+                mode.lambda.re
+            )
+        });
+        strong.into_iter().chain(grows).collect()
+    }
+}
+
+fn mode(mode: &ResponseMode) -> Result<ModeDocument, Refused> {
+    let ResponseMode { lambda, residue } = mode;
+    if !(residue.re.is_finite() && residue.im.is_finite()) {
+        let why = "a mode grows beyond all numbers between the first pulse and the last, or within a pulse: bring the \
+                   pulses nearer to each other, or make them shorter";
+        return Err(Refused::whole("pulses", why));
+    }
+    Ok(ModeDocument {
+        lambda: ComplexDocument::new(lambda.re, lambda.im),
+        residue: ComplexDocument::new(residue.re, residue.im),
+    })
+}
+
+/// residue e^{λ(t-t0)}.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModeDocument {
+    /// λ, in k/Γ.
+    pub lambda: ComplexDocument,
+    /// Its residue, in σ.
+    pub residue: ComplexDocument,
+}
+
+/// Columns of equal length.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseSamples {
+    /// Times, in Γ/k.
+    pub t: Vec<f64>,
+    /// l = rt - r - x0, in σ; null where it has grown beyond all numbers.
+    pub l: Vec<Option<f64>>,
+    /// l - l0, in σ, with all its digits where that is small.
+    pub deviation: Vec<Option<f64>>,
+}
+
+impl Tabular for ResponseFound {
+    fn columns(&self) -> Vec<Named<'_>> {
+        let ResponseSamples { t, l, deviation } = &self.samples;
+        vec![
+            ("t", Column::of(t)),
+            ("l", Column::optional(l)),
+            ("deviation", Column::optional(deviation)),
+        ]
+    }
+
+    /// The samples, and the modes.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let samples = self.columns().into_iter();
+        let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
+        let of = |name, of: fn(&ModeDocument) -> f64| {
+            (name, Array::vector(self.modes.iter().map(of).collect::<Vec<_>>()))
+        };
+        let modes = [
+            of("lambda_re", |m| m.lambda.re),
+            of("lambda_im", |m| m.lambda.im),
+            of("residue_re", |m| m.residue.re),
+            of("residue_im", |m| m.residue.im),
+        ];
+        samples.chain(modes).collect()
+    }
+}

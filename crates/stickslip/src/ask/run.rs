@@ -1,0 +1,593 @@
+//! The question `run`: the motion of the tip from a start, and what becomes of it.
+
+use super::run_found::{RunFound, became, sampled};
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Document, FARTHEST, Failure, History, Indentation, Law, ModelParameters,
+    Question, Refused, RunEnd, SampleLine, Sampling, SteadyState, Tip, Typed, Unusable,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_outcome::Watched;
+use stickslip_tip::{
+    Force, ForceError, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Support,
+    SupportPath, Trajectory,
+};
+
+/// Everything that defines a run.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Run {
+    /// Footprint f(x) of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0, and 0 without a spring.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
+    #[serde(default)]
+    pub r: Option<f64>,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// What the tip finds at the start; without it the steady state, or a flat surface without a spring.
+    #[schemars(extend("x-option" = option("START", "Start", 21)))]
+    #[serde(default)]
+    pub start: Option<StartName>,
+    /// X: position of the tip at the start, in σ.
+    #[schemars(extend("x-option" = option("X", "Start", 22)))]
+    #[serde(default = "default_start_position")]
+    pub start_position: f64,
+    /// D: the tip starts at X - D, in σ, so that l is D above its start value.
+    #[schemars(extend("x-option" = option("D", "Start", 23)))]
+    #[serde(default)]
+    pub kick: f64,
+    /// Motion of the support, where it has one of its own: R less where it starts, straight between the knots.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support_path: Option<SupportPathParameters>,
+    /// Velocity of a tip with inertia at the start, in kσ/Γ; without it r on a steady start, else 0.
+    #[schemars(extend("x-option" = option("V", "Start", 24)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_velocity: Option<f64>,
+    /// Noise added to the initial surface.
+    #[serde(default)]
+    pub noise: Option<NoiseParameters>,
+    /// Profile added to the initial surface.
+    #[serde(default)]
+    pub initial_surface: Option<Profile>,
+    /// Gaussian pulses of external force.
+    #[serde(default)]
+    pub pulses: Vec<PulseParameters>,
+    /// Tabulated external force.
+    #[serde(default)]
+    pub force: Option<ForceTable>,
+    /// Time at which the run ends, in Γ/k. It starts when the support has pulled the tip to its start position: about t = 16 by
+    /// default.
+    #[schemars(extend("x-option" = option("T", "Model", 5)))]
+    pub until: f64,
+    /// Largest error of l(t) and x0(t), in σ; from 1e-13 to 1e-2.
+    #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// How the past is remembered. All memories give the same motion to the tolerance.
+    #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
+    #[serde(default)]
+    pub memory: MemoryName,
+    /// When samples are taken.
+    #[serde(flatten)]
+    pub sampling: Sampling,
+}
+
+fn default_start_position() -> f64 {
+    14.0
+}
+
+fn default_tolerance() -> f64 {
+    1e-9
+}
+
+impl Document<Run> {
+    /// The motion, as its dense history tells it.
+    ///
+    /// # Errors
+    /// The history was left out, or damaged.
+    pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
+        let missing = || Unusable::new("history: it was left out; run it again with --history all");
+        let history = self.history.as_ref().ok_or_else(missing)?;
+        let parameters = &self.parameters;
+        if let (None, false, Some(r)) =
+            (&parameters.support_path, parameters.law.no_spring, parameters.r)
+        {
+            return history.under(parameters.law.into(), Support::Moving(r));
+        }
+        let scenario = parameters.scenario()?;
+        history.under(*scenario.model.wider(), scenario.support())
+    }
+}
+
+/// Heights uniform in [-amplitude, amplitude] on a grid, a cubic spline through them.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseParameters {
+    /// Largest height, 0 or above, in kσ²/a.
+    pub amplitude: f64,
+    /// Distance of the grid points, in σ; 0.1 where it is not given. It is part of the start: white noise has no limit as the
+    /// spacing goes to 0.
+    #[serde(default = "default_spacing")]
+    pub spacing: f64,
+    /// Seed of the random numbers; 1 where it is not given.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+}
+
+impl NoiseParameters {
+    /// Distance of the grid points where it is not given, in σ.
+    pub const SPACING: f64 = 0.1;
+    /// Seed where it is not given.
+    pub const SEED: u64 = 1;
+}
+
+fn default_spacing() -> f64 {
+    NoiseParameters::SPACING
+}
+
+fn default_seed() -> u64 {
+    NoiseParameters::SEED
+}
+
+/// The noise of the paper's simulations, but on a grid on which its slope is small.
+const PAPERS_NOISE: NoiseParameters = NoiseParameters { amplitude: 1e-4, spacing: 0.05, seed: 1 };
+
+/// Knots of a path: straight between them.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SupportPathParameters {
+    /// Times from the start of the run, ascending, in Γ/k.
+    pub t: Vec<f64>,
+    /// Displacements of the support from where it starts, in σ.
+    #[serde(rename = "R")]
+    pub displacement: Vec<f64>,
+}
+
+/// A height profile.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// Positions, ascending, in σ.
+    pub x: Vec<f64>,
+    /// Heights there, in kσ²/a.
+    pub u: Vec<f64>,
+}
+
+/// amplitude · exp(-(t-time)²/(2 width²)).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PulseParameters {
+    /// Largest force, in kσ.
+    pub amplitude: f64,
+    /// When it is largest, in Γ/k.
+    pub time: f64,
+    /// Standard deviation in time, in Γ/k.
+    pub width: f64,
+}
+
+/// External force against time.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ForceTable {
+    /// Times, ascending, in Γ/k.
+    pub t: Vec<f64>,
+    /// Forces then, in kσ.
+    pub force: Vec<f64>,
+}
+
+/// What the tip finds at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StartName {
+    /// The steady state, as after an infinite past.
+    Steady,
+    /// A flat surface, the spring relaxed, the support above the tip.
+    Flat,
+    /// As the paper's simulations start: noise of 1e-4 on a grid of 0.05 where no other is given, the spring stretched
+    /// by r + alpha/r; the surface flat for a tip whose f has no volume (beta = 1), else that of steady motion.
+    Paper,
+}
+
+/// How the past is remembered.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MemoryName {
+    /// The cheapest: direct while few points lie within reach of the tip, then modes, or fft where no
+    /// exponentials fit.
+    #[default]
+    Auto,
+    /// A sum over the history within reach: the definition, slow for long histories.
+    Direct,
+    /// FFT convolution with the residence density: the same cost for any history.
+    Fft,
+    /// A sum of few exponentials, for tip functions that fade: a step costs the same for ever, and less
+    /// than with fft.
+    Modes,
+}
+
+impl Run {
+    /// A run of a footprint at an indentation rate and a support velocity to a time, from steady motion, under the basic law.
+    pub fn new(tip: Tip, indentation: Indentation, r: f64, until: f64) -> Self {
+        Self {
+            tip,
+            indentation,
+            r: Some(r),
+            law: Law::default(),
+            start: None,
+            start_position: default_start_position(),
+            kick: 0.0,
+            support_path: None,
+            start_velocity: None,
+            noise: None,
+            initial_surface: None,
+            pulses: vec![],
+            force: None,
+            until,
+            tolerance: default_tolerance(),
+            memory: MemoryName::Auto,
+            sampling: Sampling::default(),
+        }
+    }
+
+    /// The question that a scenario answers to; its force is given as what it was made of, pulses and a table (t, force).
+    pub fn of(scenario: &Scenario, pulses: &[Pulse], force: Option<(Vec<f64>, Vec<f64>)>) -> Self {
+        let model = &scenario.model;
+        let (tip, alpha) = (Tip(model.tip().clone()), Indentation::given(model.alpha()));
+        Self {
+            law: (*model.wider()).into(),
+            start: Some(scenario.start.into()),
+            start_position: scenario.start_position,
+            kick: scenario.kick,
+            support_path: scenario.path.as_ref().map(Into::into),
+            start_velocity: scenario.start_velocity,
+            noise: scenario.noise.map(Into::into),
+            initial_surface: scenario.profile.clone().map(|(x, u)| Profile { x, u }),
+            pulses: pulses.iter().copied().map(Into::into).collect(),
+            force: force.map(|(t, force)| ForceTable { t, force }),
+            tolerance: scenario.tolerance,
+            memory: scenario.memory.into(),
+            ..Self::new(tip, alpha, model.r(), scenario.until)
+        }
+    }
+
+    /// Footprint, law, α and r as other documents hold them.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r.unwrap_or(f64::NAN), self.law)
+    }
+
+    /// The law, which a footprint that never fades needs healing for, and the velocity of the support.
+    fn velocity(&self) -> Result<f64, Refused> {
+        if self.law.no_spring {
+            return match self.r.filter(|r| r.abs() > 0.0) {
+                None => Ok(0.0),
+                Some(r) => {
+                    let why = "without a spring there is no support that could move: leave it out";
+                    Err(Refused::number("r", r, why))
+                }
+            };
+        }
+        self.r.ok_or_else(|| Refused::whole("r", "is needed: the support velocity r, (12)"))
+    }
+
+    /// With the α of αc(r) + D.
+    fn indented(self) -> Result<Self, Refused> {
+        let r = self.velocity()?;
+        if let Some(above) = self.indentation.alpha_above.filter(|_| self.law.no_spring) {
+            let why = "without a spring there is no onset: give {alpha}";
+            return Err(Refused::number("alpha_above", above, why));
+        }
+        let indentation = self.indentation.resolved(&self.tip.0, self.law.into(), r)?;
+        Ok(Self { indentation, r: Some(r), ..self })
+    }
+
+    /// Footprint, law, α and r of a question whose α is known.
+    ///
+    /// # Errors
+    /// A number is out of its range.
+    pub fn model(&self) -> Result<Model, Refused> {
+        self.indentation.model(&self.tip.0, self.law.into(), self.velocity()?)
+    }
+
+    /// With the start of the paper in the terms of others. The paper sets its tip down at X with the spring stretched by
+    /// r + α/r on the steady surface, which it takes for flat where f has no volume (docs/corrections.md, 13).
+    fn started(self, model: &Model) -> Self {
+        let usual = if model.wider().spring { StartName::Steady } else { StartName::Flat };
+        let start = self.start.unwrap_or(usual);
+        if start != StartName::Paper {
+            return Self { start: Some(start), ..self };
+        }
+        let noise = self.noise.or(Some(PAPERS_NOISE));
+        // Round-off of a sum of Gaussians that cancel.
+        if model.steady_surface_behind().abs() > 1e-9 * model.alpha() {
+            return Self { start: Some(StartName::Steady), noise, ..self };
+        }
+        let stretched = model.r() + model.alpha() / model.r();
+        let (start_position, kick) = (self.start_position + stretched, self.kick + stretched);
+        Self { start: Some(StartName::Flat), noise, start_position, kick, ..self }
+    }
+
+    /// When a run with a steady start begins.
+    ///
+    /// # Errors
+    /// That is not before its end, or a parameter is out of its range.
+    pub(crate) fn started_at(&self) -> Result<f64, Failure> {
+        Ok(Self { start: Some(StartName::Steady), ..self.clone() }.prepared()?.start_time())
+    }
+
+    /// The scenario of a resolved question.
+    ///
+    /// # Errors
+    /// A parameter is out of its range, or contradicts another.
+    pub fn prepared(&self) -> Result<Scenario, Failure> {
+        let scenario = self.assembled()?;
+        scenario.validate().map_err(|error| self.refused(&error))?;
+        Ok(scenario)
+    }
+
+    /// The same, whether or not a run can be made of it.
+    fn assembled(&self) -> Result<Scenario, Refused> {
+        let pulses = self.pulses.iter().map(Into::into).collect();
+        let table = self.force.clone().map(|table| (table.t, table.force));
+        let force = Force::new(pulses, table).map_err(|error| match error {
+            ForceError::Table(error) => Refused::whole("force", error),
+            error => Refused::whole("pulses", error),
+        })?;
+        let path = self.support_path.as_ref().map(SupportPathParameters::path).transpose();
+        Ok(Scenario {
+            start: self.start.unwrap_or(StartName::Steady).into(),
+            start_position: self.start_position,
+            kick: self.kick,
+            path: path.map_err(|error| Refused::whole("support_path", error))?,
+            start_velocity: self.start_velocity,
+            noise: self.noise.as_ref().map(Into::into),
+            profile: self.initial_surface.clone().map(|profile| (profile.x, profile.u)),
+            force,
+            tolerance: self.tolerance,
+            memory: self.memory.into(),
+            ..Scenario::new(self.model()?, self.until)
+        })
+    }
+
+    /// The same of a document, which somebody may have changed.
+    ///
+    /// # Errors
+    /// No run can be that of these parameters.
+    pub fn scenario(&self) -> Result<Scenario, Unusable> {
+        let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
+        self.prepared().map_err(unusable)
+    }
+
+    /// Refuses what no run can do justice to, for want of digits.
+    fn judge_distances(&self, scenario: &Scenario) -> Result<(), Refused> {
+        let model = &scenario.model;
+        // Without a spring there is none.
+        let lag = if model.wider().spring { model.steady_lag() } else { 0.0 };
+        let (name, value) = self.behind_the_lag(model);
+        let distances = [
+            ("start_position", self.start_position, "the tip would start at", self.start_position),
+            ("kick", self.kick, "the tip would be displaced by", self.kick),
+            ("until", self.until, "the support would go to r until =", model.r() * self.until),
+            (name, value, "in steady motion the tip would lag behind by r + alpha f(0)/r =", lag),
+        ];
+        // What is not finite is left to the validation of the scenario.
+        let far = |distance: f64| distance.abs() > FARTHEST;
+        match distances.into_iter().find(|(.., distance)| far(*distance)) {
+            None => Ok(()),
+            Some((name, value, what, distance)) => {
+                let why = format!(
+                    "{what} {}; at most {FARTHEST:e} will do, where a thousandth is the last digit that a position has",
+                    Typed(distance)
+                );
+                Err(if name == "tip" {
+                    Refused::whole(name, why)
+                } else {
+                    Refused::number(name, value, why)
+                })
+            }
+        }
+    }
+
+    /// The parameter that makes r + α f(0)/r what it is: the one farthest from 1.
+    fn behind_the_lag(&self, model: &Model) -> (&'static str, f64) {
+        let (alpha, r, height) = (model.alpha(), model.r(), model.tip().value(0.0).abs());
+        match self.indentation.alpha_above {
+            _ if height > alpha.max(r).max(1.0 / r) => ("tip", height),
+            _ if r.max(1.0 / r) > alpha => ("r", r),
+            Some(above) => ("alpha_above", above),
+            None => ("alpha", alpha),
+        }
+    }
+
+    /// What a run was refused for, by its parameter; or what failed.
+    pub fn refused(&self, error: &RunError) -> Failure {
+        let number = |name: &'static str, value: f64| Refused::number(name, value, error);
+        let named = |name: &'static str, value: &str| {
+            let value = Some(value.into());
+            Refused { parameter: name.into(), value, why: error.to_string() }
+        };
+        let refused = match error {
+            RunError::TooFar { .. } if self.start_position.abs() > 1e3 => {
+                number("start_position", self.start_position)
+            }
+            RunError::StartPosition(x) => number("start_position", *x),
+            RunError::Kick(kick) => number("kick", *kick),
+            RunError::Until { until, .. } => number("until", *until),
+            RunError::Tolerance(tolerance) | RunError::TooFar { tolerance, .. } => {
+                number("tolerance", *tolerance)
+            }
+            RunError::Noise { noise, .. } => {
+                let value = format!("{} and {}", Typed(noise.amplitude), Typed(noise.spacing));
+                named("noise and noise_spacing", &value)
+            }
+            RunError::Modes(_) => named("memory", "modes"),
+            RunError::Profile(_) => Refused::whole("initial_surface", error),
+            RunError::StartVelocity(v) => number("start_velocity", *v),
+            RunError::Path(_) | RunError::PathWithoutSpring | RunError::PathEnds { .. } => {
+                Refused::whole("support_path", error)
+            }
+            RunError::NoSteadyStart(_) => named("start", "steady"),
+            RunError::Integration(_) | RunError::HistoryTooLong { .. } | RunError::State(_) => {
+                return Failure::Failed(error.to_string());
+            }
+        };
+        refused.into()
+    }
+
+    /// The document of a run that became what `end` says.
+    pub fn document(
+        self,
+        samples: &[SampleLine],
+        history: Option<History>,
+        end: RunEnd,
+    ) -> RunDocument {
+        let steady_state = self.model().ok().and_then(|model| SteadyState::of(&model));
+        let remarks = end.remarks.clone();
+        Document::new(self, RunFound::new(steady_state, samples, history, end), remarks)
+    }
+}
+
+/// A run and the question that it answers. `remarks` say where round-off, the start, the tolerance or a disturbance decides.
+pub type RunDocument = Document<Run>;
+
+impl Question for Run {
+    const FORMAT: &'static str = "stickslip/run";
+    type Answer = RunFound;
+
+    fn history(answer: &mut RunFound) -> Option<&mut Option<History>> {
+        Some(&mut answer.history)
+    }
+}
+
+impl Ask for Run {
+    fn support_velocity(&self) -> Option<f64> {
+        self.r
+    }
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        let question = self.indented()?;
+        let model = question.model()?;
+        let question = question.started(&model);
+        question.judge_distances(&question.assembled()?)?;
+        question.prepared()?;
+        Ok(question)
+    }
+
+    /// With its dense history.
+    fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
+        let scenario = self.prepared()?;
+        let refused = |error: RunError| self.refused(&error);
+        let span = (scenario.start_time(), scenario.until);
+        let times = self.sampling.times(span, "the run", true)?;
+        let initial = scenario.initial_surface().map_err(refused)?;
+        let mut running = Watched::new(&scenario, &initial).map_err(refused)?;
+        let (began, mut steps) = (context.seconds(), vec![]);
+        while !context.is_cancelled()
+            && let Some(step) = running.step().map_err(refused)?
+        {
+            let part = (step.end() - span.0) / (span.1 - span.0);
+            // That it is cancelled ends the loop.
+            context.reached(Some(part), &format!("t = {:.6}", step.end())).ok();
+            steps.push(step);
+        }
+        let end = became(&scenario, &initial, &running, context.seconds() - began)?;
+        let end = RunEnd { interrupted: running.t() < scenario.until, ..end };
+        let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
+        let samples = sampled(&trajectory, &times);
+        let remarks = end.remarks.clone();
+        let steady_state = SteadyState::of(&scenario.model);
+        let mut found = RunFound::new(steady_state, &samples, Some((&trajectory).into()), end);
+        found.loops = RunFound::loops_of(&scenario, &trajectory);
+        Ok((found, remarks))
+    }
+
+    /// A run that is cancelled ends where it is.
+    fn answered(self, context: &Context) -> Result<RunDocument, Failure> {
+        let (answer, remarks) = context.keeping(|| self.answer(context))?;
+        Ok(Document::new(self, answer, remarks))
+    }
+}
+
+impl From<&SupportPath> for SupportPathParameters {
+    fn from(path: &SupportPath) -> Self {
+        let (t, displacement) = path.knots();
+        Self { t: t.to_vec(), displacement: displacement.to_vec() }
+    }
+}
+
+impl SupportPathParameters {
+    fn path(&self) -> Result<SupportPath, RunError> {
+        SupportPath::new(self.t.clone(), self.displacement.clone()).map_err(RunError::from)
+    }
+}
+
+impl From<Pulse> for PulseParameters {
+    fn from(pulse: Pulse) -> Self {
+        Self { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
+    }
+}
+
+impl From<&PulseParameters> for Pulse {
+    fn from(pulse: &PulseParameters) -> Self {
+        Self { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
+    }
+}
+
+impl From<Noise> for NoiseParameters {
+    fn from(noise: Noise) -> Self {
+        Self { amplitude: noise.amplitude, spacing: noise.spacing, seed: noise.seed }
+    }
+}
+
+impl From<&NoiseParameters> for Noise {
+    fn from(noise: &NoiseParameters) -> Self {
+        Self { amplitude: noise.amplitude, spacing: noise.spacing, seed: noise.seed }
+    }
+}
+
+impl From<Start> for StartName {
+    fn from(start: Start) -> Self {
+        match start {
+            Start::Steady => Self::Steady,
+            Start::Flat => Self::Flat,
+        }
+    }
+}
+
+impl From<StartName> for Start {
+    fn from(name: StartName) -> Self {
+        match name {
+            StartName::Steady => Self::Steady,
+            // The surface of the paper's start, until the question is resolved.
+            StartName::Flat | StartName::Paper => Self::Flat,
+        }
+    }
+}
+
+impl From<MemoryChoice> for MemoryName {
+    fn from(memory: MemoryChoice) -> Self {
+        match memory {
+            MemoryChoice::Auto => Self::Auto,
+            MemoryChoice::Direct => Self::Direct,
+            MemoryChoice::Fft => Self::Fft,
+            MemoryChoice::Modes => Self::Modes,
+        }
+    }
+}
+
+impl From<MemoryName> for MemoryChoice {
+    fn from(name: MemoryName) -> Self {
+        match name {
+            MemoryName::Auto => Self::Auto,
+            MemoryName::Direct => Self::Direct,
+            MemoryName::Fft => Self::Fft,
+            MemoryName::Modes => Self::Modes,
+        }
+    }
+}

@@ -37,7 +37,7 @@ pub(crate) fn heights(
     x: &[f64],
     t: &[f64],
 ) -> PyResult<Vec<f64>> {
-    let model = run.parameters.model.model().map_err(unusable)?;
+    let model = run.parameters.model_parameters().model().map_err(unusable)?;
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(unusable)?;
     let surface = Surface::new(&model, &initial, trajectory);

@@ -2,8 +2,8 @@
 
 use crate::refusal::Refusal;
 use serde::Deserialize;
-use stickslip::StartName;
-use stickslip_tip::{Model, Scenario, TipFunction, Wider};
+use stickslip::{Indentation, Run, StartName, Tip};
+use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Deserialize)]
@@ -45,8 +45,10 @@ impl Asked {
         Ok(Model::under(self.wider(), self.tip()?, self.alpha, self.r)?)
     }
 
-    pub(crate) fn scenario(&self) -> Result<Scenario, Refusal> {
-        let (start, kick) = (self.start.into(), self.kick);
-        Ok(Scenario { start, kick, ..Scenario::new(self.model()?, self.until) })
+    /// The run to these parameters.
+    pub(crate) fn run(&self) -> Result<Run, Refusal> {
+        let (start, kick, law) = (Some(self.start), self.kick, self.wider().into());
+        let run = Run::new(Tip(self.tip()?), Indentation::given(self.alpha), self.r, self.until);
+        Ok(Run { start, kick, law, ..run })
     }
 }

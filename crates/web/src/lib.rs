@@ -17,6 +17,7 @@ use asked::Asked;
 use motion::Motion;
 use refusal::Refusal;
 use serde::Serialize;
+use stickslip::RunFound;
 use wasm_bindgen::prelude::*;
 
 fn told(refusal: &Refusal) -> JsError {
@@ -30,6 +31,14 @@ fn json<T: Serialize>(found: Result<T, Refusal>) -> Result<String, JsError> {
 
 fn read(asked: &str) -> Result<Asked, JsError> {
     Asked::read(asked).map_err(|refusal| told(&refusal))
+}
+
+/// What became of a run, without its motion.
+#[derive(Serialize)]
+struct Judged {
+    #[serde(flatten)]
+    found: RunFound,
+    remarks: Vec<String>,
 }
 
 /// A run that has been made.
@@ -80,7 +89,10 @@ impl Tip {
     /// # Errors
     /// A run without steps.
     pub fn judged(&self) -> Result<String, JsError> {
-        json(self.0.end())
+        let document = self.0.document();
+        let mut found = document.answer.clone();
+        (found.history, found.samples) = (None, [][..].into());
+        json(Ok(Judged { found, remarks: document.remarks.clone() }))
     }
 
     /// The document of the run, as the program writes it.
@@ -88,7 +100,7 @@ impl Tip {
     /// # Errors
     /// As [`judged`](Self::judged).
     pub fn document(&self) -> Result<String, JsError> {
-        json(self.0.document())
+        json(Ok(self.0.document()))
     }
 }
 

@@ -6,5 +6,3 @@ pub(crate) const MOST_TIME: f64 = 20_000.0;
 pub(crate) const MOST_LINES: usize = 400;
 /// Milliseconds that a run may take: then it is cut off, and says so.
 pub(crate) const MOST_MILLISECONDS: f64 = 4_000.0;
-/// Steps between two looks at the clock: some 0.1 ms.
-pub(crate) const STEPS_PER_LOOK: usize = 32;

@@ -3,12 +3,10 @@
 use crate::asked::Asked;
 use crate::refusal::Refusal;
 use serde::Serialize;
-use stickslip::{ComplexDocument, CriticalDocument, SteadyState};
-use stickslip_stability::{
-    Critical, OnsetKind, StabilityError, critical, leading_roots, trapping_alpha,
-    unstable_count,
+use stickslip::{
+    Ask, ComplexDocument, Context, CriticalDocument, Indentation, OnsetKindName, Stability,
+    SteadyState, Tip,
 };
-use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Exponents that the page lists.
 const ROOTS: usize = 6;
@@ -29,41 +27,21 @@ pub(crate) struct Linear {
     remarks: Vec<String>,
 }
 
-/// αc(r) under any law, and whether linear theory decides there.
-pub(crate) fn onset(
-    wider: &Wider,
-    tip: &TipFunction,
-    r: f64,
-) -> Result<(Critical, Option<OnsetKind>), StabilityError> {
-    let found = critical(wider, tip, r)?;
-    Ok((found, (!wider.is_papers()).then_some(found.kind)))
-}
-
 pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {
-    let model = asked.model()?;
-    let onset = onset(model.wider(), model.tip(), model.r());
-    let trapping = if model.wider().traps() {
-        trapping_alpha(model.tip(), model.r())
-    } else {
-        Err(StabilityError::PapersLawOnly("trapping"))
+    let question = Stability {
+        indentation: Indentation::given(asked.alpha),
+        law: asked.wider().into(),
+        roots: Some(ROOTS),
+        ..Stability::new(Tip(asked.tip()?), asked.r)
     };
-    let has_corner = matches!(onset, Ok((_, Some(OnsetKind::NonSmooth))));
-    let roots = if has_corner { Err(StabilityError::Corner) } else { roots(&model) };
-    let remark = |name: &str, error: Option<StabilityError>| error.map(|e| format!("{name}: {e}"));
-    let remarks = remark("αc", onset.as_ref().err().copied())
-        .into_iter()
-        .chain(remark("exponents", roots.as_ref().err().copied()));
+    let found = question.ask(&Context::default())?;
+    let kind = found.critical.as_ref().and_then(|critical| critical.kind);
     Ok(Linear {
-        remarks: remarks.collect(),
-        critical: onset.ok().map(|(at, kind)| CriticalDocument::of(&at, kind)),
-        trapping: trapping.ok(),
-        stable: unstable_count(&model).ok().filter(|_| !has_corner).map(|count| count == 0),
-        roots: roots.unwrap_or_default(),
-        steady: SteadyState::of(&model),
+        trapping: found.trapping.alpha,
+        stable: (kind != Some(OnsetKindName::NonSmooth)).then_some(found.stable),
+        roots: found.roots.clone(),
+        steady: SteadyState::of(&asked.model()?),
+        remarks: found.remarks.clone(),
+        critical: found.answer.critical,
     })
-}
-
-fn roots(model: &Model) -> Result<Vec<ComplexDocument>, StabilityError> {
-    let spectrum = leading_roots(model, ROOTS)?;
-    Ok(spectrum.roots.iter().map(|z| ComplexDocument { re: z.re, im: z.im }).collect())
 }

@@ -1,10 +1,10 @@
 //! The phase map: what the tip settles into at points of the plane of r and α.
 
 use crate::asked::Asked;
-use crate::linear::onset;
 use crate::refusal::Refusal;
 use stickslip_cycles::CycleError;
 use stickslip_outcome::{Motion, Regime, motion};
+use stickslip_stability::Boundary;
 use stickslip_tip::Model;
 
 /// Residual asked of cycles, as in a sweep.
@@ -42,6 +42,6 @@ fn class(found: Result<Motion, CycleError>) -> u8 {
 
 pub(crate) fn boundary(asked: &Asked, velocities: &[f64]) -> Result<Vec<f64>, Refusal> {
     let (tip, wider) = (asked.tip()?, asked.wider());
-    let at = |r: &f64| onset(&wider, &tip, *r).map_or(f64::NAN, |(at, _)| at.alpha);
-    Ok(velocities.iter().map(at).collect())
+    let boundary = Boundary::new(&wider, &tip);
+    Ok(velocities.iter().map(|r| boundary.at(*r).map_or(f64::NAN, |at| at.alpha)).collect())
 }

@@ -1,7 +1,7 @@
 //! Why there is no result, in words for the page.
 
-use stickslip_cycles::CycleError;
 use stickslip::Unusable;
+use stickslip_cycles::CycleError;
 use stickslip_raster::RasterError;
 use stickslip_stability::StabilityError;
 use stickslip_surface::SurfaceError;
@@ -17,8 +17,6 @@ pub(crate) enum Refusal {
     TooLong(f64),
     #[error("the page scans up to {most} lines, not {0}: the program scans more", most = crate::limits::MOST_LINES)]
     TooManyLines(usize),
-    #[error("the run has no steps")]
-    NoSteps,
     #[error(transparent)]
     Unusable(#[from] Unusable),
     #[error(transparent)]

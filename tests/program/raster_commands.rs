@@ -168,8 +168,8 @@ fn a_raster_is_compared_with_rows_of_cells() {
     ] {
         folder.refuses(&format!("{line} {option}"), &words);
     }
-    folder.refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["required", "--lines"]);
-    folder.refuses("compare --alpha 1 --r 1", &["required", "--until"]);
+    folder.refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["--path zigzag", "--lines"]);
+    folder.refuses("compare --alpha 1 --r 1", &["is needed", "--until"]);
 }
 
 /// Killed at whatever moment, it goes on from its last line and writes the same bytes.
@@ -245,7 +245,7 @@ fn a_raster_under_the_wider_law_is_one_too() {
     assert!(number(&healed["volume"]) > 0.5 * never, "{}", healed["volume"]);
     folder.refuses(
         "raster --alpha -1 --no-spring --pitch 1 --lines 3 --length 15",
-        &["--r", "required"],
+        &["--no-spring", "nothing drags"],
     );
     // β = 1 has its corner there, other tips have a linear theory.
     folder.refuses("stability --r 1 --pitch 1 --depth-limit 3", &["--depth-limit", "corner"]);
@@ -323,7 +323,7 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
 fn what_no_raster_can_be_made_of_is_refused_with_advice() {
     let folder = Folder::new("raster_refused");
     for (line, words) in [
-        ("raster --alpha 1 --r 1 --lines 3 --length 10", ["--pitch", "required"]),
+        ("raster --alpha 1 --r 1 --lines 3 --length 10", ["--pitch", "give the distance"]),
         ("raster --alpha 1 --r 1 --pitch 0 --lines 3 --length 10", ["--pitch 0", "above 0"]),
         ("raster --alpha 1 --r 1 --pitch 1 --lines 0 --length 10", ["--lines 0", "between 1"]),
         ("raster --alpha 1 --r 1 --pitch 1 --lines 3 --length -10", ["--length -10", "above 0"]),

@@ -1,6 +1,6 @@
 //! A document of a raster is the raster: plan and lines come back from its text.
 
-use stickslip::{KeptLine, ModelParameters, RasterDocument, RasterParameters, read};
+use stickslip::{KeptLine, ModelParameters, Raster, RasterDocument, read};
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
@@ -24,8 +24,8 @@ fn document(path: Path) -> (Plan, Vec<Line>, RasterDocument) {
     while scanning.next_line().unwrap().is_some() {}
     let lines = scanning.into_lines();
     let model = ModelParameters::of(&plan.law.model, None);
-    let parameters = RasterParameters::of(&plan, model, Some(1.3));
-    let document = RasterDocument::new(parameters, &plan, &lines, &[0.0, 10.0, 20.0]);
+    let parameters = Raster::of(&plan, &model, Some(1.3)).unwrap();
+    let document = parameters.document(&plan, &lines, &[0.0, 10.0, 20.0]);
     (plan, lines, document)
 }
 

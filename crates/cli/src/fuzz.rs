@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
-use crate::arguments::{Cli, Command, ModelArguments};
+use crate::arguments::{Cli, Command, Options, Questions};
 use crate::commands::run::disturbance::parse_pulses;
 use crate::commands::sweep::merge;
 use crate::commands::{model, run};
@@ -307,8 +307,11 @@ fn any_sweep_is_taken_or_refused() {
     });
 }
 
-fn judge_model(arguments: &ModelArguments) -> bool {
-    arguments.tip.tip_file.is_some() || model::wide_model(arguments).is_ok()
+/// Whether options make a run, as far as they need no file.
+fn judge_run<Q: Questions>(options: &Options<Q>) -> bool {
+    let question = || options.values().map(parameter::question::<Run>);
+    let is_model = || question().is_ok_and(|run| run.is_ok_and(|run| run.model().is_ok()));
+    options.tip.tip_file.is_some() || is_model()
 }
 
 #[test]
@@ -323,13 +326,9 @@ fn any_command_line_is_taken_or_refused() {
         let Ok(cli) = Cli::try_parse_from(words) else { return false };
         match &cli.command {
             Command::Run(given) => {
-                let has_file = given.options.tip.tip_file.is_some();
-                let question = || given.options.values().map(parameter::question::<Run>);
-                let is_model =
-                    || question().is_ok_and(|run| run.is_ok_and(|run| run.model().is_ok()));
-                (has_file || is_model()) && parse_pulses(&given.disturbance.pulse).is_ok()
+                judge_run(&given.options) && parse_pulses(&given.disturbance.pulse).is_ok()
             }
-            Command::Compare(given) => judge_model(&given.model),
+            Command::Compare(given) => judge_run(&given.options),
             _ => true,
         }
     });

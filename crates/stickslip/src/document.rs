@@ -25,6 +25,11 @@ pub trait Question:
     fn history(_: &mut Self::Answer) -> Option<&mut Option<History>> {
         None
     }
+
+    /// Arrays that follow from question and answer together, such as a surface.
+    fn more_arrays(&self, _: &Self::Answer) -> Vec<(&'static str, Array<'static>)> {
+        vec![]
+    }
 }
 
 /// A question and its answer, as they are saved. The fields of the answer stand beside those of the envelope.
@@ -117,7 +122,9 @@ impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
     }
 
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        self.answer.arrays()
+        let mut arrays = self.answer.arrays();
+        arrays.extend(self.parameters.more_arrays(&self.answer));
+        arrays
     }
 }
 

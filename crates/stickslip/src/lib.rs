@@ -59,6 +59,7 @@ pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
 pub use ask::lines;
+pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
 pub use ask::raster_boundary::{RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound};
 pub use ask::raster_stability::{
     RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStability,
@@ -105,11 +106,11 @@ pub use documents::physical::{
     InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units,
 };
 pub use documents::raster::{
-    AreaDocument, ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PathName,
-    PatternDocument, RasterCompareDocument, RasterCompareFound, RasterCompareParameters,
-    RasterCompared, RasterComparedWork, RasterDocument, RasterHistory, RasterLine,
-    RasterParameters, RasterRegimeName, RasterSamples, RasterSurfaceDocument, RasterSweepDocument,
-    RasterSweepFound, RasterSweepParameters, RasterSweepPoint, RasterWork,
+    ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PatternDocument,
+    RasterCompareDocument, RasterCompareFound, RasterCompareParameters, RasterCompared,
+    RasterComparedWork, RasterFound, RasterHistory, RasterLine, RasterRegimeName, RasterSamples,
+    RasterSurfaceDocument, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
+    RasterSweepPoint, RasterWork,
 };
 pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
 pub use documents::reproduction::{

@@ -2,69 +2,36 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{
-    DisturbanceArguments, InUnitsArguments, ModelArguments, OutletArguments, SamplingArguments,
-    ScanArguments, StartArguments,
-};
-use clap::{ArgGroup, Args};
+use super::{AnswerArguments, AreaArguments, DisturbanceArguments, Either, Options};
+use clap::Args;
 use std::path::PathBuf;
-use stickslip::{GridName, MemoryName};
+use stickslip::{GridName, Raster, Run};
 
 /// The closed equation against the full PDE on a grid: largest difference and speed.
+///
+/// A run to --until, or with --lines or --area a raster. The tolerance is that of the closed equation.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required_unless_present("no_spring")),
-    mut_arg("pitch", |pitch| pitch.requires("lines").conflicts_with_all(OF_A_RUN)),
-    mut_arg("lines", |lines| lines.requires("length").conflicts_with_all(OF_A_RUN)),
-    mut_arg("length", |length| length.requires("lines")),
-    mut_arg("area", |area| area.conflicts_with_all(OF_A_RUN)),
-    mut_arg("path", |path| path.requires("rastered")),
-    mut_arg("width_y", |width| width.requires("rastered")),
-    group(ArgGroup::new("rastered").args(["lines", "area"]).multiple(true))
+    mut_arg("lines", |lines| lines.conflicts_with_all(OF_A_RUN)),
+    mut_arg("area", |area| {
+        area.conflicts_with_all(OF_A_RUN).conflicts_with_all(["pitch", "lines", "length"])
+    })
 )]
 pub(crate) struct CompareArguments {
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
-
-    /// Time at which both end (they start as `stickslip run` does), in Γ/k.
-    #[arg(
-        long,
-        value_name = "T",
-        allow_hyphen_values = true,
-        required_unless_present_any = ["lines", "area"]
-    )]
-    pub(crate) until: Option<f64>,
+    pub(crate) options: Options<Either<Run, Raster>>,
 
     #[command(flatten)]
-    pub(crate) scan: ScanArguments,
-
-    #[command(flatten)]
-    pub(crate) start: StartArguments,
+    pub(crate) area: AreaArguments,
 
     #[command(flatten)]
     pub(crate) disturbance: DisturbanceArguments,
 
-    /// How the closed equation remembers the past.
-    #[arg(
-        long,
-        value_parser = named::<MemoryName>(),
-        value_name = "MEMORY",
-        default_value = "auto",
-        help_heading = "Closed equation"
-    )]
-    pub(crate) memory: MemoryName,
-
-    /// Error of x0(t) asked of the closed equation, in σ; from 1e-13 to 1e-2.
-    #[arg(
-        long,
-        value_name = "E",
-        default_value = "1e-9",
-        allow_hyphen_values = true,
-        help_heading = "Closed equation"
-    )]
-    pub(crate) tolerance: f64,
+    /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R`, as for `stickslip run`.
+    #[arg(long, value_name = "FILE", help_heading = "Start")]
+    pub(crate) support_path: Option<PathBuf>,
 
     /// Which discretisation of (10), (11); of a raster sinc, which spectral stands for there too, or windowed.
     #[arg(
@@ -110,17 +77,7 @@ pub(crate) struct CompareArguments {
     pub(crate) time_limit: f64,
 
     #[command(flatten)]
-    pub(crate) sampling: SamplingArguments,
-
-    #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw both motions, and how far apart they and the surfaces are, to this .svg or .png.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
 
 const USAGE: &str =
@@ -130,19 +87,8 @@ const USAGE: &str =
        stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]";
 
 /// What lines of a raster have not: they start flat and end where they do.
-const OF_A_RUN: [&str; 11] = [
-    "until",
-    "start",
-    "start_position",
-    "kick",
-    "support_path",
-    "start_velocity",
-    "noise",
-    "seed",
-    "initial_surface",
-    "force_file",
-    "grid_until",
-];
+const OF_A_RUN: [&str; 6] =
+    ["support_path", "noise", "seed", "initial_surface", "force_file", "grid_until"];
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:

@@ -21,11 +21,8 @@ mod raster;
 mod raster_sweep;
 mod response;
 mod run;
-mod sampling;
-mod scan;
 mod shard;
 mod stability;
-mod start;
 mod surface;
 mod sweep;
 mod sweep_start;
@@ -48,14 +45,11 @@ pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use question::{Either, Options, Questions};
 pub(crate) use range::Range;
-pub(crate) use raster::RasterArguments;
+pub(crate) use raster::{AreaArguments, RasterArguments};
 pub(crate) use raster_sweep::RasterSweepArguments;
 pub(crate) use response::ResponseArguments;
 pub(crate) use run::{HistoryName, RunArguments};
-pub(crate) use sampling::SamplingArguments;
-pub(crate) use scan::ScanArguments;
 pub(crate) use stability::StabilityArguments;
-pub(crate) use start::StartArguments;
 pub(crate) use surface::SurfaceArguments;
 pub(crate) use sweep::{MergeArguments, SweepArguments, SweepThen};
 pub(crate) use tip::MeasuredTipArguments;
@@ -137,7 +131,7 @@ pub(crate) enum Command {
     Cycle(CycleArguments),
     Continue(ContinueArguments),
     Sweep(Box<SweepArguments>),
-    Raster(RasterArguments),
+    Raster(Box<RasterArguments>),
     Tip(MeasuredTipArguments),
     Fit(Box<FitArguments>),
     Units(UnitsArguments),

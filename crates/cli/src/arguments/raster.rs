@@ -1,13 +1,19 @@
 //! `stickslip raster`.
 
 use super::examples::examples;
-use super::named::named;
-use super::{
-    FieldArguments, Format, InUnitsArguments, ModelArguments, SamplingArguments, ScanArguments,
-};
+use super::{FieldArguments, Format, InUnitsArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip::MemoryName;
+use stickslip::Raster;
+
+/// Lines from a file: an option of every command that scans an area.
+#[derive(Debug, Args)]
+pub(crate) struct AreaArguments {
+    /// Any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan, in σ. It
+    /// takes the place of --pitch, --lines and --length.
+    #[arg(long, value_name = "FILE", help_heading = "Scan")]
+    pub(crate) area: Option<PathBuf>,
+}
 
 /// Scan an area line by line, and report the pattern that the lines have written.
 ///
@@ -20,45 +26,19 @@ use stickslip::MemoryName;
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("r", |r| r.required(true)),
-    mut_arg("pitch", |pitch| pitch.required_unless_present_any(["path", "area"])),
-    mut_arg("lines", |lines| lines.required_unless_present("area")),
-    mut_arg("length", |length| length.required_unless_present("area"))
+    mut_arg("area", |area| area.conflicts_with_all(["pitch", "lines", "length"]))
 )]
 pub(crate) struct RasterArguments {
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
+    pub(crate) options: Options<Raster>,
 
     #[command(flatten)]
-    pub(crate) scan: ScanArguments,
+    pub(crate) area: AreaArguments,
 
     /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T since its start: what disturbs all
     /// that follow; repeatable.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
-
-    /// How the past of a line is remembered. All memories give the same motion to the tolerance.
-    #[arg(
-        long,
-        value_parser = named::<MemoryName>(),
-        value_name = "MEMORY",
-        default_value = "auto",
-        help_heading = "Accuracy"
-    )]
-    pub(crate) memory: MemoryName,
-
-    /// Error of x0 on each line asked for, in σ; from 1e-13 to 1e-2.
-    #[arg(
-        long,
-        value_name = "E",
-        default_value = "1e-9",
-        allow_hyphen_values = true,
-        help_heading = "Accuracy"
-    )]
-    pub(crate) tolerance: f64,
-
-    #[command(flatten)]
-    pub(crate) sampling: SamplingArguments,
 
     /// File to write: .json for all, .csv for the samples, .npz for samples, heights and history as NumPy arrays, .gsf
     /// for the height map in Gwyddion; `-` is standard output.

@@ -16,7 +16,9 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use stickslip::parameter::overridden;
-use stickslip::{self as documents, Ask, Context, Document, Physical, Refused, Tip, parameter};
+use stickslip::{
+    self as documents, Ask, Context, Document, Physical, Question, Refused, Tip, parameter,
+};
 use stickslip_figures::Drawn;
 
 /// Progress goes to the terminal or to the host, which may cancel.
@@ -184,13 +186,22 @@ pub(crate) fn asked<Q: Ask, K: Questions>(
 where
     Document<Q>: Product + Drawn,
 {
-    if let Some(name) = parameter::stranger::<Q>(&values) {
-        let message = format!("has no meaning with {chosen_by}: leave one of them out");
-        let value = parameter::typed(&values[name]);
-        return Err(Failure::input(format!("{} {value}", option(name)), message));
-    }
+    refuse_strangers::<Q>(&values, chosen_by)?;
     let question: Q = parameter::question(values)?;
     answer(question, place, options.tip.tip_file.as_deref())
+}
+
+/// Refuses what is no parameter of `Q`; `chosen_by` is the option by which it is this question.
+///
+/// # Errors
+/// The refusal.
+pub(crate) fn refuse_strangers<Q: Question>(
+    values: &Map<String, Value>,
+    chosen_by: &str,
+) -> Result<(), Failure> {
+    let Some(name) = parameter::stranger::<Q>(values) else { return Ok(()) };
+    let named = format!("{} {}", option(name), parameter::typed(&values[name]));
+    Err(Failure::input(named, format!("has no meaning with {chosen_by}: leave one of them out")))
 }
 
 impl From<Refused> for Failure {

@@ -5,9 +5,8 @@ mod grid;
 mod pace;
 mod raster;
 
-use super::ask::{context, refusal};
+use super::ask::{context, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
-use super::model::{indentation, tip, wider};
 use super::run::disturbance::{disturbed, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
@@ -15,9 +14,10 @@ use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use closed::Closed;
 use grid::{Discretisation, Motion};
+use serde_json::{Map, Value};
 use stickslip::{
     Ask, CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document,
-    KnownScales, Physical, Run, Tip,
+    KnownScales, Physical, Run, parameter,
 };
 use stickslip_tip::Scenario;
 
@@ -25,14 +25,16 @@ use stickslip_tip::Scenario;
 const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
-    if arguments.scan.lines.is_some() || arguments.scan.area.is_some() {
+    let CompareArguments { options, area, answer: place, .. } = arguments;
+    if options.has("lines") || area.area.is_some() {
         return raster::compare(arguments);
     }
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &files(arguments))?;
-    let tip_file = arguments.model.tip.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
-    let asked = Asked::of(arguments, scales.as_ref())?;
-    let job = Job::open::<CompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    judge_places(&place.outlet, place.plot.as_deref(), &files(arguments))?;
+    let values = options.values()?;
+    let tip_file = options.tip.tip_file.as_deref();
+    let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let asked = Asked::of(arguments, values, scales.as_ref())?;
+    let job = Job::open::<CompareDocument>(&place.outlet, place.plot.as_deref())?;
     let closed = closed::run(&asked)?;
     let x = asked.positions(&closed)?;
     let motion = grid::run(&asked, &x)?;
@@ -52,10 +54,15 @@ struct Asked {
 }
 
 impl Asked {
-    fn of(arguments: &CompareArguments, scales: Option<&KnownScales>) -> Result<Self, Failure> {
-        let (question, scenario) = run_of(arguments, scales)?;
+    fn of(
+        arguments: &CompareArguments,
+        values: Map<String, Value>,
+        scales: Option<&KnownScales>,
+    ) -> Result<Self, Failure> {
+        let (question, scenario) = run_of(arguments, values, scales)?;
         warn_of_idle(&arguments.disturbance, &question, (scenario.start_time(), scenario.until));
-        let discretisation = Discretisation::of(arguments, scenario.model.tip())?;
+        let discretisation =
+            Discretisation::of(arguments, question.tolerance, scenario.model.tip())?;
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
         if !(grid_until > start && grid_until <= scenario.until) {
@@ -88,35 +95,29 @@ impl Asked {
 }
 
 /// The files that it reads.
-fn files(arguments: &CompareArguments) -> [Named<'_>; 4] {
-    let tip_file = arguments.model.tip.tip_file.as_deref();
-    files_read(tip_file, &arguments.disturbance, arguments.start.support_path.as_deref())
+fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
+    let CompareArguments { options, disturbance, support_path, .. } = arguments;
+    let [tip_file, parameters] = options.files();
+    let read = files_read(tip_file.1, disturbance, support_path.as_deref());
+    [&read[..], &[parameters]].concat()
 }
 
 /// The run that both sides make.
 fn run_of(
     arguments: &CompareArguments,
+    values: Map<String, Value>,
     scales: Option<&KnownScales>,
 ) -> Result<(Run, Scenario), Failure> {
-    let CompareArguments { model, start, disturbance, .. } = arguments;
-    let until = arguments.until.unwrap_or_default();
-    let run = Run {
-        r: model.r,
-        law: wider(&model.wider).into(),
-        start: start.start,
-        start_position: start.start_position,
-        kick: start.kick,
-        start_velocity: start.start_velocity,
-        tolerance: arguments.tolerance,
-        memory: arguments.memory,
-        ..Run::new(Tip(tip(&model.tip)?), indentation(model)?, 0.0, until)
-    };
-    let run = disturbed(run, disturbance, start.support_path.as_deref(), scales)?;
+    let CompareArguments { options, disturbance, support_path, .. } = arguments;
+    refuse_strangers::<Run>(&values, "a run: --lines N or --area FILE make it a raster")?;
+    let run: Run = parameter::question(values)?;
+    let run = disturbed(run, disturbance, support_path.as_deref(), scales)?;
     let files = files(arguments);
-    let run = run.resolved(&context()).map_err(|failure| refusal(failure, &model.tip, &files))?;
-    let scenario = run.prepared().map_err(|failure| refusal(failure, &model.tip, &files))?;
+    let refused = |failure| refusal(failure, &options.tip, &files);
+    let run = run.resolved(&context()).map_err(refused)?;
+    let scenario = run.prepared().map_err(refused)?;
     let initial = scenario.initial_surface();
-    initial.map_err(|error| refusal(run.refused(&error), &model.tip, &files))?;
+    initial.map_err(|error| refused(run.refused(&error)))?;
     Ok((run, scenario))
 }
 

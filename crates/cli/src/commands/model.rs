@@ -1,8 +1,8 @@
 //! From the model's options to a model.
 
 use super::judged::judge_table;
-use crate::arguments::{ModelArguments, TipArguments, WiderArguments};
-use crate::failure::{Failure, Typed};
+use crate::arguments::{TipArguments, WiderArguments};
+use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use stickslip::{GaussianDocument, Indentation, NamedTip, Refused, TipName, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
@@ -35,31 +35,7 @@ pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
     Wider { depth_limit, healing_time, inertia, spring: !no_spring }
 }
 
-/// The model that the options ask for, under the wider law too.
-pub(crate) fn wide_model(arguments: &ModelArguments) -> Result<Model, Failure> {
-    let (wider, no_spring) = (wider(&arguments.wider), arguments.wider.no_spring);
-    let tip = tip(&arguments.tip)?;
-    if let Some(above) = arguments.alpha_above.filter(|_| no_spring) {
-        return Err(Failure::input(
-            format!("--alpha-above {}", Typed(above)),
-            "without a spring there is no onset: give --alpha",
-        ));
-    }
-    if let Some(r) = arguments.r.filter(|_| no_spring) {
-        return Err(Failure::input(
-            format!("--r {}", Typed(r)),
-            "without a spring there is no support that could move: leave it out",
-        ));
-    }
-    let r = if no_spring { 0.0 } else { r(arguments)? };
-    model_under((wider, tip), r, (arguments.alpha, arguments.alpha_above))
-}
-
 /// α, or αc(r) + D.
-pub(crate) fn indentation(arguments: &ModelArguments) -> Result<Indentation, Failure> {
-    one_of(arguments.alpha, arguments.alpha_above)
-}
-
 fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
     if alpha.is_some() && alpha_above.is_some() {
         return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));
@@ -80,11 +56,6 @@ pub(crate) fn model_under(
 /// A parameter of the wider law that is refused, by its option.
 pub(crate) fn refused_wider(error: &WiderError) -> Failure {
     Refused::from(*error).into()
-}
-
-/// The support velocity, which the question cannot do without.
-pub(crate) fn r(arguments: &ModelArguments) -> Result<f64, Failure> {
-    arguments.r.ok_or_else(|| Failure::input("--r", "the support velocity is missing: give --r R"))
 }
 
 /// The footprint that the options ask for.

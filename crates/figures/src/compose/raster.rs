@@ -8,8 +8,8 @@ use crate::number::short;
 use std::f64::consts::{PI, TAU};
 use stickslip::{
     ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
-    PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterParameters,
-    RasterSurfaceDocument, ScaleName, StyleName,
+    PanelDocument, PathName, Raster, RasterCompareDocument, RasterDocument, RasterSurfaceDocument,
+    ScaleName, StyleName,
 };
 
 /// Crests are marked on a patch: between these parts of the length, around this part of the lines and over no more than
@@ -24,8 +24,9 @@ const COLOURED: (f64, f64) = (0.2, 0.85);
 impl Drawn for RasterDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
-        let title = format!("{}, {}", model_name(&parameters.model), path_name(parameters));
-        let mut figure = FigureDocument::new("raster", &title, vec![parameters.model.clone()]);
+        let title =
+            format!("{}, {}", model_name(&parameters.model_parameters()), path_name(parameters));
+        let mut figure = FigureDocument::new("raster", &title, vec![parameters.model_parameters()]);
         let map = self.height_map()?;
         let mut surface = PanelDocument::new(&heading(self), ("x (σ)", "y (σ)"));
         let wave = self.pattern.as_ref().and_then(|p| p.q.zip(p.kappa));
@@ -46,7 +47,7 @@ impl Drawn for RasterDocument {
 impl Drawn for RasterCompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters.raster;
-        let model = &parameters.model;
+        let model = &parameters.model_parameters();
         let title = format!("Raster and grid, {}, {}", model_name(model), path_name(parameters));
         let mut figure = FigureDocument::new("raster-compare", &title, vec![model.clone()]);
         let map = HeightMap { x: self.x.clone(), y: self.y.clone(), u: self.closed_u.clone() };
@@ -80,7 +81,7 @@ impl Drawn for RasterCompareDocument {
 impl Drawn for RasterSurfaceDocument {
     /// A height map, or profiles where there are too few rows for one.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.model;
+        let model = &self.parameters.model_parameters();
         let title = format!("{}, {}", model_name(model), path_name(&self.parameters));
         let mut figure = FigureDocument::new("raster-surface", &title, vec![model.clone()]);
         for map in &self.surfaces {
@@ -109,7 +110,7 @@ fn is_even(v: &[f64]) -> bool {
     v.len() > 2 && step > 0.0 && !v.iter().enumerate().any(off)
 }
 
-fn path_name(parameters: &RasterParameters) -> String {
+fn path_name(parameters: &Raster) -> String {
     let pitch = parameters.pitch.map_or(String::new(), |pitch| format!(", pitch {}", short(pitch)));
     let path = match parameters.path {
         PathName::OneWay => "one-way",

@@ -23,6 +23,7 @@ pub(crate) mod failure;
 pub mod lines;
 pub(crate) mod model;
 pub(crate) mod question;
+pub(crate) mod raster;
 pub(crate) mod raster_boundary;
 pub(crate) mod raster_stability;
 pub(crate) mod response;

@@ -36,7 +36,11 @@ pub(super) struct Discretisation {
 }
 
 impl Discretisation {
-    pub(super) fn of(arguments: &CompareArguments, tip: &TipFunction) -> Result<Self, Failure> {
+    pub(super) fn of(
+        arguments: &CompareArguments,
+        usual: f64,
+        tip: &TipFunction,
+    ) -> Result<Self, Failure> {
         let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
             let message = "never fades, and a grid counts f as 0 beyond a reach: compare with a tip \
                            that does, such as triple-gaussian";
@@ -65,7 +69,7 @@ impl Discretisation {
                 ),
             ));
         }
-        let stepping = stepping(arguments)?;
+        let stepping = stepping(arguments, usual)?;
         Ok(Self { name, gaussians, reach, spacing, smallest_width, stepping })
     }
 
@@ -107,7 +111,7 @@ impl Discretisation {
 /// Local errors below are round-off.
 const LEAST_TOLERANCE: f64 = 1e-15;
 
-pub(super) fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure> {
+pub(super) fn stepping(arguments: &CompareArguments, usual: f64) -> Result<Stepping, Failure> {
     let above_0 = |option: &str, value: f64| {
         let named = format!("{option} {}", Typed(value));
         let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);
@@ -121,7 +125,7 @@ pub(super) fn stepping(arguments: &CompareArguments) -> Result<Stepping, Failure
             Err(Failure::input(named, format!("{advice}: {LEAST_TOLERANCE:e} or more will do")))
         }
         (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
-        (None, None) => Ok(Stepping::absolute(arguments.tolerance)),
+        (None, None) => Ok(Stepping::absolute(usual)),
     }
 }
 

@@ -4,16 +4,18 @@ use super::grid::stepping;
 use super::pace::{PATIENCE, stopped, timed};
 use super::time_limit;
 use crate::arguments::CompareArguments;
+use crate::commands::ask::refuse_strangers;
 use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::progress::Progress;
-use crate::commands::raster::{plan_of, sample_times};
+use crate::commands::raster::{files_read, question};
 use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
+use serde_json::Value;
 use std::ops::ControlFlow;
 use std::time::Instant;
 use stickslip::{
-    Document, GridName, GridWork, Physical, RasterCompareDocument, RasterCompareFound,
+    Document, GridName, GridWork, Physical, Raster, RasterCompareDocument, RasterCompareFound,
     RasterCompareParameters, RasterCompared,
 };
 use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
@@ -23,25 +25,22 @@ use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 const POINTS: usize = 501;
 
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
-    let read = [
-        ("--tip-file", arguments.model.tip.tip_file.as_deref()),
-        ("--area", arguments.scan.area.as_deref()),
-    ];
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
-    let sampling = &arguments.sampling;
-    let accuracy = (arguments.tolerance, arguments.memory);
-    let pulse = &arguments.disturbance.pulse;
-    let tip_file = arguments.model.tip.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, arguments.model.r)?;
-    let scan = (&arguments.scan, scales.as_ref());
-    let (plan, parameters) = plan_of(&arguments.model, scan, pulse, accuracy)?;
-    let (stepping, limit) = (stepping(arguments)?, time_limit(arguments)?);
+    let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
+    judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
+    let values = options.values()?;
+    refuse_strangers::<Raster>(&values, "a raster, which --lines or --area ask for")?;
+    let tip_file = options.tip.tip_file.as_deref();
+    let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let (parameters, plan) =
+        question(options, values, (area, &disturbance.pulse), scales.as_ref())?;
+    let sampling = &parameters.sampling;
+    let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
     let (grid, method) = method(arguments.grid)?;
     let spacing = spacing(arguments, method, &plan)?;
     // Its own steps, unless times are asked for, which it would have to step to.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
-    let times = if is_asked { sample_times(sampling, &plan)? } else { vec![] };
-    let job = Job::open::<RasterCompareDocument>(&arguments.outlet, arguments.plot.as_deref())?;
+    let times = if is_asked { parameters.times(&plan)? } else { vec![] };
+    let job = Job::open::<RasterCompareDocument>(&place.outlet, place.plot.as_deref())?;
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;

@@ -1,11 +1,11 @@
 //! Height maps of rasters, for Gwyddion.
 
 use crate::files::gsf::{Field, gsf};
-use stickslip::{HeightMap, RasterParameters};
+use stickslip::{HeightMap, Raster};
 
 /// An evenly spaced map, in σ and kσ²/a times these.
 pub(in crate::commands) fn field(
-    parameters: &RasterParameters,
+    parameters: &Raster,
     map: &HeightMap,
     (length, height, unit): (f64, f64, &str),
 ) -> Vec<u8> {
@@ -14,7 +14,7 @@ pub(in crate::commands) fn field(
         _ => length,
     };
     let first = |v: &[f64]| length * v.first().copied().unwrap_or(0.0);
-    let model = &parameters.model;
+    let model = parameters.model_parameters();
     gsf(&Field {
         title: &format!("u(x,y) of a raster, alpha {}, r {}", model.alpha, model.r),
         first: [first(&map.x), first(&map.y)],

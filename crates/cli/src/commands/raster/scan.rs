@@ -10,14 +10,14 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use stickslip::{KeptLine, RasterParameters};
+use stickslip::{KeptLine, Raster};
 use stickslip_raster::{Line, Plan, Scanning};
 use stickslip_tip::stop;
 
 /// All lines, those of an interrupted raster that goes to the same file among them.
 pub(super) fn scan(
     plan: &Plan,
-    parameters: &RasterParameters,
+    parameters: &Raster,
     file: Option<&Path>,
     interrupt: &Interrupt,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {

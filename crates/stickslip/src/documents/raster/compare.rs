@@ -1,8 +1,7 @@
 //! `stickslip/raster-compare`.
 
-use super::RasterParameters;
 use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{DifferenceDocument, Document, GridName, GridWork, Question};
+use crate::{DifferenceDocument, Document, GridName, GridWork, Question, Raster};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
@@ -45,7 +44,7 @@ impl Question for RasterCompareParameters {
 pub struct RasterCompareParameters {
     /// The raster.
     #[serde(flatten)]
-    pub raster: RasterParameters,
+    pub raster: Raster,
     /// Discretisation: sinc or windowed.
     pub grid: GridName,
     /// Δx of the cells, in σ.

@@ -156,7 +156,7 @@ impl RasterHistory {
     ///
     /// # Errors
     /// There are not as many as planned, or one was damaged.
-    pub(super) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
+    pub(crate) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
         let (found, wanted) = (self.lines.len(), plan.lines());
         if found != wanted {
             return Err(Unusable::new(format!("history: {found} lines, {wanted} are needed")));

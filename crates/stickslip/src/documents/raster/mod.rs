@@ -1,9 +1,10 @@
-//! `stickslip/raster`.
+//! Documents of rasters.
 
 mod compare;
+mod found;
+mod height_map;
 mod heights;
 mod lines;
-mod parameters;
 mod pattern;
 mod sweep;
 
@@ -11,171 +12,9 @@ pub use compare::{
     ComparedLine, RasterCompareDocument, RasterCompareFound, RasterCompareParameters,
     RasterCompared, RasterComparedWork,
 };
-pub use heights::{HeightMap, RasterSurfaceDocument};
+pub use found::{RasterFound, RasterWork};
+pub use height_map::HeightMap;
+pub use heights::RasterSurfaceDocument;
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
-pub use parameters::{AreaDocument, PathName, RasterParameters};
 pub use pattern::{PatternDocument, RasterRegimeName};
 pub use sweep::{RasterSweepDocument, RasterSweepFound, RasterSweepParameters, RasterSweepPoint};
-
-use crate::documents::table::{Array, Column, Named, Tabular};
-use crate::{FORMAT_VERSION, InUnits, Physical, Software, Unusable};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use stickslip_raster::{Line, Plan, Written, pattern, volume};
-
-/// Scan lines beside each other on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times are
-/// counted from the start of each line.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterDocument {
-    /// "stickslip/raster"
-    pub format: String,
-    /// 1
-    pub format_version: u32,
-    /// The program that wrote it.
-    pub software: Software,
-    /// Everything that defines the raster.
-    pub parameters: RasterParameters,
-    /// The lines in the order in which they were scanned.
-    pub lines: Vec<RasterLine>,
-    /// What they have written.
-    pub regime: RasterRegimeName,
-    /// The ripple; null where there is none.
-    pub pattern: Option<PatternDocument>,
-    /// ∫∫ u dx dy, in kσ⁴/a: -α (X/r) ∫∫f for each line.
-    pub volume: f64,
-    /// The dense history of all lines: what `surface` works from.
-    pub history: RasterHistory,
-    /// Why something of the pattern is unknown, or may differ after more lines; empty if there is nothing.
-    pub remarks: Vec<String>,
-    /// What it took.
-    pub work: RasterWork,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub physical: Option<InUnits>,
-}
-
-/// Counts over all lines, which depend on the input alone.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterWork {
-    /// Accepted steps.
-    pub steps: u64,
-    /// Steps repeated with a smaller length.
-    pub rejected: u64,
-    /// Newton iterations in all steps.
-    pub newton_iterations: u64,
-    /// Taylor series that were expanded: each makes one step or several, without an iteration.
-    #[serde(default)]
-    pub series: u64,
-    /// How often collocation took over from series.
-    #[serde(default)]
-    pub switches: u64,
-}
-
-impl RasterDocument {
-    /// Its `format`.
-    pub const FORMAT: &'static str = "stickslip/raster";
-
-    /// That of these lines of a plan, sampled at these times since the start of each line, as far as it lasts.
-    #[must_use]
-    pub fn new(parameters: RasterParameters, plan: &Plan, lines: &[Line], times: &[f64]) -> Self {
-        let Written { regime, pattern: found, doubts } = pattern(plan, lines);
-        let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
-        let lines_told: Vec<RasterLine> =
-            lines.iter().map(|line| RasterLine::of(plan, line, times)).collect();
-        Self {
-            format: Self::FORMAT.into(),
-            format_version: FORMAT_VERSION,
-            software: Software::this(),
-            physical: None,
-            parameters,
-            lines: lines_told,
-            regime: regime.into(),
-            pattern: found.map(Into::into),
-            volume: volume(plan, lines),
-            history: RasterHistory::of(lines),
-            remarks: doubts.iter().map(ToString::to_string).collect(),
-            work: RasterWork {
-                steps: total(|line| line.work().steps),
-                rejected: total(|line| line.work().rejected),
-                newton_iterations: total(|line| line.work().newton_iterations),
-                series: total(|line| line.work().series),
-                switches: total(|line| line.work().switches),
-            },
-        }
-    }
-
-    /// The plan, and the lines as their dense history tells them.
-    ///
-    /// # Errors
-    /// The document is damaged.
-    pub fn scanned(&self) -> Result<(Plan, Vec<Line>), Unusable> {
-        let plan = self.parameters.plan()?;
-        let lines = self.history.lines(&plan)?;
-        Ok((plan, lines))
-    }
-}
-
-impl Physical for RasterDocument {
-    fn physical_mut(&mut self) -> &mut Option<InUnits> {
-        &mut self.physical
-    }
-}
-
-impl Tabular for RasterDocument {
-    /// A row for each sample, line after line.
-    fn columns(&self) -> Vec<Named<'_>> {
-        let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
-            self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
-        };
-        // Lines of a shape have not all as many samples.
-        let repeated = |of: &dyn Fn(usize) -> f64| -> Column {
-            let rows = |(n, line): (usize, &RasterLine)| vec![of(n); line.samples.t.len()];
-            self.lines.iter().enumerate().flat_map(rows).collect::<Vec<_>>().into()
-        };
-        vec![
-            ("line", repeated(&|n| n as f64 + 1.0)),
-            ("y", repeated(&|n| self.lines[n].y)),
-            ("t", joined(|samples| &samples.t)),
-            ("x0", joined(|samples| &samples.x0)),
-            ("lag", joined(|samples| &samples.lag)),
-            ("velocity", joined(|samples| &samples.velocity)),
-        ]
-    }
-
-    /// `x0`, `lag` and `velocity` have a row for each line, with NaN where one has ended; `u` is the height map, a row for each of `u_y`, a column for
-    /// each of `u_x`; the history is that of all lines one after the other, `history_steps` of them for each.
-    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let Some(longest) = self.lines.iter().max_by_key(|line| line.samples.t.len()) else {
-            return vec![];
-        };
-        let rows = |of: fn(&RasterSamples) -> &Vec<f64>| {
-            let row = |line: &RasterLine| {
-                let mut row = of(&line.samples).clone();
-                row.resize(longest.samples.t.len(), f64::NAN);
-                row
-            };
-            Array::matrix(&self.lines.iter().map(row).collect::<Vec<_>>())
-        };
-        let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
-        let t = longest.samples.t.clone();
-        let mut arrays = vec![
-            ("y", Array::vector(y)),
-            ("t", Array::vector(t)),
-            ("x0", rows(|samples| &samples.x0)),
-            ("lag", rows(|samples| &samples.lag)),
-            ("velocity", rows(|samples| &samples.velocity)),
-        ];
-        if let Ok(map) = self.height_map() {
-            let u = Array { shape: vec![map.y.len(), map.x.len()], values: map.u.concat().into() };
-            arrays.extend([("u_x", Array::vector(map.x)), ("u_y", Array::vector(map.y)), ("u", u)]);
-        }
-        arrays.extend(self.history.arrays());
-        arrays
-    }
-
-    fn physical(&self) -> Option<&InUnits> {
-        self.physical.as_ref()
-    }
-}

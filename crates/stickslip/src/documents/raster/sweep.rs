@@ -1,8 +1,8 @@
 //! `stickslip/raster-sweep`.
 
-use super::{PathName, RasterRegimeName};
+use super::RasterRegimeName;
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, PatternDocument, Question, ShardDocument, TipDocument};
+use crate::{Document, PathName, PatternDocument, Question, ShardDocument, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;

@@ -1,0 +1,391 @@
+//! The question `raster`: scan lines beside each other, and the pattern that they write.
+
+use super::lines::footprint;
+use crate::documents::table::Array;
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Document, Failure, HeightMap, Indentation, Law, MemoryName, ModelParameters,
+    PulseParameters, Question, RasterFound, Refused, Sampling, Tip, Typed, Unusable,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Area, AreaLine, Line, Path, Plan, RasterError, Scanning};
+use stickslip_tip::{Force, Pulse, RunError, Scenario};
+
+/// One sample in so much of the way of the support, by default, in widths of the tip.
+const SAMPLE: f64 = 0.25;
+/// Of all lines: with their columns and what is written of them, under a gigabyte.
+const MOST_SAMPLES: f64 = 5e6;
+
+/// How the support goes from one line to the next.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PathName {
+    /// Every line from x = 0 in the same direction, with the spring relaxed.
+    #[default]
+    OneWay,
+    /// The support turns back at the end of a line and goes one pitch further; the tip starts where it was.
+    Zigzag,
+    /// The same line again, from x = 0, with the spring relaxed.
+    Repeat,
+}
+
+/// Everything that defines a raster.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Raster {
+    /// Footprint f of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// α, or αc(r) + D of a single line.
+    #[serde(flatten)]
+    pub indentation: Indentation,
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
+    #[schemars(extend("x-option" = option("R", "Model", 2)))]
+    pub r: f64,
+    /// What is added to the basic law.
+    #[serde(flatten)]
+    pub law: Law,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Model", 6)))]
+    #[serde(default)]
+    pub width_y: Option<f64>,
+    /// How the support goes from one line to the next.
+    #[schemars(extend("x-option" = option("PATH", "Scan", 43)))]
+    #[serde(default)]
+    pub path: PathName,
+    /// Distance of the lines, in σ; null where all are the same, or they are unevenly spaced.
+    #[schemars(extend("x-option" = option("D", "Scan", 40)))]
+    #[serde(default)]
+    pub pitch: Option<f64>,
+    /// Number of lines.
+    #[schemars(extend("x-option" = option("N", "Scan", 41)))]
+    #[serde(default)]
+    pub lines: usize,
+    /// X: how far the support goes along each line, in σ, along the longest of an area; a line lasts X/r.
+    #[schemars(extend("x-option" = option("X", "Scan", 42)))]
+    #[serde(default)]
+    pub length: f64,
+    /// The lines of an area that is no rectangle, in place of pitch, number and length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<AreaDocument>,
+    /// Gaussian pulses of external force on the first line, by the time since its start.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pulses: Vec<PulseParameters>,
+    /// Largest error of x0 on each line, in σ; from 1e-13 to 1e-2.
+    #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// How the past of a line is remembered. All memories give the same motion to the tolerance.
+    #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
+    #[serde(default)]
+    pub memory: MemoryName,
+    /// When samples of each line are taken, since its start.
+    #[serde(flatten)]
+    pub sampling: Sampling,
+}
+
+fn default_tolerance() -> f64 {
+    1e-9
+}
+
+/// A raster and the question that it answers. `remarks` say why something of the pattern is unknown, or may differ after more
+/// lines.
+pub type RasterDocument = Document<Raster>;
+
+impl Question for Raster {
+    const FORMAT: &'static str = "stickslip/raster";
+    type Answer = RasterFound;
+
+    /// `u` is the height map, a row for each of `u_y`, a column for each of `u_x`.
+    fn more_arrays(&self, answer: &RasterFound) -> Vec<(&'static str, Array<'static>)> {
+        let scanned = self.plan().and_then(|plan| Ok((answer.history.lines(&plan)?, plan)));
+        let Ok((lines, plan)) = scanned else { return vec![] };
+        let map = HeightMap::of(&plan, &lines);
+        let u = Array { shape: vec![map.y.len(), map.x.len()], values: map.u.concat().into() };
+        vec![("u_x", Array::vector(map.x)), ("u_y", Array::vector(map.y)), ("u", u)]
+    }
+}
+
+/// Lines in the order in which they are scanned. Lengths in σ.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AreaDocument {
+    /// Where each lies.
+    pub y: Vec<f64>,
+    /// Its smallest x.
+    pub start: Vec<f64>,
+    /// How far the support goes along it.
+    pub length: Vec<f64>,
+}
+
+impl AreaDocument {
+    /// These lines.
+    #[must_use]
+    pub fn of(lines: &[AreaLine]) -> Self {
+        let column = |of: fn(&AreaLine) -> f64| lines.iter().map(of).collect();
+        Self {
+            y: column(|line| line.y),
+            start: column(|line| line.start),
+            length: column(|line| line.length),
+        }
+    }
+
+    fn area(&self) -> Result<Area, Unusable> {
+        let Self { y, start, length } = self;
+        if y.len() != start.len() || y.len() != length.len() {
+            return Err(Unusable::new("area: columns of different lengths"));
+        }
+        let columns = y.iter().zip(start).zip(length);
+        let line = |((y, start), length): ((&f64, &f64), &f64)| AreaLine {
+            y: *y,
+            start: *start,
+            length: *length,
+        };
+        Ok(Area::Lines(columns.map(line).collect()))
+    }
+}
+
+impl Raster {
+    /// The question that a plan answers to.
+    ///
+    /// # Errors
+    /// The footprint is damaged.
+    pub fn of(
+        plan: &Plan,
+        model: &ModelParameters,
+        width_y: Option<f64>,
+    ) -> Result<Self, Unusable> {
+        Ok(Self {
+            tip: Tip(model.tip.tip()?),
+            indentation: Indentation { alpha: Some(model.alpha), alpha_above: model.alpha_above },
+            r: model.r,
+            law: model.law,
+            width_y,
+            path: plan.path.into(),
+            pitch: plan.area.pitch(plan.path),
+            lines: plan.lines(),
+            length: plan.area.longest(),
+            area: match &plan.area {
+                Area::Lines(lines) => Some(AreaDocument::of(lines)),
+                Area::Rectangle { .. } => None,
+            },
+            pulses: plan.disturbance.pulses().iter().copied().map(Into::into).collect(),
+            tolerance: plan.law.tolerance,
+            memory: plan.law.memory.into(),
+            sampling: Sampling::default(),
+        })
+    }
+
+    /// Footprint, law, α and r as other documents hold them.
+    pub fn model_parameters(&self) -> ModelParameters {
+        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+    }
+
+    /// A rectangle, or other lines.
+    fn area(&self) -> Result<Area, Refused> {
+        if let Some(area) = &self.area {
+            return area.area().map_err(|error| Refused::whole("area", error));
+        }
+        let pitch = match (self.path, self.pitch) {
+            (PathName::Repeat, None) => 0.0,
+            (PathName::Repeat, Some(pitch)) => {
+                let why = "has no meaning with {path} repeat, whose lines are all the same: leave one of them out";
+                return Err(Refused::number("pitch", pitch, why));
+            }
+            (_, Some(pitch)) => pitch,
+            (_, None) => {
+                return Err(Refused::whole("pitch", "give the distance of the lines, {pitch}"));
+            }
+        };
+        Ok(Area::Rectangle { pitch, lines: self.lines, length: self.length })
+    }
+
+    /// The plan of a resolved question.
+    ///
+    /// # Errors
+    /// A parameter is out of its range, or contradicts another.
+    pub fn prepared(&self) -> Result<Plan, Failure> {
+        let model = self.indentation.model(&self.tip.0, self.law.into(), self.r)?;
+        // A saved question says what it was resolved to.
+        let (footprint, _) = footprint(self.width_y, model.tip())?;
+        let mut plan = Plan::over(footprint, model, Path::from(self.path), self.area()?);
+        let pulses: Vec<Pulse> = self.pulses.iter().map(Into::into).collect();
+        let force = Force::new(pulses, None);
+        plan.disturbance = force.map_err(|error| Refused::whole("pulses", error))?;
+        plan.law = Scenario { tolerance: self.tolerance, memory: self.memory.into(), ..plan.law };
+        plan.validate().map_err(|error| self.refused(&error))?;
+        Ok(plan)
+    }
+
+    /// The same of a document, which somebody may have changed.
+    ///
+    /// # Errors
+    /// No raster can be that of these parameters.
+    pub fn plan(&self) -> Result<Plan, Unusable> {
+        self.prepared().map_err(|failure| Unusable::new(failure.described(str::to_owned)))
+    }
+
+    /// What a raster was refused for, by its parameter.
+    fn refused(&self, error: &RasterError) -> Refused {
+        let of_area = |name: &'static str, value: f64| match self.area {
+            Some(_) => Refused::whole("area", error),
+            None => Refused::number(name, value, error),
+        };
+        match error {
+            RasterError::Pitch { pitch, .. } => Refused::number("pitch", *pitch, error),
+            RasterError::Length { length, .. } => Refused::number("length", *length, error),
+            RasterError::Lines(lines) | RasterError::Memory { lines, .. } => {
+                of_area("lines", *lines as f64)
+            }
+            RasterError::AreaLine { .. }
+            | RasterError::Extent { .. }
+            | RasterError::Crowded { .. } => Refused::whole("area", error),
+            RasterError::RepeatedArea => {
+                let value = Some("repeat".into());
+                Refused { parameter: "path".into(), value, why: error.to_string() }
+            }
+            RasterError::NoSpring => Refused::whole("no_spring", error),
+            RasterError::NeverFades | RasterError::Section => Refused::whole("tip", error),
+            RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
+                Refused::number("tolerance", *tolerance, RunError::Tolerance(*tolerance))
+            }
+            RasterError::Line { error: RunError::Modes(error), .. } => {
+                let value = Some("modes".into());
+                Refused { parameter: "memory".into(), value, why: error.to_string() }
+            }
+            RasterError::Line { .. } => of_area("length", self.length),
+        }
+    }
+
+    /// Times since the start of each line at which it is sampled; as many as the longest has.
+    ///
+    /// # Errors
+    /// A time is out of range; there would be more samples than are kept.
+    pub fn times(&self, plan: &Plan) -> Result<Vec<f64>, Refused> {
+        let duration = plan.duration_of(plan.area.longest());
+        let lines = plan.lines() as f64;
+        if self.sampling != Sampling::default() {
+            let times = self.sampling.times((0.0, duration), "each line", true)?.all();
+            return match times.len() as f64 * lines <= MOST_SAMPLES {
+                true => Ok(times),
+                false => Err(self.too_many((times.len() as f64, lines), duration)),
+            };
+        }
+        let width = 8.7 / plan.footprint.path().band();
+        let most = (MOST_SAMPLES / lines - 1.0).clamp(2.0, 2000.0);
+        let count = (plan.area.longest() / (SAMPLE * width)).ceil().clamp(2.0, most);
+        Ok((0..=count as usize).map(|i| duration * i as f64 / count).collect())
+    }
+
+    /// Refuses samples that memory does not hold, with what it would.
+    fn too_many(&self, (each, lines): (f64, f64), duration: f64) -> Refused {
+        let (count, most) = (each * lines, (MOST_SAMPLES / lines).floor());
+        let why = format!(
+            "would make {count:.1e} samples on {lines} lines, more than are kept in memory"
+        );
+        match self.sampling.sample_every {
+            Some(every) => {
+                let least = duration / (most - 1.0).max(1.0);
+                Refused::number(
+                    "sample_every",
+                    every,
+                    format!("{why}; {least:.3e} or above will do"),
+                )
+            }
+            None => {
+                let value = Some(format!("with {} times", Typed(each)));
+                let why = format!("{why}; {most} times will do");
+                Refused { parameter: "sample_at".into(), value, why }
+            }
+        }
+    }
+
+    /// The document of these lines of its plan, sampled at these times since the start of each line, as far as it lasts.
+    #[must_use]
+    pub fn document(self, plan: &Plan, lines: &[Line], times: &[f64]) -> RasterDocument {
+        let (found, remarks) = RasterFound::of(plan, lines, times);
+        Document::new(self, found, remarks)
+    }
+}
+
+impl Ask for Raster {
+    fn support_velocity(&self) -> Option<f64> {
+        Some(self.r)
+    }
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        let indentation = self.indentation.resolved(&self.tip.0, self.law.into(), self.r)?;
+        let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
+        let question = Self { indentation, width_y, ..self };
+        let plan = question.prepared()?;
+        let (pitch, lines, length) =
+            (plan.area.pitch(plan.path), plan.lines(), plan.area.longest());
+        let question = Self { pitch, lines, length, ..question };
+        question.times(&plan)?;
+        Ok(question)
+    }
+
+    fn answer(&self, context: &Context) -> Result<(RasterFound, Vec<String>), Failure> {
+        let plan = self.prepared()?;
+        let times = self.times(&plan)?;
+        let failed = |error: RasterError| Failure::Failed(error.to_string());
+        let mut scanning = Scanning::new(&plan).map_err(failed)?;
+        while scanning.next_line().map_err(failed)?.is_some() {
+            context.counted(scanning.lines().len(), plan.lines(), "lines")?;
+        }
+        Ok(RasterFound::of(&plan, scanning.lines(), &times))
+    }
+}
+
+impl Document<Raster> {
+    /// The plan, and the lines as their dense history tells them.
+    ///
+    /// # Errors
+    /// The document is damaged.
+    pub fn scanned(&self) -> Result<(Plan, Vec<Line>), Unusable> {
+        let plan = self.parameters.plan()?;
+        let lines = self.history.lines(&plan)?;
+        Ok((plan, lines))
+    }
+
+    /// u at every y (rows) and every x (columns).
+    ///
+    /// # Errors
+    /// The document is damaged.
+    pub fn heights(&self, x: Vec<f64>, y: Vec<f64>) -> Result<HeightMap, Unusable> {
+        let (plan, lines) = self.scanned()?;
+        Ok(HeightMap::at(&plan, &lines, x, y))
+    }
+
+    /// u on every line, at even distances from the smallest x to the largest; on evenly spaced rows where lines are not,
+    /// and around a line that was repeated on lines beside it too.
+    ///
+    /// # Errors
+    /// The document is damaged.
+    pub fn height_map(&self) -> Result<HeightMap, Unusable> {
+        let (plan, lines) = self.scanned()?;
+        Ok(HeightMap::of(&plan, &lines))
+    }
+}
+
+impl From<Path> for PathName {
+    fn from(path: Path) -> Self {
+        match path {
+            Path::OneWay => Self::OneWay,
+            Path::Zigzag => Self::Zigzag,
+            Path::Repeat => Self::Repeat,
+        }
+    }
+}
+
+impl From<PathName> for Path {
+    fn from(name: PathName) -> Self {
+        match name {
+            PathName::OneWay => Self::OneWay,
+            PathName::Zigzag => Self::Zigzag,
+            PathName::Repeat => Self::Repeat,
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! What the lines of a raster have written.
+
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::{PatternDocument, RasterHistory, RasterLine, RasterRegimeName, RasterSamples};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_raster::{Line, Plan, Written, pattern, volume};
+
+/// Scan lines beside each other on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times are
+/// counted from the start of each line.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterFound {
+    /// The lines in the order in which they were scanned.
+    pub lines: Vec<RasterLine>,
+    /// What they have written.
+    pub regime: RasterRegimeName,
+    /// The ripple; null where there is none.
+    pub pattern: Option<PatternDocument>,
+    /// ∫∫ u dx dy, in kσ⁴/a: -α (X/r) ∫∫f for each line.
+    pub volume: f64,
+    /// The dense history of all lines: what `surface` works from.
+    pub history: RasterHistory,
+    /// What it took.
+    pub work: RasterWork,
+}
+
+/// Counts over all lines, which depend on the input alone.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RasterWork {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps repeated with a smaller length.
+    pub rejected: u64,
+    /// Newton iterations in all steps.
+    pub newton_iterations: u64,
+    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    #[serde(default)]
+    pub series: u64,
+    /// How often collocation took over from series.
+    #[serde(default)]
+    pub switches: u64,
+}
+
+impl RasterFound {
+    /// What these lines of a plan have written, sampled at these times since the start of each line, as far as it lasts; and
+    /// remarks on it.
+    pub(crate) fn of(plan: &Plan, lines: &[Line], times: &[f64]) -> (Self, Vec<String>) {
+        let Written { regime, pattern: found, doubts } = pattern(plan, lines);
+        let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
+        let found = Self {
+            lines: lines.iter().map(|line| RasterLine::of(plan, line, times)).collect(),
+            regime: regime.into(),
+            pattern: found.map(Into::into),
+            volume: volume(plan, lines),
+            history: RasterHistory::of(lines),
+            work: RasterWork {
+                steps: total(|line| line.work().steps),
+                rejected: total(|line| line.work().rejected),
+                newton_iterations: total(|line| line.work().newton_iterations),
+                series: total(|line| line.work().series),
+                switches: total(|line| line.work().switches),
+            },
+        };
+        (found, doubts.iter().map(ToString::to_string).collect())
+    }
+}
+
+impl Tabular for RasterFound {
+    /// A row for each sample, line after line.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
+            self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
+        };
+        // Lines of a shape have not all as many samples.
+        let repeated = |of: &dyn Fn(usize) -> f64| -> Column {
+            let rows = |(n, line): (usize, &RasterLine)| vec![of(n); line.samples.t.len()];
+            self.lines.iter().enumerate().flat_map(rows).collect::<Vec<_>>().into()
+        };
+        vec![
+            ("line", repeated(&|n| n as f64 + 1.0)),
+            ("y", repeated(&|n| self.lines[n].y)),
+            ("t", joined(|samples| &samples.t)),
+            ("x0", joined(|samples| &samples.x0)),
+            ("lag", joined(|samples| &samples.lag)),
+            ("velocity", joined(|samples| &samples.velocity)),
+        ]
+    }
+
+    /// `x0`, `lag` and `velocity` have a row for each line, with NaN where one has ended; the history is that of all lines one
+    /// after the other, `history_steps` of them for each.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let Some(longest) = self.lines.iter().max_by_key(|line| line.samples.t.len()) else {
+            return vec![];
+        };
+        let rows = |of: fn(&RasterSamples) -> &Vec<f64>| {
+            let row = |line: &RasterLine| {
+                let mut row = of(&line.samples).clone();
+                row.resize(longest.samples.t.len(), f64::NAN);
+                row
+            };
+            Array::matrix(&self.lines.iter().map(row).collect::<Vec<_>>())
+        };
+        let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
+        let t = longest.samples.t.clone();
+        let mut arrays = vec![
+            ("y", Array::vector(y)),
+            ("t", Array::vector(t)),
+            ("x0", rows(|samples| &samples.x0)),
+            ("lag", rows(|samples| &samples.lag)),
+            ("velocity", rows(|samples| &samples.velocity)),
+        ];
+        arrays.extend(self.history.arrays());
+        arrays
+    }
+}

@@ -24,6 +24,7 @@ mod fit_command;
 mod image_files;
 mod interrupts;
 mod outcomes;
+mod parameters;
 mod people;
 mod physical_units;
 mod pictures;

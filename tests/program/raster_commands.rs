@@ -168,7 +168,8 @@ fn a_raster_is_compared_with_rows_of_cells() {
     ] {
         folder.refuses(&format!("{line} {option}"), &words);
     }
-    folder.refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["--path zigzag", "--lines"]);
+    folder
+        .refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["--path zigzag", "--lines"]);
     folder.refuses("compare --alpha 1 --r 1", &["is needed", "--until"]);
 }
 

@@ -1,6 +1,7 @@
 //! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ + κ grows, or for creep stays κ.
 
 use super::law::Law;
+use super::one_sided::OneSided;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use stickslip_tip::{Gaussian, TipFunction};
@@ -20,6 +21,8 @@ const WAVES: f64 = 4.0 / 3.0;
 pub(super) struct Bounds {
     area: [f64; 3],
     decay: [f64; 3],
+    /// Of p, in what each is for Re p < 0 beside a value on the right: 0, 1, 2.
+    powers: [i32; 3],
     /// |p| from which they hold.
     from: f64,
     /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 what φ is beside -φ(-p) fades as e^{w²(Re²-Im²)/2}.
@@ -27,9 +30,12 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) fn new(tip: &TipFunction) -> Self {
+    pub(super) fn new(footprint: &OneSided) -> Self {
+        let tip = footprint.tip();
+        let mut powers = [0, 1, 2];
         let TipFunction::Gaussians(sum) = tip else {
-            return Self { area: [f64::INFINITY; 3], decay: [WAVES; 3], from: 2.0, terms: vec![] };
+            let (area, decay) = ([f64::INFINITY; 3], [WAVES; 3]);
+            return Self { area, decay, powers, from: 2.0, terms: vec![] };
         };
         let reach = tip.reach().unwrap_or(1.0);
         let samples = f64::from(SAMPLES).max(reach * tip.band()).min(1e5);
@@ -53,7 +59,11 @@ impl Bounds {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
         };
         let terms = sum.terms().iter().map(term).collect();
-        Self { area: area.map(|f| MARGIN * f), decay: decay.map(|f| MARGIN * f), from: 0.0, terms }
+        if footprint.is_across() {
+            (area[2], decay[2], powers[2]) = (area[0], decay[0], powers[0]);
+        }
+        let [area, decay] = [area, decay].map(|all| all.map(|f| MARGIN * f));
+        Self { area, decay, powers, from: 0.0, terms }
     }
 
     /// Of φ, φ1, G where |p| ≥ `distance`, Re p ≥ 0.
@@ -72,7 +82,7 @@ impl Bounds {
         };
         let e: f64 = self.terms.iter().map(two_sided).sum();
         let distance = left.hypot(top);
-        for (bound, power) in bounds.iter_mut().zip(0..3) {
+        for (bound, power) in bounds.iter_mut().zip(self.powers) {
             *bound += e * distance.powi(power);
         }
         bounds

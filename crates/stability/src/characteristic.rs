@@ -38,7 +38,7 @@ impl Characteristic {
     }
 
     pub(super) fn of(law: Law) -> Self {
-        let bounds = Bounds::new(law.footprint.tip());
+        let bounds = Bounds::new(&law.footprint);
         let length = law.footprint.tip().reach().unwrap_or(9.0) / 9.0;
         Self { law, bounds, length }
     }
@@ -115,7 +115,7 @@ impl Characteristic {
     pub(super) fn likely_roots(&self) -> Vec<Complex64> {
         let Law { density, drag, inertia, fading, .. } = self.law;
         let constant = self.law.spring - density * self.law.steady.curvature;
-        let peak = density * self.law.footprint.tip().slope_and_curvature(0.0).1;
+        let peak = density * self.law.footprint.peak();
         let mut zeros = if drag <= 0.0 {
             vec![(-peak / constant).into()]
         } else if inertia > 0.0 {

@@ -11,6 +11,14 @@ pub enum StabilityError {
     /// α must be finite and > 0 here.
     #[error("alpha is {0:?}: the dimensionless indentation rate (13) must be a finite number > 0")]
     Alpha(f64),
+    /// κ_y must be finite and > 0, and no part of r that round-off is larger than.
+    #[error(
+        "the stiffness across is {0:?}: it must be a finite number above 0, in units of that along, and no less than 1e-9 of r"
+    )]
+    StiffnessAcross(f64),
+    /// J0 or cos x across the scan.
+    #[error("growth exponents across the scan are available for sums of Gaussians only")]
+    AcrossGaussiansOnly,
     /// No root reaches the imaginary axis, however large α.
     #[error(
         "steady motion with this tip function at r = {r:?} is stable for every alpha: no root reaches the imaginary axis"

@@ -59,6 +59,22 @@ impl Law {
         Self { drag: 0.0, ..Self::with_density(&Wider::default(), model.tip(), 1.0, density) }
     }
 
+    /// Of deviations across the scan on a spring κ_y, given `f_yy(x,0)`: no deviation of first order there has any of
+    /// along the scan, nor of the height, so that a depth limit enters by A alone.
+    ///
+    /// ```text
+    ///     N(Λ) = rΛ + κ_y + A(S(p) - S(s)) = 0,     S(p) = ∫_0^∞ f_yy(x,0) e^{-px}dx
+    /// ```
+    pub(super) fn across(
+        healing_time: Option<f64>,
+        curvature: &Arc<OneSided>,
+        (r, density): (f64, f64),
+        stiffness: f64,
+    ) -> Self {
+        let wider = Wider { healing_time, ..Wider::default() };
+        Self { spring: stiffness, ..Self::on(&wider, curvature, r, density) }
+    }
+
     /// At a speed v with A given.
     pub(super) fn with_density(wider: &Wider, tip: &TipFunction, speed: f64, density: f64) -> Self {
         Self::on(wider, &Arc::new(OneSided::new(tip)), speed, density)

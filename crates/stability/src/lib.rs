@@ -11,6 +11,7 @@
 //! [`response`] adds them up after a weak pulse, and [`onset`] says what is born at the boundary.
 //! [`trapping_alpha`] is the threshold of motion that never returns to stick-slip, [`creep`] lists all rates at
 //! which it may creep. All but these and [`onset`] take the wider law (a depth limit, healing, inertia) as well:
+//! A tip that gives way across the scan may [snake](Snaking), and lines of it bunch ([`Raster::with_stiffness_across`]).
 //! [`least_depth_limit`] and [`memory_length`] say what leaves nothing unstable, [`walking_speeds`] and [`walk`] what a
 //! tip without a spring does. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either
 //! can judge the other.
@@ -39,6 +40,7 @@ mod raster;
 mod response;
 mod roots;
 mod scaled_erfc;
+mod snaking;
 mod spectrum;
 mod transform;
 mod trapping;
@@ -57,9 +59,10 @@ pub use error::StabilityError;
 pub use inversion::Inversion;
 pub use limits::{least_depth_limit, memory_length};
 pub use onset::{Criticality, Onset, onset, onset_at};
-pub use raster::{Raster, RasterCertificate, RasterCritical, RasterPath};
+pub use raster::{Raster, RasterCertificate, RasterCritical, RasterKind, RasterPath};
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
+pub use snaking::{Snaking, SnakingCertificate, SnakingCritical, SnakingCurve};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
 pub use walking::{Walk, walk, walking_alpha, walking_speeds};

@@ -132,3 +132,28 @@ pub(super) fn simultaneous<const N: usize>(coefficients: [f64; N]) -> [Complex64
     }
     zeros
 }
+
+/// The zeros of z^n + c₁z^{n-1} + … + c_n with complex coefficients, by simultaneous iteration.
+pub(super) fn zeros_of(coefficients: &[Complex64]) -> Vec<Complex64> {
+    let degree = coefficients.len();
+    let value = |z: Complex64| coefficients.iter().fold(Complex64::ONE, |sum, c| sum * z + c);
+    let size = (1..=degree).zip(coefficients).map(|(k, c)| c.norm().powf(1.0 / k as f64));
+    let radius = size.fold(f64::MIN_POSITIVE, f64::max);
+    let start = |k| Complex64::from_polar(radius, 0.4 + TAU / degree as f64 * k as f64);
+    let mut zeros: Vec<Complex64> = (0..degree).map(start).collect();
+    for _ in 0..100 {
+        let mut moved = 0.0_f64;
+        for i in 0..degree {
+            let others = (0..degree).filter(|j| *j != i).map(|j| zeros[i] - zeros[j]);
+            let step = value(zeros[i]) / others.product::<Complex64>();
+            if step.is_finite() {
+                zeros[i] -= step;
+                moved = moved.max(step.norm());
+            }
+        }
+        if moved < 1e-15 * radius {
+            break;
+        }
+    }
+    zeros
+}

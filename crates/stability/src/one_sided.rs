@@ -1,5 +1,6 @@
 //! φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1: the transforms of a
-//! footprint in the characteristic equation.
+//! footprint in the characteristic equation. Across the scan `f_yy(x,0)` pushes the tip in place of f'': there the
+//! function is `f_yy(x,0)`, and its own transform stands in the place of G.
 
 use super::transform::{CurvatureTransform, Scaled, bessel_root};
 use num_complex::Complex64;
@@ -42,6 +43,7 @@ pub(super) struct OneSided {
     tip: TipFunction,
     apex: f64,
     curvature: CurvatureTransform,
+    is_across: bool,
 }
 
 /// φ, φ1 and G, with their derivatives.
@@ -54,7 +56,23 @@ pub(super) struct Values {
 
 impl OneSided {
     pub(super) fn new(tip: &TipFunction) -> Self {
-        Self { tip: tip.clone(), apex: tip.value(0.0), curvature: CurvatureTransform::new(tip) }
+        let (apex, curvature) = (tip.value(0.0), CurvatureTransform::new(tip));
+        Self { tip: tip.clone(), apex, curvature, is_across: false }
+    }
+
+    /// Of deviations across the scan, given `f_yy(x,0)`.
+    pub(super) fn across(curvature: &TipFunction) -> Self {
+        Self { is_across: true, ..Self::new(curvature) }
+    }
+
+    /// Whether G is the transform of the function itself.
+    pub(super) fn is_across(&self) -> bool {
+        self.is_across
+    }
+
+    /// f''(0), or `f_yy(0,0)`: G falls as this over p.
+    pub(super) fn peak(&self) -> f64 {
+        if self.is_across { self.apex } else { self.tip.slope_and_curvature(0.0).1 }
     }
 
     pub(super) fn tip(&self) -> &TipFunction {
@@ -66,11 +84,12 @@ impl OneSided {
     }
 
     pub(super) fn at(&self, p: Complex64) -> Transforms {
-        match self.tip {
+        let at = match self.tip {
             TipFunction::Gaussians(_) => self.gaussians(p),
             TipFunction::Bessel => bessel(p),
             TipFunction::Cosine => cosine(p),
-        }
+        };
+        if self.is_across { Transforms { curvature: at.height, ..at } } else { at }
     }
 
     /// As they are, at any p at which they are of ordinary size.
@@ -92,6 +111,11 @@ impl OneSided {
 
     /// Σ|terms| of φ, φ1 and G, times `unit` and e^{-`log_scale`}, given the transforms there.
     pub(super) fn sizes(&self, p: Complex64, at: &Transforms) -> [f64; 3] {
+        let [height, slope, curvature] = self.sizes_along(p, at);
+        [height, slope, if self.is_across { height } else { curvature }]
+    }
+
+    fn sizes_along(&self, p: Complex64, at: &Transforms) -> [f64; 3] {
         if !matches!(self.tip, TipFunction::Gaussians(_)) {
             return [at.height, at.slope, at.curvature].map(|f| f.0.norm());
         }

@@ -26,21 +26,25 @@
 
 mod count;
 mod determinant;
+mod entry;
 mod extent;
 mod growth;
 mod lines;
 mod optimum;
 mod patch;
+mod plane;
+mod polynomial;
 mod search;
 mod waves;
 
 use super::StabilityError;
-use determinant::{Lines, Terms};
+use determinant::{Heights, Lines, Terms};
 use optimum::Place;
+use plane::Sideways;
 use search::{Found, MARGIN, largest};
 use std::f64::consts::PI;
 use stickslip_tip::roots::zero_between;
-use stickslip_tip::{Footprint, TipFunction, Wider};
+use stickslip_tip::{Across, Footprint, TipFunction, Wider};
 use waves::Waves;
 
 /// How the tip goes from one line to the next.
@@ -52,9 +56,22 @@ pub enum RasterPath {
     Zigzag,
 }
 
+/// What drives a wave of the tracks of a raster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RasterKind {
+    /// Deviations along the lines: crests across them or oblique.
+    Ripples,
+    /// Deviations across the lines, into the grooves of earlier ones: trenches along the scan, or pairs of lines.
+    Bunching,
+    /// Deviations across the lines, from the groove of each line itself.
+    Snaking,
+}
+
 /// Where ripples begin to grow from line to line. Lengths in σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RasterCritical {
+    /// Whether it is ripples that grow there: always, unless the tip gives way across the lines.
+    pub kind: RasterKind,
     /// The smallest α with a ripple that does not fade from line to line.
     pub alpha: f64,
     /// r
@@ -67,7 +84,7 @@ pub struct RasterCritical {
     pub kappa: Option<f64>,
     /// Between crests and scan lines, in degrees: atan(q/|κ|); `None` on a zigzag.
     pub crest_angle: Option<f64>,
-    /// 2π/q
+    /// 2π/q; infinite where the tracks stay straight.
     pub wavelength_x: f64,
     /// What shows that it is the threshold.
     pub certificate: RasterCertificate,
@@ -101,8 +118,9 @@ pub struct Raster {
     r: f64,
     pitch: f64,
     law: Wider,
-    /// c^j h_l(jd) of each layer, j = 1, 2, …
-    heights: Vec<Vec<f64>>,
+    /// c
+    left: f64,
+    heights: Heights,
     /// u0 = -a times this.
     depth: f64,
     terms: Terms,
@@ -146,12 +164,10 @@ impl Raster {
             let what = "a raster of a tip that is no sum of Gaussians";
             return Err(StabilityError::PapersLawOnly(what));
         }
-        let heights = heights(footprint, pitch, left)?;
+        let heights = vec![heights(footprint, (pitch, left), 0)?];
         let fading = law.healing_time.map_or(0.0, |time| 1.0 / (r * time));
         let waves = Waves::new(footprint, fading);
-        let each = waves.steady_layers();
-        let each = each.iter().zip(&heights).map(|(g, heights)| g * heights.iter().sum::<f64>());
-        let beside: f64 = each.sum();
+        let beside = beside(&waves, &heights[0]);
         let [own, ..] = waves.steady;
         let depth = (own + beside) / r;
         if law.depth_limit.is_some()
@@ -160,8 +176,30 @@ impl Raster {
             return Err(StabilityError::Corner);
         }
         let steepness = law.depth_limit.map_or(0.0, |limit| -depth.signum() / limit);
-        let terms = Terms { r, mass: law.inertia.unwrap_or(0.0), steepness, beside };
-        Ok(Self { footprint: footprint.clone(), waves, r, pitch, law, heights, depth, terms })
+        let mass = law.inertia.unwrap_or(0.0);
+        let terms = Terms { r, mass, steepness, beside, across: None };
+        let footprint = footprint.clone();
+        Ok(Self { footprint, waves, r, pitch, law, left, heights, depth, terms })
+    }
+
+    /// The same with a tip that gives way across the lines, on a spring κ_y in units of that along them. The inertia is that
+    /// along the lines.
+    ///
+    /// # Errors
+    /// κ_y not a positive finite number; J0 and cos x.
+    pub fn with_stiffness_across(mut self, stiffness: f64) -> Result<Self, StabilityError> {
+        judge_stiffness(stiffness, self.r)?;
+        if !is_gaussian(&self.footprint) {
+            return Err(StabilityError::NoRipples);
+        }
+        self.heights.truncate(1);
+        for order in [1, 2] {
+            self.heights.push(heights(&self.footprint, (self.pitch, self.left), order)?);
+        }
+        self.waves = self.waves.giving_way(&self.footprint);
+        let beside = [1, 2].map(|order: usize| beside(&self.waves, &self.heights[order]));
+        self.terms.across = Some(Sideways { stiffness, beside });
+        Ok(self)
     }
 
     /// The first ripple that does not fade from line to line: the smallest α at which, for some q, a wave that fades at all
@@ -177,7 +215,8 @@ impl Raster {
         let lines = self.lines(path)?;
         let none = StabilityError::NoCrossing { r: self.r };
         let floor = self.least_t(&lines);
-        let alone = largest(&lines.alone(), floor)?;
+        let single_line = lines.alone();
+        let alone = largest(&single_line, floor)?;
         let single = alone.place.map_or(floor, |place| place.t);
         let found = if self.is_alone() {
             Found { place: None, cells: 0 }
@@ -186,6 +225,7 @@ impl Raster {
         };
         let cells = alone.cells + found.cells;
         let place = found.place.or(alone.place).ok_or(none)?;
+        let kind = Self::kind(if found.place.is_some() { &lines } else { &single_line }, place);
         let alpha = self.alpha(self.r / place.t);
         if !alpha.is_finite() {
             return Err(none);
@@ -201,6 +241,7 @@ impl Raster {
         let phase = found.place.map_or(0.0, |place| Self::phase(&lines, place));
         let kappa = (path == RasterPath::OneWay).then_some(phase / self.pitch);
         Ok(RasterCritical {
+            kind,
             alpha,
             r: self.r,
             q: place.q,
@@ -219,6 +260,18 @@ impl Raster {
         }
         let (wave, phase) = (lines.wave(place.q, 1.0), lines.phase(place.theta, 1.0));
         lines.back_by_forth(&wave, &phase, place.t).arg()
+    }
+
+    fn kind(lines: &Lines, place: Place) -> RasterKind {
+        if !lines.is_plane() {
+            return RasterKind::Ripples;
+        }
+        let (wave, phase) = (lines.wave(place.q, 1.0), lines.phase(place.theta, 1.0));
+        if lines.share_along(&wave, &phase, place.t) >= 0.5 {
+            return RasterKind::Ripples;
+        }
+        let is_own = lines.own_across(place.q) > 0.5 * place.t;
+        if is_own { RasterKind::Snaking } else { RasterKind::Bunching }
     }
 
     fn lines(&self, path: RasterPath) -> Result<Lines, StabilityError> {
@@ -244,7 +297,7 @@ impl Raster {
     }
 
     fn is_alone(&self) -> bool {
-        self.heights.iter().flatten().all(|h| h.abs() < ALONE)
+        self.heights.iter().flatten().flatten().all(|h| h.abs() < ALONE)
     }
 
     /// α of a.
@@ -261,8 +314,44 @@ impl Raster {
     }
 }
 
-/// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter.
-fn heights(footprint: &Footprint, pitch: f64, left: f64) -> Result<Vec<Vec<f64>>, StabilityError> {
+/// Σ_j Σ_l c^j h_l(jd) ĝ_l(s)
+fn beside(waves: &Waves, heights: &[Vec<f64>]) -> f64 {
+    let each = waves.steady_layers();
+    each.iter().zip(heights).map(|(g, heights)| g * heights.iter().sum::<f64>()).sum()
+}
+
+/// A spring across that is told from none: S(s) - S(p) has a round-off of 1e-16.
+const LEAST_STIFFNESS: f64 = 1e-9;
+
+/// Refuses a κ_y that is none, or so small a part of r that nothing is left of it.
+pub(super) fn judge_stiffness(stiffness: f64, r: f64) -> Result<(), StabilityError> {
+    if stiffness.is_finite() && stiffness >= LEAST_STIFFNESS * r {
+        return Ok(());
+    }
+    Err(StabilityError::StiffnessAcross(stiffness))
+}
+
+/// The largest T and its q at which a single line that gives way across keeps a deviation across, and how many cells were
+/// gone through; `None` where it fades at any T above [`LEAST`] of what it could be.
+pub(super) fn single_across(
+    footprint: &Footprint,
+    fading: f64,
+    (r, stiffness): (f64, f64),
+) -> Result<(Option<(f64, f64)>, usize), StabilityError> {
+    let waves = Waves::new(footprint, fading).giving_way(footprint);
+    let across = Some(Sideways { stiffness, beside: [0.0; 2] });
+    let terms = Terms { r, mass: 0.0, steepness: 0.0, beside: 0.0, across };
+    let lines = Lines::single_across(waves, terms);
+    let found = largest(&lines, LEAST * lines.scale())?;
+    Ok((found.place.map(|place| (place.t, place.q)), found.cells))
+}
+
+/// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter, or its derivative of this order.
+fn heights(
+    footprint: &Footprint,
+    (pitch, left): (f64, f64),
+    order: usize,
+) -> Result<Vec<Vec<f64>>, StabilityError> {
     let widest = footprint.layers().iter().map(|layer| layer.across);
     let reach = widest.map(|h| h.center + 9.0 * h.width).fold(0.0, f64::max);
     let lines = (reach / pitch).ceil();
@@ -274,15 +363,31 @@ fn heights(footprint: &Footprint, pitch: f64, left: f64) -> Result<Vec<Vec<f64>>
         let mut kept = 1.0;
         let height = |j: usize| {
             kept *= left;
-            kept * layer.across.value(pitch * j as f64)
+            kept * derivative(&layer.across, pitch * j as f64, order)
         };
-        let largest = layer.across.value(layer.across.center);
+        let Across { center, width } = layer.across;
+        let largest = layer.across.value(center) / width.powi(order as i32);
         let mut heights: Vec<f64> = (1..=lines as usize).map(height).collect();
         let last = heights.iter().rposition(|h| h.abs() >= NEGLIGIBLE * largest);
         heights.truncate(last.map_or(0, |last| last + 1));
         heights
     });
     Ok(heights.collect())
+}
+
+/// h, h' or h''.
+fn derivative(across: &Across, y: f64, order: usize) -> f64 {
+    let Across { center, width } = *across;
+    let term = |center: f64| {
+        let z = (y - center) / width;
+        let bell = (-0.5 * z * z).exp();
+        if order == 1 { -z * bell / width } else { (z * z - 1.0) * bell / (width * width) }
+    };
+    match order {
+        0 => across.value(y),
+        _ if center > 0.0 => term(center) + term(-center),
+        _ => term(0.0),
+    }
 }
 
 fn is_gaussian(footprint: &Footprint) -> bool {

@@ -22,25 +22,32 @@
 //! ```
 //!
 //! a function of W = w². Q is analytic in w or W within the unit circle, where its zeros are the waves that grow.
+//!
+//! Where the tip gives way across the lines Q = det(T - N) has the rows of `plane.rs`, on a zigzag twice: A is a matrix
+//! there, and so are F_l, whose even sums stand beside the own terms and whose odd sums couple both ways.
 
+use super::entry::Entry;
 use super::lines::Sequence;
 use super::patch::Patch;
+use super::plane::{Across, Along, Sideways};
+use super::polynomial::{Polynomial, minor, null_vector};
 use super::waves::Waves;
 use num_complex::Complex64;
 
-/// Which of the three.
+/// What T is multiplied with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Scalar,
     Full,
     Zigzag,
-}
-
-/// own + Σ_l lines_l Λ_l, a function of q on an interval of it but for Λ.
-#[derive(Debug, Clone)]
-struct Entry {
-    own: Patch,
-    lines: Vec<Patch>,
+    /// A single line, across.
+    Across,
+    /// Two rows, along and across, one way.
+    Plane,
+    /// Three.
+    PlaneFull,
+    /// Twice two.
+    PlaneZigzag,
 }
 
 /// The determinant's functions of q on an interval.
@@ -50,10 +57,10 @@ pub(super) struct Wave(Vec<Entry>);
 /// Sums over lines on an interval of the phase of w, or of W.
 #[derive(Debug, Clone)]
 pub(super) struct Phase {
-    /// Λ_l, or E_l.
-    all: Vec<Patch>,
+    /// Λ_l, or E_l, of h and where the tip gives way across of h' and h'' too.
+    all: Vec<Vec<Patch>>,
     /// O_l/w
-    odd: Vec<Patch>,
+    odd: Vec<Vec<Patch>>,
     /// W
     turn: Patch,
 }
@@ -66,6 +73,8 @@ pub(super) struct Determinant {
     pub(super) curved: bool,
     /// T - N11, T - N22 and N12 N21.
     factors: Option<[Patch; 3]>,
+    /// All of Q where the tip gives way across.
+    plane: Option<Polynomial>,
 }
 
 /// A law, a footprint, and how the lines lie.
@@ -79,8 +88,9 @@ pub(super) struct Lines {
     steepness: f64,
     /// E
     beside: f64,
-    all: Vec<Sequence>,
-    odd: Vec<Sequence>,
+    across: Option<Sideways>,
+    all: Vec<Vec<Sequence>>,
+    odd: Vec<Vec<Sequence>>,
 }
 
 /// What of the law enters.
@@ -90,34 +100,57 @@ pub(super) struct Terms {
     pub(super) mass: f64,
     pub(super) steepness: f64,
     pub(super) beside: f64,
+    pub(super) across: Option<Sideways>,
 }
 
+/// c^j h_l(jd) of each layer, j = 1, 2, …, and where the tip gives way across the same of h' and h''.
+pub(super) type Heights = Vec<Vec<Vec<f64>>>;
+
 impl Lines {
-    /// One way, with c^j h_l(jd) of each layer, j = 1, 2, …
-    pub(super) fn one_way(waves: Waves, terms: Terms, heights: &[Vec<f64>]) -> Self {
+    /// One way.
+    pub(super) fn one_way(waves: Waves, terms: Terms, heights: &Heights) -> Self {
         let both = waves.fading > 0.0 && terms.steepness.abs() > 0.0;
-        let all = heights.iter().map(|h| Sequence::new(h.clone(), 1)).collect();
-        Self::of(waves, terms, if both { Kind::Full } else { Kind::Scalar }, [all, vec![]])
+        let kind = match (terms.across.is_some(), both) {
+            (false, false) => Kind::Scalar,
+            (false, true) => Kind::Full,
+            (true, false) => Kind::Plane,
+            (true, true) => Kind::PlaneFull,
+        };
+        let sequence = |h: &Vec<f64>| Sequence::new(h.clone(), 1);
+        let all = heights.iter().map(|layers| layers.iter().map(sequence).collect()).collect();
+        Self::of(waves, terms, kind, [all, vec![]])
     }
 
     /// To and fro, where nothing heals.
-    pub(super) fn zigzag(waves: Waves, terms: Terms, heights: &[Vec<f64>]) -> Self {
+    pub(super) fn zigzag(waves: Waves, terms: Terms, heights: &Heights) -> Self {
         let every_other = |from: usize| {
-            let each = heights.iter().map(move |h| h.iter().skip(from).step_by(2).copied());
-            each.map(move |h| Sequence::new(h.collect(), from)).collect()
+            let sequence = |h: &Vec<f64>| {
+                Sequence::new(h.iter().skip(from).step_by(2).copied().collect(), from)
+            };
+            heights.iter().map(|layers| layers.iter().map(sequence).collect()).collect()
         };
+        let kind = if terms.across.is_some() { Kind::PlaneZigzag } else { Kind::Zigzag };
         // h(2d), h(4d), … of W, W², …; h(d), h(3d), … of 1, W, …
-        Self::of(waves, terms, Kind::Zigzag, [every_other(1), every_other(0)])
+        Self::of(waves, terms, kind, [every_other(1), every_other(0)])
     }
 
-    fn of(waves: Waves, terms: Terms, kind: Kind, [all, odd]: [Vec<Sequence>; 2]) -> Self {
-        let Terms { r, mass, steepness, beside } = terms;
-        Self { waves, kind, r, mass, steepness, beside, all, odd }
+    /// A single line, across alone.
+    pub(super) fn single_across(waves: Waves, terms: Terms) -> Self {
+        Self::of(waves, terms, Kind::Across, [vec![], vec![]])
+    }
+
+    fn of(waves: Waves, terms: Terms, kind: Kind, [all, odd]: [Vec<Vec<Sequence>>; 2]) -> Self {
+        let Terms { r, mass, steepness, beside, across } = terms;
+        Self { waves, kind, r, mass, steepness, beside, across, all, odd }
     }
 
     /// A single line over the same even grooves.
     pub(super) fn alone(&self) -> Self {
-        let kind = if self.kind == Kind::Zigzag { Kind::Scalar } else { self.kind };
+        let kind = match self.kind {
+            Kind::Zigzag => Kind::Scalar,
+            Kind::PlaneZigzag => Kind::Plane,
+            kind => kind,
+        };
         Self { kind, all: vec![], odd: vec![], ..self.clone() }
     }
 
@@ -128,7 +161,7 @@ impl Lines {
     /// Centre and half of the interval of phases: all of them one way; on a zigzag those of Im W ≥ 0, as Q(W*) = Q(W)*.
     pub(super) fn phases(&self) -> (f64, f64) {
         let half = std::f64::consts::PI;
-        if self.kind == Kind::Zigzag { (0.5 * half, 0.5 * half) } else { (0.0, half) }
+        if self.is_zigzag() { (0.5 * half, 0.5 * half) } else { (0.0, half) }
     }
 
     /// The middle of an interval of phases, or a phase in it at which a zigzag's determinant is real: 0 or π.
@@ -139,16 +172,24 @@ impl Lines {
     }
 
     pub(super) fn is_zigzag(&self) -> bool {
-        self.kind == Kind::Zigzag
+        matches!(self.kind, Kind::Zigzag | Kind::PlaneZigzag)
+    }
+
+    /// Whether the tip gives way across the lines.
+    pub(super) fn is_plane(&self) -> bool {
+        matches!(self.kind, Kind::Plane | Kind::PlaneFull | Kind::PlaneZigzag)
     }
 
     /// Lines that are felt at all, at most.
     pub(super) fn felt(&self) -> usize {
-        self.all.iter().chain(&self.odd).map(Sequence::len).max().unwrap_or(0)
+        self.all.iter().chain(&self.odd).flatten().map(Sequence::len).max().unwrap_or(0)
     }
 
     pub(super) fn phase(&self, centre: f64, half: f64) -> Phase {
-        let each = |sums: &[Sequence]| sums.iter().map(|s| s.patch(centre, half)).collect();
+        let each = |sums: &[Vec<Sequence>]| {
+            let layers = sums.iter();
+            layers.map(|layers| layers.iter().map(|s| s.patch(centre, half)).collect()).collect()
+        };
         let value = Complex64::from_polar(1.0, centre);
         let along = [Complex64::ZERO, value * Complex64::I * half];
         let turn = Patch { value, along, rest: 0.5 * half * half };
@@ -160,15 +201,21 @@ impl Lines {
     /// Without a depth limit the imaginary part of m T = K - Σ p²ĝ_l Λ_l, in which K has a real constant, says
     /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|; on a zigzag the same follows for both directions together. With it, |T| is at most the
     /// sum of |N11|, |N22| and √|N12 N21|.
+    ///
+    /// Where the tip gives way across it is at most the largest eigenvalue of a matrix of bounds of |N|.
     pub(super) fn largest_beyond(&self, q: f64) -> f64 {
         let p = q.hypot(self.waves.fading);
         let [height, slope, curvature] = self.waves.own_bounds(p);
         let layers = self.waves.layer_bounds(p);
-        let all = |order: usize| -> f64 {
-            let sums = layers.iter().zip(self.totals());
-            sums.map(|(layer, total)| layer[order] * total).sum()
+        let sums = |power: usize, order: usize| -> f64 {
+            let sums = layers.iter().zip(self.totals(order));
+            sums.map(|(layer, total)| layer[power] * total).sum()
         };
+        let all = |power: usize| sums(power, 0);
         let drag = self.r * q;
+        if let Some(sideways) = self.across {
+            return self.largest_across(sideways, p, drag, &sums);
+        }
         if self.steepness.abs() <= 0.0 {
             return (curvature + all(2)) / drag;
         }
@@ -184,17 +231,59 @@ impl Lines {
 
     /// Of T where it is large: that of a single line, or less.
     pub(super) fn scale(&self) -> f64 {
-        let [.., far] = self.waves.own_bounds(1e9);
-        let [.., near] = self.waves.own_bounds(0.0);
+        let (bound, spring): (&dyn Fn(f64) -> f64, f64) = match (self.kind, self.across) {
+            (Kind::Across, Some(across)) => (&|p| self.waves.across_bound(p), across.stiffness),
+            _ => (&|p| self.waves.own_bounds(p)[2], 1.0),
+        };
+        let (far, near) = (bound(1e9), bound(0.0));
         // Where both bounds of G are the same.
         let q = 1e9 * far / near;
-        near.min(near / (self.r * q))
+        (near / spring).min(near / (self.r * q))
     }
 
-    /// Σ_j|h_l| of each layer.
-    fn totals(&self) -> Vec<f64> {
-        let mut totals: Vec<f64> = self.all.iter().map(Sequence::total).collect();
-        totals.iter_mut().zip(&self.odd).for_each(|(total, odd)| *total += odd.total());
+    /// The same where the tip gives way across, |m| and |m_y| at least `drag`.
+    fn largest_across(
+        &self,
+        sideways: Sideways,
+        p: f64,
+        drag: f64,
+        sums: &dyn Fn(usize, usize) -> f64,
+    ) -> f64 {
+        let [height, slope, curvature] = self.waves.own_bounds(p);
+        let still = self.waves.across_at(self.waves.fading.into()).0.re;
+        let [tilt, bend] = sideways.beside.map(f64::abs);
+        let across = (still.abs() + bend + self.waves.across_bound(p) + sums(0, 2)) / drag;
+        if self.kind == Kind::Across {
+            return self.waves.across_bound(p) / drag;
+        }
+        let (steep, fading) = (self.steepness.abs(), self.waves.fading);
+        let groove = (curvature + self.still().abs() + sums(2, 0)) / drag;
+        let weight = steep * (height + sums(0, 0));
+        let faded = (fading * tilt + sums(1, 1)) / drag;
+        let raised = steep * (tilt + sums(0, 1));
+        if self.kind != Kind::PlaneFull && fading > 0.0 {
+            return largest_eigenvalue(&[[groove, faded], [faded, across]]);
+        }
+        if self.kind != Kind::PlaneFull {
+            let aside = raised + sums(2, 1) / drag;
+            return largest_eigenvalue(&[[groove + weight, aside], [sums(0, 1) / drag, across]]);
+        }
+        let [_, steady, _] = self.waves.steady;
+        let felt = slope + sums(1, 0);
+        let lost = steep * ((steady + fading * self.beside).abs() + felt);
+        largest_eigenvalue(&[
+            [groove, felt / drag, faded],
+            [lost, weight, raised],
+            [faded, sums(0, 1) / drag, across],
+        ])
+    }
+
+    /// Σ_j|h_l| of each layer, or of derivatives of h.
+    fn totals(&self, order: usize) -> Vec<f64> {
+        let all = self.all.get(order).map_or(&[][..], Vec::as_slice);
+        let odd = self.odd.get(order).map_or(&[][..], Vec::as_slice);
+        let mut totals: Vec<f64> = all.iter().map(Sequence::total).collect();
+        totals.iter_mut().zip(odd).for_each(|(total, odd)| *total += odd.total());
         totals
     }
 
@@ -215,18 +304,29 @@ impl Lines {
         let [height, slope, curvature] = self.waves.own(centre, half);
         let groove = (Patch::constant(self.still()) - curvature) * inverse;
         let layers = if self.is_alone() { vec![] } else { self.waves.layers(centre, half) };
+        let [_, steady, _] = self.waves.steady;
+        let fading = steady + self.waves.fading * self.beside;
+        if let Some(sideways) = self.across {
+            let own = [height, slope, curvature];
+            let along = Along { inverse, groove, steepness: beta, fading, own, layers };
+            let across = Across::new(&self.waves, sideways, self.r, (centre, half));
+            return Wave(match self.kind {
+                Kind::Across => across.alone(),
+                Kind::PlaneFull => across.all_rows(&along),
+                _ => across.rows(&along),
+            });
+        }
         let each = |of: &dyn Fn(&[Patch; 3]) -> Patch| layers.iter().map(of).collect::<Vec<_>>();
         if self.kind != Kind::Full {
             let lines = each(&|g| g[0] * beta - g[2] * inverse);
-            return Wave(vec![Entry { own: groove + height * beta, lines }]);
+            return Wave(vec![Entry::level(groove + height * beta, lines)]);
         }
-        let [_, steady, _] = self.waves.steady;
-        let fading = Patch::constant(steady + self.waves.fading * self.beside);
+        let fading = Patch::constant(fading);
         Wave(vec![
-            Entry { own: groove, lines: each(&|g| g[2] * inverse * -1.0) },
-            Entry { own: height * beta, lines: each(&|g| g[0] * beta) },
-            Entry { own: slope * inverse, lines: each(&|g| g[1] * inverse) },
-            Entry { own: (fading - slope) * beta, lines: each(&|g| g[1] * -beta) },
+            Entry::level(groove, each(&|g| g[2] * inverse * -1.0)),
+            Entry::level(height * beta, each(&|g| g[0] * beta)),
+            Entry::level(slope * inverse, each(&|g| g[1] * inverse)),
+            Entry::level((fading - slope) * beta, each(&|g| g[1] * -beta)),
         ])
     }
 
@@ -235,10 +335,13 @@ impl Lines {
         let t = Patch::constant(t);
         let entries = &wave.0;
         let [x, y, product] = match self.kind {
-            Kind::Scalar => {
+            Kind::Scalar | Kind::Across => {
                 let value = t - entries[0].with(&phase.all);
                 let slope = Patch::constant(1.0);
-                return Determinant { value, slope, curved: false, factors: None };
+                return Determinant { value, slope, curved: false, factors: None, plane: None };
+            }
+            Kind::Plane | Kind::PlaneFull | Kind::PlaneZigzag => {
+                return Determinant::in_plane(Polynomial::of(&self.matrix(wave, phase, t)));
             }
             Kind::Full => {
                 let [a, b, c, d] = [0, 1, 2, 3].map(|i: usize| entries[i].with(&phase.all));
@@ -255,30 +358,94 @@ impl Lines {
             slope: x + y,
             curved: true,
             factors: Some([x, y, product]),
+            plane: None,
         }
     }
 
+    /// T - N, where the tip gives way across.
+    fn matrix(&self, wave: &Wave, phase: &Phase, t: Patch) -> Vec<Vec<Patch>> {
+        let entries = &wave.0;
+        let rows = entries.len().isqrt();
+        let minus = |sum: Patch| sum * -1.0;
+        if self.kind != Kind::PlaneZigzag {
+            let row = |i: usize| {
+                let entry = |j: usize| minus(entries[i * rows + j].with(&phase.all));
+                (0..rows).map(|j| if i == j { t + entry(j) } else { entry(j) }).collect()
+            };
+            return (0..rows).map(row).collect();
+        }
+        let back: Vec<Entry> = entries.iter().map(Entry::conj).collect();
+        let row = |i: usize| {
+            let (is_back, i) = (i >= rows, i % rows);
+            let of = if is_back { &back } else { entries };
+            let entry = |column: usize| {
+                let (to_back, j) = (column >= rows, column % rows);
+                let entry = &of[i * rows + j];
+                match (is_back == to_back, i == j) {
+                    (true, true) => t - entry.with(&phase.all),
+                    (true, false) => minus(entry.with(&phase.all)),
+                    (false, _) if is_back => minus(entry.felt(&phase.odd)),
+                    (false, _) => minus(entry.felt(&phase.odd) * phase.turn),
+                }
+            };
+            (0..2 * rows).map(entry).collect()
+        };
+        (0..2 * rows).map(row).collect()
+    }
+
+    /// How much of a wave is deviations along the lines: of the factors by which the entries on the diagonal of N take part in
+    /// dT, which add up to 1, the real part of those.
+    pub(super) fn share_along(&self, wave: &Wave, phase: &Phase, t: f64) -> f64 {
+        let x = self.matrix(wave, phase, Patch::constant(t));
+        let is_along = |i: usize| match self.kind {
+            Kind::PlaneFull => i < 2,
+            _ => i.is_multiple_of(2),
+        };
+        let (mut along, mut all) = (Complex64::ZERO, Complex64::ZERO);
+        for i in 0..x.len() {
+            let others: Vec<usize> = (0..x.len()).filter(|j| *j != i).collect();
+            let part = minor(&x, &others, &others).value;
+            all += part;
+            along += if is_along(i) { part } else { Complex64::ZERO };
+        }
+        (along / all).re
+    }
+
+    /// What the own groove of a line has in T across: the real part of (S(s) - S)/m_y.
+    pub(super) fn own_across(&self, q: f64) -> f64 {
+        let single = Sideways { beside: [0.0; 2], ..self.across.unwrap_or(Sideways::STIFF) };
+        let across = Across::new(&self.waves, single, self.r, (q, 0.0));
+        across.alone().iter().map(|entry| entry.own.value.re).sum()
+    }
+
     /// The groove of a way back as a multiple of that of the way before it, where Q = 0.
+    /// Where the tip gives way across, of that coordinate in which they are deeper.
     pub(super) fn back_by_forth(&self, wave: &Wave, phase: &Phase, t: f64) -> Complex64 {
+        if self.kind == Kind::PlaneZigzag {
+            let null = null_vector(&self.matrix(wave, phase, Patch::constant(t)));
+            let i = usize::from(null[1].norm() > null[0].norm());
+            return null[2 + i] / null[i];
+        }
         let there = &wave.0[0];
         let own = there.with(&phase.all).value;
         (t - own) / (there.felt(&phase.odd).value * phase.turn.value)
     }
 }
 
-impl Entry {
-    fn with(&self, sums: &[Patch]) -> Patch {
-        self.own + self.felt(sums)
+/// A bound of the largest eigenvalue of a matrix of numbers ≥ 0: the largest (Mx)_i/x_i of any x > 0 (Collatz).
+fn largest_eigenvalue<const N: usize>(m: &[[f64; N]; N]) -> f64 {
+    let times = |x: &[f64; N]| m.map(|row| row.iter().zip(x).map(|(m, x)| m * x).sum::<f64>());
+    let mut x = [1.0; N];
+    let mut least = f64::INFINITY;
+    for _ in 0..20 {
+        let next = times(&x);
+        let largest = next.iter().zip(&x).map(|(next, x)| next / x).fold(0.0, f64::max);
+        least = least.min(largest);
+        let size = next.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        // No component may vanish.
+        x = std::array::from_fn(|i| next[i] / size + 1e-3 * x[i]);
     }
-
-    fn felt(&self, sums: &[Patch]) -> Patch {
-        let each = self.lines.iter().zip(sums);
-        each.fold(Patch::constant(0.0), |felt, (line, sum)| felt + *line * *sum)
-    }
-
-    fn conj(&self) -> Self {
-        Self { own: self.own.conj(), lines: self.lines.iter().map(|l| l.conj()).collect() }
-    }
+    least
 }
 
 impl Wave {
@@ -287,9 +454,10 @@ impl Wave {
         let mut spreads = [0.0; 2];
         for entry in &self.0 {
             spreads[0] += entry.own.reach();
-            let odd = phase.odd.iter().map(|sum| *sum * phase.turn);
-            for sums in [&phase.all, &odd.collect()] {
-                for (line, sum) in entry.lines.iter().zip(sums) {
+            let sums = |all: &[Vec<Patch>]| all.get(entry.order).cloned().unwrap_or_default();
+            let odd = sums(&phase.odd).into_iter().map(|sum| sum * phase.turn);
+            for sums in [sums(&phase.all), odd.collect()] {
+                for (line, sum) in entry.lines.iter().zip(&sums) {
                     spreads[0] += line.reach() * sum.size();
                     spreads[1] += line.size() * sum.reach();
                 }
@@ -300,8 +468,30 @@ impl Wave {
 }
 
 impl Determinant {
+    fn in_plane(q: Polynomial) -> Self {
+        let (value, slope) = (q.value(), q.slope());
+        Self { value, slope, curved: true, factors: None, plane: Some(q) }
+    }
+
+    /// By how much T must grow for Q to vanish in the middle of the cell, if it were real there: the largest there is.
+    pub(super) fn beyond(&self) -> f64 {
+        if let Some(plane) = &self.plane {
+            return plane.largest();
+        }
+        let (value, slope) = (self.value.value, self.slope.value);
+        if self.curved {
+            let root = (0.25 * slope * slope - value).sqrt();
+            (-0.5 * slope.re) + root.re.abs()
+        } else {
+            -(value / slope).re
+        }
+    }
+
     /// Whether Q has no zero at any real T from this on, anywhere on the cell.
     pub(super) fn has_none(&self) -> bool {
+        if let Some(plane) = &self.plane {
+            return plane.has_none();
+        }
         if let Some([x, y, product]) = &self.factors
             && x.distance_to_negative() * y.distance_to_negative() > product.size()
         {
@@ -312,6 +502,9 @@ impl Determinant {
 
     /// How near the cell, or a cell beside it, comes to a zero to first order: the larger, the nearer.
     pub(super) fn promise(&self) -> f64 {
+        if let Some(plane) = &self.plane {
+            return plane.promise();
+        }
         let turned: f64 = self.value.along.iter().map(|l| l.im.abs()).sum();
         if self.value.value.im.abs() > 2.0 * turned {
             return f64::NEG_INFINITY;

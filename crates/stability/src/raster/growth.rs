@@ -44,9 +44,9 @@ impl Raster {
         let a = self.density(alpha);
         let at = self.at(q);
         let factor = value(&at.felt, a) * a / value(&at.own, a);
-        let most = self.heights.iter().map(Vec::len).max().unwrap_or(0);
+        let most = self.heights[0].iter().map(Vec::len).max().unwrap_or(0);
         let answer = |j: usize| {
-            let heights = self.heights.iter().zip(&at.layers);
+            let heights = self.heights[0].iter().zip(&at.layers);
             let each = heights.map(|(heights, g)| heights.get(j).map_or(0.0.into(), |h| g * h));
             factor * each.sum::<Complex64>()
         };

@@ -2,6 +2,7 @@
 
 use super::determinant::{Determinant, Lines, Phase, Wave};
 use num_complex::Complex64;
+use std::f64::consts::PI;
 
 /// Steps of Newton's method.
 const MOST_STEPS: usize = 40;
@@ -51,8 +52,28 @@ fn slopes(lines: &Lines, (wave, phase): (&Wave, &Phase), t: f64) -> Slopes {
     Slopes { value: value.value, t: slope.value, q, theta }
 }
 
-/// A zero of Q from the middle of a cell, near T = `known`: one at which T is stationary, or any.
+/// A zero of Q from the middle of a cell, near T = `known`: one at which T is stationary, or any. Where the tip gives way
+/// across the lines T may be largest at q = 0, which no method leads to from q > 0.
 pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
+    let [(q, half_q), phases] = cell;
+    let moving = moving(lines, cell, known);
+    if !lines.is_plane() || q > half_q {
+        return moving;
+    }
+    let still = still(lines, phases, known);
+    moving.into_iter().chain(still).max_by(|a, b| a.t.total_cmp(&b.t))
+}
+
+/// A zero of Q at q = 0. There Q is real where w is, so that T is stationary, and on a zigzag Q is even in q.
+fn still(lines: &Lines, (theta, half): (f64, f64), known: f64) -> Option<Place> {
+    let real = if theta.abs() < 0.5 * PI { 0.0 } else { PI.copysign(theta) };
+    let is_real = lines.is_alone() || (theta - real).abs() <= half;
+    let start = started(lines, 0.0, if is_real { real } else { theta }, known)?;
+    let is_stationary = is_real || lines.is_zigzag();
+    solved(lines, start).map(|place| Place { is_stationary, ..place })
+}
+
+fn moving(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
     let [(q, _), (theta, half_theta)] = cell;
     let start = started(lines, q, lines.symmetric(theta, half_theta), known)?;
     if lines.is_alone() {
@@ -100,14 +121,7 @@ fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<
 /// T where Q would vanish in the middle of a cell if it were real there, the largest there is.
 fn started(lines: &Lines, q: f64, theta: f64, known: f64) -> Option<Place> {
     let here = lines.determinant(&lines.wave(q, 1.0), &lines.phase(theta, 1.0), known);
-    let (value, slope) = (here.value.value, here.slope.value);
-    let beyond = if here.curved {
-        let root = (0.25 * slope * slope - value).sqrt();
-        (-0.5 * slope.re) + root.re.abs()
-    } else {
-        -(value / slope).re
-    };
-    let t = known + beyond;
+    let t = known + here.beyond();
     let is_stationary = lines.is_alone();
     (t.is_finite() && t > 0.0).then_some(Place { t, q, theta, is_stationary })
 }
@@ -129,7 +143,7 @@ fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
         } else {
             place.theta -= step;
         }
-        if !(place.t > 0.0 && place.q > 0.0) {
+        if !(place.t > 0.0 && place.q >= 0.0) {
             return None;
         }
         if step_t.abs() <= 2.0 * f64::EPSILON * place.t && step.abs() < SOLVED {

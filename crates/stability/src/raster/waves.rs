@@ -12,6 +12,8 @@ use stickslip_tip::{Footprint, Gaussian, TipFunction};
 pub(super) struct Waves {
     own: OneSided,
     own_extent: Extent,
+    /// Of `f_yy(x,0)`, where the tip gives way across and it is not 0.
+    across: Option<(OneSided, Extent)>,
     layers: Vec<(Terms, Extent)>,
     /// Centre and width of all Gaussians of all layers, those of tables the same in each.
     shapes: Vec<(f64, f64)>,
@@ -49,11 +51,38 @@ impl Waves {
         Self {
             own,
             own_extent: Extent::one_sided(footprint.path()),
+            across: None,
             layers: tips().map(layer).collect(),
             shapes,
             fading,
             steady,
         }
+    }
+
+    /// The same for a tip that gives way across the lines.
+    pub(super) fn giving_way(mut self, footprint: &Footprint) -> Self {
+        let curvature = footprint.curvature_across_path();
+        let with_extent = |f: &TipFunction| (OneSided::across(f), Extent::one_sided(f));
+        self.across = curvature.as_ref().map(with_extent);
+        self
+    }
+
+    /// S(p) = ∫_0^∞ `f_yy(x,0)` e^{-px}dx and its derivative.
+    pub(super) fn across_at(&self, p: Complex64) -> Jet {
+        let zero = (Complex64::ZERO, Complex64::ZERO);
+        self.across.as_ref().map_or(zero, |(across, _)| across.at(p).curvature)
+    }
+
+    /// S for |q - centre| ≤ `half`.
+    pub(super) fn across(&self, centre: f64, half: f64) -> Patch {
+        let (p, nearest) = self.place(centre, half);
+        let rest = self.across.as_ref().map_or(0.0, |(_, extent)| extent.curvature(nearest)[0]);
+        on_axis(self.across_at(p), half, rest)
+    }
+
+    /// A bound of |S| where |p| ≥ `distance`.
+    pub(super) fn across_bound(&self, distance: f64) -> f64 {
+        self.across.as_ref().map_or(0.0, |(_, extent)| bounds(extent, distance)[0])
     }
 
     /// ĝ(s) of every layer.

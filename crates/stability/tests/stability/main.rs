@@ -5,6 +5,7 @@ mod onset;
 mod raster;
 mod response;
 mod roots;
+mod snaking;
 mod tables;
 mod walking;
 mod wider;

@@ -175,6 +175,17 @@ impl Footprint {
         self.layers.iter().map(layer).sum()
     }
 
+    /// `f_yy(x,0)` as a function of x, of Gaussian layers; `None` where it is 0 for all x, and where a layer is no Gaussian.
+    #[must_use]
+    pub fn curvature_across_path(&self) -> Option<TipFunction> {
+        let is_gaussian = |layer: &Layer| matches!(layer.along, TipFunction::Gaussians(_));
+        if !self.layers.iter().all(is_gaussian) {
+            return None;
+        }
+        // A table's many layers are one sum of few Gaussians.
+        TipFunction::gaussian_sum(layers::combined(&self.layers, Across::curvature_at_0)).ok()
+    }
+
     /// The k'/k above which motion along y = 0 is certainly stable while it is steady, for a transverse
     /// spring k' (52); 0 where `f_yy(x,0)` ≤ 0 for all x, infinite where no k' is certain to do.
     ///
@@ -185,9 +196,7 @@ impl Footprint {
     /// infinite one among them. `depth` is α/r.
     #[must_use]
     pub fn transverse_stiffness_needed(&self, depth: f64) -> f64 {
-        // A table's many layers are one sum of few Gaussians.
-        let combined = layers::combined(&self.layers, Across::curvature_at_0);
-        let gaussians = TipFunction::gaussian_sum(combined).ok();
+        let gaussians = self.curvature_across_path();
         let transform = |q: f64| -> f64 {
             let layer = |layer: &Layer| layer.across.curvature_at_0() * layer.along.fourier(q);
             let each = || self.layers.iter().map(layer).sum();

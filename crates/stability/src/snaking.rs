@@ -1,0 +1,240 @@
+//! Snaking: a single line whose tip gives way across the scan.
+//!
+//! A spring κ_y holds the tip on its line y = 0. A small y e^{λt} beside the steady motion x0 = rt is pushed by the groove
+//! that the tip made where it had another y: with a = αw0, s = 1/(rT),
+//!
+//! ```text
+//!     y'(t) = a ∫_0^∞ f_yy(rτ,0) e^{-τ/T} [y(t) - y(t-τ)] dτ - κ_y y(t)
+//!     N(λ) = λ + κ_y + (a/r) [S(λ/r + s) - S(s)] = 0,       S(p) = ∫_0^∞ f_yy(x,0) e^{-px}dx
+//! ```
+//!
+//! f is even in y: neither the force along the scan nor the height under the tip changes at first order, so that a depth
+//! limit enters by w0 alone, its corner does not matter, and inertia along the scan does not either. For f = f(x)
+//! exp(-y²/(2v²)), S = -φ/v². At λ = 0 N = κ_y > 0, so that roots cross the axis in pairs λ = ±iω, Ω = ω/r,
+//!
+//! ```text
+//!     r/a = Im[S(s) - S(s + iΩ)]/(rΩ),       κ_y = rΩ Re[S(s) - S(s + iΩ)]/Im[S(s) - S(s + iΩ)]
+//! ```
+//!
+//! Where nothing heals, α/r² under the basic law is therefore a function of κ_y/r alone. A footprint of which f_yy(x,0)
+//! rises from x = 0 on never snakes, as ∫ f_yy sin Ωx dx < 0 for all Ω then: a Gaussian, for one.
+
+use super::StabilityError;
+use super::characteristic::Characteristic;
+use super::half_plane::{HalfPlane, leading};
+use super::law::Law;
+use super::one_sided::OneSided;
+use super::raster::{judge_stiffness, single_across};
+use super::spectrum::Spectrum;
+use num_complex::Complex64;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use stickslip_tip::{Footprint, Model, ModelError, TipFunction, Wider, stop};
+
+/// A threshold is the least to so much of itself: that of the search.
+const TOLERANCE: f64 = 1e-10;
+/// Distance from a threshold, as a part of it, of the two α at which roots are counted.
+const MARGIN: f64 = 1e-6;
+
+/// A single line of a footprint f(x,y) at a velocity r, with a spring κ_y across the scan.
+#[derive(Debug, Clone)]
+pub struct Snaking {
+    footprint: Footprint,
+    /// `f_yy(x,0)`; `None` where it is 0.
+    curvature: Option<Arc<OneSided>>,
+    law: Wider,
+    r: f64,
+    stiffness: f64,
+}
+
+/// Where a single line begins to snake. Lengths in σ, times in Γ/k.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SnakingCritical {
+    /// α_y, the smallest α with a deviation across that does not fade.
+    pub alpha: f64,
+    /// r
+    pub r: f64,
+    /// κ_y in units of the spring along the scan.
+    pub stiffness: f64,
+    /// ω = rΩ
+    pub omega: f64,
+    /// 2πr/ω
+    pub wavelength: f64,
+    /// What shows that it is the threshold.
+    pub certificate: SnakingCertificate,
+}
+
+/// Evidence that no deviation across grows below the threshold, and that one does above.
+///
+/// A search over all Ω ruled out roots on the imaginary axis at all α below the threshold by more than `tolerance`; roots to
+/// the right of it were counted by the argument principle at two α. Floating-point arithmetic with bounds, not intervals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SnakingCertificate {
+    /// By how much of itself a lower threshold could at most be lower.
+    pub tolerance: f64,
+    /// Intervals of Ω that the search went through.
+    pub cells: usize,
+    /// Distance from the threshold, as a part of it, of the two α.
+    pub margin: f64,
+    /// Roots with Re λ > 0 below.
+    pub growing_below: usize,
+    /// And above.
+    pub growing_above: usize,
+}
+
+/// Every crossing of the imaginary axis in the plane of κ_y and α, at one r, by rising Ω. At each κ_y that of the smallest α
+/// is the threshold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnakingCurve {
+    /// Ω = ω/r
+    pub wave_number: Vec<f64>,
+    /// κ_y
+    pub stiffness: Vec<f64>,
+    /// α
+    pub alpha: Vec<f64>,
+}
+
+impl Snaking {
+    /// # Errors
+    /// r or κ_y not a positive finite number, a parameter of the law out of range, no spring along the scan.
+    pub fn new(
+        footprint: &Footprint,
+        law: Wider,
+        (r, stiffness): (f64, f64),
+    ) -> Result<Self, StabilityError> {
+        if !(r.is_finite() && r > 0.0) {
+            return Err(StabilityError::R(r));
+        }
+        judge_stiffness(stiffness, r)?;
+        if !law.spring {
+            return Err(StabilityError::NoSupport);
+        }
+        law.validate()?;
+        let curvature = footprint.curvature_across_path();
+        let curvature = curvature.map(|curvature| Arc::new(OneSided::across(&curvature)));
+        Ok(Self { footprint: footprint.clone(), curvature, law, r, stiffness })
+    }
+
+    /// The smallest α at which the line snakes; `None` where it never does, however large α.
+    ///
+    /// J0 never does: Im φ(p) < 0 and 0 < φ(p) < φ(s) where its argument says so, on all of Re p ≥ s.
+    ///
+    /// # Errors
+    /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`], and
+    /// what keeps roots from being counted.
+    pub fn critical(&self) -> Result<Option<SnakingCritical>, StabilityError> {
+        if *self.footprint.path() == TipFunction::Bessel {
+            return Ok(None);
+        }
+        self.judge()?;
+        if self.curvature.is_none() {
+            return Ok(None);
+        }
+        let (r, stiffness) = (self.r, self.stiffness);
+        let (place, cells) = single_across(&self.footprint, self.fading(), (r, stiffness))?;
+        let Some((t, q)) = place else { return Ok(None) };
+        let alpha = self.alpha(1.0 / t);
+        if !alpha.is_finite() {
+            return Ok(None);
+        }
+        let growing = |part: f64| self.unstable_count(alpha * part);
+        let certificate = SnakingCertificate {
+            tolerance: TOLERANCE,
+            cells,
+            margin: MARGIN,
+            growing_below: growing(1.0 - MARGIN)?,
+            growing_above: growing(1.0 + MARGIN)?,
+        };
+        let (omega, wavelength) = (r * q, TAU / q);
+        Ok(Some(SnakingCritical { alpha, r, stiffness, omega, wavelength, certificate }))
+    }
+
+    /// All roots λ of N with Re λ ≥ `bound` at this α, with a certificate that none is missing.
+    ///
+    /// # Errors
+    /// As [`roots`](super::roots); [`StabilityError::AcrossGaussiansOnly`].
+    pub fn roots(&self, alpha: f64, bound: f64) -> Result<Spectrum, StabilityError> {
+        if !bound.is_finite() {
+            return Err(StabilityError::Bound(bound));
+        }
+        let h = self.characteristic(alpha)?;
+        let counted = HalfPlane::counted(&h, bound / self.r);
+        counted.and_then(|counted| counted.spectrum(&h)).map_err(|error| h.explain(error))
+    }
+
+    /// At least `count` leading roots at this α, as [`leading_roots`](super::leading_roots).
+    ///
+    /// # Errors
+    /// As [`Snaking::roots`].
+    pub fn leading_roots(&self, alpha: f64, count: usize) -> Result<Spectrum, StabilityError> {
+        let h = self.characteristic(alpha)?;
+        leading(&h, count).map_err(|error| h.explain(error))
+    }
+
+    /// How many roots lie right of the imaginary axis at this α: 0 where the line is straight.
+    ///
+    /// # Errors
+    /// As [`Snaking::roots`].
+    pub fn unstable_count(&self, alpha: f64) -> Result<usize, StabilityError> {
+        let h = self.characteristic(alpha)?;
+        let counted = HalfPlane::counted(&h, 0.0).map_err(|error| h.explain(error))?;
+        Ok(counted.count)
+    }
+
+    /// The curve of all crossings in the plane of κ_y and α, whatever κ_y of this line is: `points` of Ω, evenly spaced over
+    /// the band of the footprint, less those with none.
+    ///
+    /// # Errors
+    /// [`StabilityError::AcrossGaussiansOnly`].
+    pub fn curve(&self, points: u32) -> Result<SnakingCurve, StabilityError> {
+        self.judge()?;
+        let mut curve = SnakingCurve::default();
+        let Some(footprint) = &self.curvature else { return Ok(curve) };
+        let step = footprint.tip().band() / f64::from(points);
+        let still = footprint.steady(self.fading()).curvature;
+        for i in (1..=points).take_while(|_| !stop::is_asked()) {
+            let q = step * f64::from(i);
+            let at = footprint.at(Complex64::new(self.fading(), q));
+            let push = Complex64::from(still) - at.curvature.0 / at.unit.0;
+            let density = self.r * q / push.im;
+            if push.im > 0.0 && push.re > 0.0 {
+                curve.wave_number.push(q);
+                curve.stiffness.push(density * push.re);
+                curve.alpha.push(self.alpha(density));
+            }
+        }
+        Ok(curve)
+    }
+
+    fn characteristic(&self, alpha: f64) -> Result<Characteristic, StabilityError> {
+        self.judge()?;
+        let model = Model::under(self.law, self.footprint.path().clone(), alpha, self.r);
+        let model = model.map_err(|error| match error {
+            ModelError::Wider(error) => error.into(),
+            _ => StabilityError::Alpha(alpha),
+        })?;
+        // Nothing pushes where f_yy = 0: any function does then, with A = 0.
+        let flat = || Arc::new(OneSided::across(self.footprint.path()));
+        let density = if self.curvature.is_some() { model.steady_density() } else { 0.0 };
+        let curvature = self.curvature.clone().unwrap_or_else(flat);
+        let at = (self.r, density);
+        Ok(Characteristic::of(Law::across(self.law.healing_time, &curvature, at, self.stiffness)))
+    }
+
+    /// Refuses what is no sum of Gaussians.
+    fn judge(&self) -> Result<(), StabilityError> {
+        let is_gaussian = matches!(self.footprint.path(), TipFunction::Gaussians(_));
+        if is_gaussian { Ok(()) } else { Err(StabilityError::AcrossGaussiansOnly) }
+    }
+
+    /// s = 1/(rT)
+    fn fading(&self) -> f64 {
+        self.law.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
+    }
+
+    /// α of A = αw0/r: w0 = e^{-A|φ(s)|/b}.
+    fn alpha(&self, density: f64) -> f64 {
+        let depth = density * self.footprint.path().fading_tail(0.0, self.fading()).abs();
+        self.r * density * self.law.depth_limit.map_or(1.0, |limit| (depth / limit).exp())
+    }
+}

@@ -24,6 +24,7 @@
 //! oblique to the scan lines. On the way back of a zigzag q changes its sign: what is a line's own becomes its complex
 //! conjugate. α = a e^{|u0|/b} rises with a. `docs/stability.md` derives it.
 
+mod bands;
 mod count;
 mod determinant;
 mod entry;
@@ -56,14 +57,14 @@ pub enum RasterPath {
     Zigzag,
 }
 
-/// What drives a wave of the tracks of a raster.
+/// What a wave of the tracks of a raster is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RasterKind {
-    /// Deviations along the lines: crests across them or oblique.
+    /// Crests across the lines or oblique, at 22.5° or more to them.
     Ripples,
-    /// Deviations across the lines, into the grooves of earlier ones: trenches along the scan, or pairs of lines.
+    /// Crests nearly along the lines, which fall into the grooves of earlier ones: trenches along the scan, or pairs of lines.
     Bunching,
-    /// Deviations across the lines, from the groove of each line itself.
+    /// Deviations across the lines of which each line's own groove is most of the cause.
     Snaking,
 }
 
@@ -130,6 +131,10 @@ pub struct Raster {
 const NEGLIGIBLE: f64 = 1e-17;
 /// Lines beyond so many are not summed: the pitch is refused.
 const MOST_LINES: usize = 1_000_000;
+/// Crests at less than so many degrees to the scan lines are nearer to them than to the diagonal.
+const FLATTEST: f64 = 22.5;
+/// Thresholds of a kind are looked for at T above this part of the largest.
+const LEAST_OF_KIND: f64 = 0.01;
 /// Grooves that change a line by less than this leave it alone.
 const ALONE: f64 = 1e-13;
 /// A T = r/a below this part of what a tip could have is none: nothing grows.
@@ -225,24 +230,56 @@ impl Raster {
         };
         let cells = alone.cells + found.cells;
         let place = found.place.or(alone.place).ok_or(none)?;
-        let kind = Self::kind(if found.place.is_some() { &lines } else { &single_line }, place);
-        let alpha = self.alpha(self.r / place.t);
-        if !alpha.is_finite() {
+        if !self.alpha(self.r / place.t).is_finite() {
             return Err(none);
         }
-        let counted = found.place.map(|place| count::beside(&lines, place));
+        let lines = if found.place.is_some() { lines } else { single_line };
+        let mut critical = self.described(&lines, place, path);
+        (critical.certificate.tolerance, critical.certificate.cells) = (MARGIN, cells);
+        Ok(critical)
+    }
+
+    /// The lowest threshold of each kind, by rising α: the first is [`Raster::critical`], the only one that is certain.
+    ///
+    /// Where the tip gives way across the lines, waves of several kinds have bands of their own, in each of which T = r/α is
+    /// largest among its neighbours. A kind without such a band is left out. That of a threshold is the smallest α of its kind
+    /// is not certain but for the first: their `tolerance` is 1, their `cells` 0; the waves of its q are counted for each.
+    ///
+    /// # Errors
+    /// As [`Raster::critical`].
+    pub fn thresholds(&self, path: RasterPath) -> Result<Vec<RasterCritical>, StabilityError> {
+        let mut thresholds = vec![self.critical(path)?];
+        let lines = self.lines(path)?;
+        if !lines.is_plane() || self.is_alone() {
+            return Ok(thresholds);
+        }
+        let least = LEAST_OF_KIND * self.r / self.density(thresholds[0].alpha);
+        for place in bands::bands(&lines, least, self.footprint.path().band())? {
+            let other = self.described(&lines, place, path);
+            if thresholds.iter().all(|known| known.kind != other.kind) {
+                thresholds.push(other);
+            }
+        }
+        Ok(thresholds)
+    }
+
+    /// What there is to say of the wave at a place, but for its being the first.
+    fn described(&self, lines: &Lines, place: Place, path: RasterPath) -> RasterCritical {
+        let counted = (!lines.is_alone()).then(|| count::beside(lines, place));
         let certificate = RasterCertificate {
-            tolerance: MARGIN,
-            cells,
+            tolerance: 1.0,
+            cells: 0,
             margin: counted.map_or(0.0, |counted| counted.margin),
             growing_below: counted.and_then(|counted| counted.below),
             growing_above: counted.and_then(|counted| counted.above),
         };
-        let phase = found.place.map_or(0.0, |place| Self::phase(&lines, place));
+        let phase = if lines.is_alone() { 0.0 } else { Self::phase(lines, place) };
+        let across = phase.abs() / self.pitch;
+        let angle = place.q.atan2(across).to_degrees();
         let kappa = (path == RasterPath::OneWay).then_some(phase / self.pitch);
-        Ok(RasterCritical {
-            kind,
-            alpha,
+        RasterCritical {
+            kind: Self::kind(lines, place, angle),
+            alpha: self.alpha(self.r / place.t),
             r: self.r,
             q: place.q,
             phase_per_line: phase,
@@ -250,7 +287,7 @@ impl Raster {
             crest_angle: kappa.map(|kappa| place.q.atan2(kappa.abs()).to_degrees()),
             wavelength_x: 2.0 * PI / place.q,
             certificate,
-        })
+        }
     }
 
     /// φ of z = e^{iφ} = 1/w; on a zigzag that between both ways.
@@ -262,16 +299,16 @@ impl Raster {
         lines.back_by_forth(&wave, &phase, place.t).arg()
     }
 
-    fn kind(lines: &Lines, place: Place) -> RasterKind {
+    fn kind(lines: &Lines, place: Place, angle: f64) -> RasterKind {
         if !lines.is_plane() {
             return RasterKind::Ripples;
         }
         let (wave, phase) = (lines.wave(place.q, 1.0), lines.phase(place.theta, 1.0));
-        if lines.share_along(&wave, &phase, place.t) >= 0.5 {
-            return RasterKind::Ripples;
+        let is_across = lines.share_along(&wave, &phase, place.t) < 0.5;
+        if is_across && lines.own_across(place.q) > 0.5 * place.t {
+            return RasterKind::Snaking;
         }
-        let is_own = lines.own_across(place.q) > 0.5 * place.t;
-        if is_own { RasterKind::Snaking } else { RasterKind::Bunching }
+        if angle < FLATTEST { RasterKind::Bunching } else { RasterKind::Ripples }
     }
 
     fn lines(&self, path: RasterPath) -> Result<Lines, StabilityError> {

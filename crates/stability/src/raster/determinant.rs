@@ -154,6 +154,14 @@ impl Lines {
         Self { kind, all: vec![], odd: vec![], ..self.clone() }
     }
 
+    /// The same along and across, each as if the other were held.
+    pub(super) fn alone_each(&self) -> [Self; 2] {
+        let alone = self.alone();
+        let both = alone.kind == Kind::PlaneFull;
+        let kind = if both { Kind::Full } else { Kind::Scalar };
+        [Self { kind, across: None, ..alone.clone() }, Self { kind: Kind::Across, ..alone }]
+    }
+
     pub(super) fn is_alone(&self) -> bool {
         self.all.is_empty()
     }
@@ -487,6 +495,11 @@ impl Determinant {
         }
     }
 
+    /// By how much T must grow for zeros of Q that may be real on the cell, where the tip gives way across.
+    pub(super) fn near_axis(&self) -> Vec<f64> {
+        self.plane.as_ref().map_or_else(Vec::new, Polynomial::near_axis)
+    }
+
     /// Whether Q has no zero at any real T from this on, anywhere on the cell.
     pub(super) fn has_none(&self) -> bool {
         if let Some(plane) = &self.plane {
@@ -532,7 +545,8 @@ impl Determinant {
         if !self.curved {
             return low > 0.0 || high < 0.0;
         }
-        if low <= 0.0 && high >= 0.0 {
+        // Neither is so where a bound is infinite, and times 0 no number.
+        if !(low > 0.0 || high < 0.0) {
             return false;
         }
         // Im Q = value + slope τ of the other sign at 0: what brings it to 0 is a slope towards it.
@@ -543,6 +557,9 @@ impl Determinant {
             return true;
         }
         let first = near / steepest;
+        if !first.is_finite() {
+            return false;
+        }
         let last = if flattest > 0.0 { far / flattest } else { f64::INFINITY };
         let (value, slope) = (range(&self.value, |z| z.re), range(&self.slope, |z| z.re));
         // Re Q = value + slope τ + τ² from the first to the last of these τ: below 0 at both ends, or above 0 throughout.

@@ -1,6 +1,7 @@
 //! Growth of a ripple from line to line, and from pass to pass.
 
 use super::Raster;
+use super::plane::Sideways;
 use num_complex::Complex64;
 
 /// Lines after which a growth from line to line has settled.
@@ -8,6 +9,9 @@ const MOST_PASSES: usize = 100_000;
 
 /// c0 + c1 a + c2 a².
 type Quadratic = [Complex64; 3];
+
+/// Of (A, B, C).
+type Matrix = [[Complex64; 3]; 3];
 
 /// What one q says, whatever the phase.
 struct At {
@@ -32,9 +36,12 @@ impl Raster {
     }
 
     /// The z with A_n ∝ zⁿ at a given α and q of a one-way raster that is largest in modulus, by the first lines of
-    /// the recurrence until it settles; the growth from line to line.
+    /// the recurrence until it settles; the growth from line to line. Where the tip gives way across, of both coordinates.
     #[must_use]
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
+        if self.terms.across.is_some() {
+            return settled_in_plane(&self.answers_in_plane(alpha, q));
+        }
         settled(&self.answers(alpha, q))
     }
 
@@ -51,6 +58,55 @@ impl Raster {
             factor * each.sum::<Complex64>()
         };
         (0..most).map(answer).collect()
+    }
+
+    /// Matrices M_j, j = 1, 2, …, with (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} on one-way lines: deviations along, of the weight
+    /// (0 without a depth limit) and across, e^{iqx} each, of a tip that gives way across; none where it does not.
+    #[must_use]
+    pub fn answers_in_plane(&self, alpha: f64, q: f64) -> Vec<Matrix> {
+        let Some(Sideways { stiffness, beside: [tilt, bend] }) = self.terms.across else {
+            return vec![];
+        };
+        let (r, s, beta) = (self.r, self.waves.fading, self.terms.steepness);
+        let (ratio, p) = (self.density(alpha) / r, Complex64::new(s, q));
+        let [_, even_slope, even_curvature] = self.waves.steady;
+        let [height, slope, curvature] = self.waves.jets(p).map(|jet| jet.0);
+        let [still, across] = [s.into(), p].map(|p| self.waves.across_at(p).0);
+        let beside = self.terms.beside;
+        let drag = Complex64::new(0.0, r * q);
+        let m = drag + 1.0 - self.terms.mass * (r * q).powi(2);
+        let own = [
+            [
+                m - ratio * (even_curvature - curvature + s * s * beside),
+                -ratio * slope,
+                (-ratio * s * tilt).into(),
+            ],
+            [
+                -ratio * beta * (even_slope - slope + s * beside),
+                1.0 - ratio * beta * height,
+                (-ratio * beta * tilt).into(),
+            ],
+            [
+                (-ratio * s * tilt).into(),
+                0.0.into(),
+                drag + stiffness - ratio * (still - across + bend),
+            ],
+        ];
+        let layers: Vec<Complex64> = self.waves.layers_at(p).iter().map(|jet| jet.0).collect();
+        let most = self.heights.iter().flatten().map(Vec::len).max().unwrap_or(0);
+        let felt = |j: usize| {
+            let [h, h1, h2] = [0, 1, 2].map(|order: usize| {
+                let each = layers.iter().zip(&self.heights[order]);
+                let each = each.map(|(g, h)| g * h.get(j).copied().unwrap_or(0.0));
+                each.sum::<Complex64>() * ratio
+            });
+            [
+                [-p * p * h, p * h, -p * h1],
+                [-p * h * beta, h * beta, -h1 * beta],
+                [-p * h1, h1, -h2],
+            ]
+        };
+        (0..most).map(|j| solution(&own, &felt(j))).collect()
     }
 
     fn at(&self, q: f64) -> At {
@@ -72,6 +128,51 @@ impl Raster {
         let layers = self.waves.layers_at(p).iter().map(|jet| jet.0).collect();
         At { own, felt, layers }
     }
+}
+
+/// X of PX = Y, by Cramer's rule.
+fn solution(p: &Matrix, y: &Matrix) -> Matrix {
+    let determinant = |m: &Matrix| {
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    };
+    let all = determinant(p);
+    let entry = |row: usize, column: usize| {
+        let mut replaced = *p;
+        (0..3).for_each(|i| replaced[i][row] = y[i][column]);
+        determinant(&replaced) / all
+    };
+    std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)))
+}
+
+/// The ratio of one line to the last that comes to be after many, of a recurrence of vectors.
+fn settled_in_plane(answers: &[Matrix]) -> Complex64 {
+    let mut tracks = vec![[Complex64::new(1.0, 0.3), Complex64::ZERO, Complex64::new(0.7, -0.2)]];
+    let mut z = Complex64::ZERO;
+    for _ in 0..MOST_PASSES {
+        let mut next = [Complex64::ZERO; 3];
+        for (m, track) in answers.iter().zip(tracks.iter().rev()) {
+            for (next, row) in next.iter_mut().zip(m) {
+                *next += row.iter().zip(track).map(|(m, x)| m * x).sum::<Complex64>();
+            }
+        }
+        let last = tracks[tracks.len() - 1];
+        let before = z;
+        let size = |x: &[Complex64; 3]| x.iter().map(Complex64::norm_sqr).sum::<f64>();
+        let product = next.iter().zip(&last).map(|(next, last)| next * last.conj());
+        z = product.sum::<Complex64>() / size(&last);
+        tracks.push(next);
+        if tracks.len() > 2 * answers.len() {
+            tracks.drain(..tracks.len() - answers.len().max(1));
+            let whole = size(&next).sqrt();
+            tracks.iter_mut().flatten().for_each(|x| *x /= whole);
+        }
+        if (z - before).norm() < 1e-15 * z.norm() {
+            break;
+        }
+    }
+    z
 }
 
 fn value(quadratic: &Quadratic, a: f64) -> Complex64 {

@@ -65,7 +65,7 @@ pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Opt
 }
 
 /// A zero of Q at q = 0. There Q is real where w is, so that T is stationary, and on a zigzag Q is even in q.
-fn still(lines: &Lines, (theta, half): (f64, f64), known: f64) -> Option<Place> {
+pub(super) fn still(lines: &Lines, (theta, half): (f64, f64), known: f64) -> Option<Place> {
     let real = if theta.abs() < 0.5 * PI { 0.0 } else { PI.copysign(theta) };
     let is_real = lines.is_alone() || (theta - real).abs() <= half;
     let start = started(lines, 0.0, if is_real { real } else { theta }, known)?;
@@ -85,7 +85,7 @@ fn moving(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
 }
 
 /// Newton's method for Q = 0 and for what is 0 where T is stationary.
-fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<Place> {
+pub(super) fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<Place> {
     let [(_, half_q), (_, half_theta)] = cell;
     let (step_q, step_theta) = (PART * half_q, PART * half_theta);
     let mut before = f64::INFINITY;
@@ -127,7 +127,7 @@ fn started(lines: &Lines, q: f64, theta: f64, known: f64) -> Option<Place> {
 }
 
 /// Q = 0 at the same q, or for a single line at any.
-fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
+pub(super) fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
     for _ in 0..MOST_STEPS {
         let here = place.slopes(lines);
         let other = if lines.is_alone() { here.q } else { here.theta };

@@ -24,6 +24,10 @@ impl Polynomial {
         let degree = x.len();
         let mut coefficients = [Patch::constant(0.0); MOST + 1];
         coefficients[degree] = Patch::constant(1.0);
+        if degree == MOST {
+            coefficients[..MOST].copy_from_slice(&of_four(x));
+            return Self { coefficients, degree };
+        }
         // Rows of a minor as the bits of a number.
         for rows in 1_u32..1 << degree {
             let rows: Vec<usize> = (0..degree).filter(|i| rows >> i & 1 == 1).collect();
@@ -43,6 +47,9 @@ impl Polynomial {
 
     /// Whether Q has no zero at any τ ≥ 0, anywhere on the cell.
     pub(super) fn has_none(&self) -> bool {
+        if !self.coefficients.iter().all(|c| c.size().is_finite()) {
+            return false;
+        }
         let far = self.farthest();
         let mut intervals = vec![(0.5 * far, 0.5 * far, 0)];
         while let Some((centre, half, depth)) = intervals.pop() {
@@ -62,12 +69,22 @@ impl Polynomial {
 
     /// An estimate of the largest τ with a zero on the cell; -∞ where they seem to be none.
     pub(super) fn promise(&self) -> f64 {
-        let spread = self.value().reach();
-        let each = self.zeros().into_iter().map(|zero| {
-            let off = spread / self.derivative_at(zero).norm();
-            if zero.im.abs() <= 2.0 * off { zero.re + off } else { f64::NEG_INFINITY }
-        });
+        let each = self.with_spreads().map(|(tau, spread)| tau + spread);
         each.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The real parts of zeros about the centre that may be real on the cell.
+    pub(super) fn near_axis(&self) -> Vec<f64> {
+        self.with_spreads().map(|(tau, _)| tau).collect()
+    }
+
+    /// The same, each with how far it may move on the cell, to first order.
+    fn with_spreads(&self) -> impl Iterator<Item = (f64, f64)> {
+        let reach = self.value().reach();
+        self.zeros().into_iter().filter_map(move |zero| {
+            let spread = reach / self.derivative_at(zero).norm();
+            (zero.im.abs() <= 2.0 * spread).then_some((zero.re, spread))
+        })
     }
 
     /// The largest τ among zeros at the centre of the cell, the nearer to the real axis the sooner.
@@ -127,6 +144,32 @@ impl Polynomial {
     }
 }
 
+/// c_0, …, c_3 of four rows, from the minors of the first two and of the last two (Laplace).
+fn of_four(x: &[Vec<Patch>]) -> [Patch; MOST] {
+    const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let pairs = |top: usize, bottom: usize| {
+        PAIRS.map(|[i, j]: [usize; 2]| x[top][i] * x[bottom][j] - x[top][j] * x[bottom][i])
+    };
+    let (upper, lower) = (pairs(0, 1), pairs(2, 3));
+    let det = upper[0] * lower[5] - upper[1] * lower[4] + upper[2] * lower[3] + upper[3] * lower[2]
+        - upper[4] * lower[1]
+        + upper[5] * lower[0];
+    // Rows and columns 0, 1, i, along row i; and i, 2, 3.
+    let with_upper = |i: usize| {
+        let [first, second] = [1, 3].map(|at: usize| upper[at + i - 2]);
+        x[i][0] * second - x[i][1] * first + x[i][i] * upper[0]
+    };
+    let with_lower = |i: usize| {
+        let [first, second] = [1, 2].map(|at: usize| lower[at + 2 * i]);
+        x[i][i] * lower[5] - x[i][2] * second + x[i][3] * first
+    };
+    let threes = with_upper(2) + with_upper(3) + with_lower(0) + with_lower(1);
+    let across = [[0, 2], [0, 3], [1, 2], [1, 3]]
+        .map(|[i, j]: [usize; 2]| x[i][i] * x[j][j] - x[i][j] * x[j][i]);
+    let twos = across.into_iter().fold(upper[0] + lower[5], |sum, minor| sum + minor);
+    [det, threes, twos, x[0][0] + x[1][1] + x[2][2] + x[3][3]]
+}
+
 /// v with Xv = 0, up to a factor: the cofactors of a row, of the one where they are largest.
 pub(super) fn null_vector(x: &[Vec<Patch>]) -> Vec<Complex64> {
     let without = |i: usize| -> Vec<usize> { (0..x.len()).filter(|j| *j != i).collect() };
@@ -155,4 +198,93 @@ pub(super) fn minor(x: &[Vec<Patch>], rows: &[usize], columns: &[usize]) -> Patc
         sum = if i % 2 == 0 { sum + term } else { sum - term };
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers that look like chance.
+    fn matrix(rows: usize) -> Vec<Vec<Patch>> {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let mut entry = || Patch {
+            value: Complex64::new(random(), random()),
+            along: [0.1, 0.05].map(|size| Complex64::new(random(), random()) * size),
+            rest: 0.0,
+        };
+        (0..rows).map(|_| (0..rows).map(|_| entry()).collect()).collect()
+    }
+
+    /// The matrix at a place of the cell and τ, without its rests, and its determinant.
+    fn determinant(x: &[Vec<Patch>], (y, z): (f64, f64), tau: f64) -> Complex64 {
+        let at = |p: &Patch| p.value + p.along[0] * y + p.along[1] * z;
+        let plain: Vec<Vec<Patch>> = (0..x.len())
+            .map(|i| {
+                let entry = |j: usize| at(&x[i][j]) + if i == j { tau } else { 0.0 };
+                (0..x.len()).map(|j| Patch::constant(entry(j))).collect()
+            })
+            .collect();
+        let all: Vec<usize> = (0..x.len()).collect();
+        minor(&plain, &all, &all).value
+    }
+
+    #[test]
+    fn a_polynomial_is_the_determinant_everywhere_on_its_cell() {
+        for rows in [2, 3, 4] {
+            let x = matrix(rows);
+            let q = Polynomial::of(&x);
+            for (y, z) in [(0.0, 0.0), (1.0, -1.0), (-0.4, 0.8), (1.0, 1.0)] {
+                for tau in [0.0, 0.3, 1.7, 20.0] {
+                    let about = q.about(tau).value();
+                    let said = about.value + about.along[0] * y + about.along[1] * z;
+                    let off = (determinant(&x, (y, z), tau) - said).norm();
+                    assert!(
+                        off <= about.rest + 1e-12 * about.size(),
+                        "{rows} {off} {}",
+                        about.rest
+                    );
+                }
+            }
+        }
+    }
+
+    /// A zero anywhere on the cell at some τ ≥ 0 is never ruled out; away from all of them every cell is.
+    #[test]
+    fn cells_with_a_zero_are_kept_and_others_are_not() {
+        let (mut kept, mut ruled_out) = (0, 0);
+        for rows in [2, 3, 4] {
+            let x = matrix(rows);
+            for i in -60..=60 {
+                for size in [1.0, 0.1, 0.01] {
+                    // det(X + τ - μ) with an eigenvalue of X + μ moved to -τ0, at a corner of the cell.
+                    let (tau, corner) =
+                        (0.02 * f64::from(i + 30), if i % 2 == 0 { 1.0 } else { -0.7 });
+                    let mut shrunk: Vec<Vec<Patch>> = x.clone();
+                    shrunk.iter_mut().flatten().for_each(|p| p.along = p.along.map(|l| l * size));
+                    let at_corner = |p: &Patch| p.value + (p.along[0] + p.along[1]) * corner;
+                    let plain: Vec<Vec<Patch>> = shrunk
+                        .iter()
+                        .map(|row| row.iter().map(|p| Patch::constant(at_corner(p))).collect())
+                        .collect();
+                    let zero = Polynomial::of(&plain).zeros()[0];
+                    let diagonal = shrunk.iter_mut().enumerate();
+                    diagonal.for_each(|(k, row)| row[k].value += zero - tau);
+                    let q = Polynomial::of(&shrunk);
+                    if tau >= 0.0 {
+                        assert!(!q.has_none(), "{rows} {tau} {size}");
+                        kept += 1;
+                    } else if q.has_none() {
+                        ruled_out += 1;
+                    }
+                }
+            }
+        }
+        assert!(kept > 300 && ruled_out > 50, "{kept} {ruled_out}");
+    }
 }

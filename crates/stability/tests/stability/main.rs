@@ -1,5 +1,6 @@
 //! What linear theory is held to: each file says by what. `tables` reads the references in `data`.
 
+mod across;
 mod critical;
 mod onset;
 mod raster;

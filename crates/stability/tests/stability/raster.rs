@@ -402,3 +402,21 @@ fn what_is_no_pitch_is_refused() {
     }
     assert!(Raster::new(&footprint, Wider::default(), (-1.0, 1.0), 1.0).is_err());
 }
+
+/// Bounds that are infinite, times layers that are not felt at all, are no numbers: the search once stopped on them.
+#[test]
+fn a_zigzag_of_a_table_with_inertia_at_a_wide_pitch_has_the_threshold_of_its_product() {
+    let [x, y] = [0.2, 0.3].map(|step| (0..30).map(|i| step * f64::from(i)).collect::<Vec<f64>>());
+    let (xs, ys): (Vec<f64>, Vec<f64>) =
+        y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y))).unzip();
+    let f = |x: f64, y: f64| (1.0 - 0.2 * x * x) * (-0.5 * (x * x + y * y)).exp();
+    let values: Vec<f64> = xs.iter().zip(&ys).map(|(x, y)| f(*x, *y)).collect();
+    let table = Footprint::table(&xs, &ys, &values).unwrap();
+    let product = Footprint::separable(table.path().clone(), 1.0).unwrap();
+    let heavy = Wider { inertia: Some(0.4), ..Wider::default() };
+    let [found, wanted] = [table, product].map(|footprint| {
+        let raster = Raster::new(&footprint, heavy, (2.0, 2.0), 1.0).unwrap();
+        raster.critical(RasterPath::Zigzag).unwrap()
+    });
+    assert!((found.alpha / wanted.alpha - 1.0).abs() < 1e-7, "{found:?} {wanted:?}");
+}

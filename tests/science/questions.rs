@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use stickslip::{
-    Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure,
+    Ask, Boundary, BoundaryDocument, Context, Cycle, CycleDocument, Document, Failure, Stability,
     StabilityDocument, Tip, WalkingDocument, read,
 };
 use stickslip_tip::TipFunction;
@@ -46,6 +46,8 @@ fn questions_of_linear_theory_asked_again_have_the_same_answer() {
         json!({"tip": tip, "alpha": 1.0, "solve_for": "r"}),
         json!({"tip": tip, "alpha_above": 0.1, "r": 0.7, "healing_time": 20.0, "roots": 4}),
         json!({"alpha": 1.2, "r": 1.0, "re_above": -3.0}),
+        json!({"alpha": 1.2, "r": 1.0, "stiffness_across": 0.5}),
+        json!({"tip": {"name": "gaussian"}, "r": 1.0, "stiffness_across": 0.5, "width_y": 0.7}),
     ] {
         let first: StabilityDocument = asked(question.clone());
         let saved: StabilityDocument = read(&text(&first), StabilityDocument::FORMAT).unwrap();
@@ -59,6 +61,43 @@ fn questions_of_linear_theory_asked_again_have_the_same_answer() {
     assert!(!first.walks.is_empty());
     let again = first.parameters.clone().ask(&Context::default()).unwrap();
     assert_eq!(text(&again), text(&first));
+}
+
+/// On a spring across the scan the line snakes, or never does; held on its line it has nothing to say of that.
+#[test]
+fn a_line_that_gives_way_is_asked_where_it_snakes() {
+    let snaking = |question: Value| {
+        let document: StabilityDocument = asked(question);
+        serde_json::to_value(&document).unwrap()
+    };
+    let soft = snaking(json!({"alpha": 1.0, "r": 1.0, "stiffness_across": 0.25}));
+    assert!((soft["snaking"]["alpha"].as_f64().unwrap() - 0.830_541_012_7).abs() < 6e-11);
+    assert!((soft["snaking"]["wavelength"].as_f64().unwrap() - 17.1).abs() < 0.05);
+    // Below αc = 1.069 along the scan.
+    assert_eq!((&soft["stable"], &soft["parameters"]["width_y"]), (&json!(false), &json!(1.0)));
+    let stiff = snaking(json!({"alpha": 1.0, "r": 1.0, "stiffness_across": 1.0}));
+    assert_eq!(stiff["stable"], true);
+    let gaussian =
+        json!({"tip": {"name": "gaussian"}, "alpha": 1.0, "r": 1.0, "stiffness_across": 0.25});
+    let gaussian = snaking(gaussian);
+    assert!(gaussian["snaking"].is_null() && gaussian.as_object().unwrap().contains_key("snaking"));
+    let held = snaking(json!({"alpha": 1.0, "r": 1.0}));
+    for name in ["snaking", "stiffness_across", "width_y"] {
+        assert!(held.get(name).is_none() && held["parameters"].get(name).is_none());
+    }
+    for (question, parameter) in [
+        (json!({"r": 1.0, "stiffness_across": 0.0}), "stiffness_across"),
+        (json!({"r": 1.0, "stiffness_across": -2.0}), "stiffness_across"),
+        (json!({"r": 1.0, "width_y": 1.0}), "width_y"),
+        (json!({"r": 1.0, "stiffness_across": 1.0, "width_y": 0.0}), "width_y"),
+        (json!({"tip": {"name": "bessel"}, "r": 1.0, "stiffness_across": 1.0}), "width_y"),
+    ] {
+        let stability: Stability = serde_json::from_value(question.clone()).unwrap();
+        match stability.ask(&Context::default()) {
+            Err(Failure::Refused(refused)) => assert_eq!(refused.parameter, parameter),
+            other => panic!("{question}: {other:?}"),
+        }
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
-    OnsetDocument, OnsetKindName, SolveFor, StabilityFound, TrappingDocument,
+    OnsetDocument, OnsetKindName, SnakingDocument, SolveFor, StabilityFound, TrappingDocument,
 };
 pub use documents::surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceImage, SurfaceParameters,

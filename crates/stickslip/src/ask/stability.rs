@@ -1,6 +1,7 @@
 //! The question `stability`: where steady motion loses its stability, and how small deviations grow.
 
 use super::exponents::{failed, judge_count, leftmost, remarks};
+use super::lines::footprint;
 use crate::parameter::option;
 use crate::{
     Ask, ComplexDocument, Context, CriticalDocument, Document, Failure, Indentation, Law,
@@ -10,7 +11,7 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability as theory;
-use stickslip_stability::{Creep, Critical, Onset, OnsetKind, Spectrum, StabilityError};
+use stickslip_stability::{Creep, Critical, Onset, OnsetKind, Snaking, Spectrum, StabilityError};
 use stickslip_tip::{Model, Wider};
 
 /// Remark where the law has its corner at steady motion.
@@ -42,6 +43,16 @@ pub struct Stability {
     /// Whether α and r are those of the critical point, for want of one of them.
     #[serde(default)]
     pub at_critical_point: bool,
+    /// Spring across the scan, in units of that along it, above 0, on which the tip gives way: where the line begins to snake.
+    /// Without it the tip is held on its line.
+    #[schemars(extend("x-option" = option("K", "Across the scan", 25)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Across the scan", 26)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_y: Option<f64>,
     /// Least number of growth exponents: all those right of a line chosen so; 10 where no bound is given.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]
@@ -73,6 +84,8 @@ impl Stability {
             law: Law::default(),
             solve_for: SolveFor::default(),
             at_critical_point: false,
+            stiffness_across: None,
+            width_y: None,
             roots: None,
             re_above: None,
         }
@@ -193,6 +206,28 @@ impl Stability {
         })
     }
 
+    /// The line with its spring across the scan; `None` where the tip is held on it.
+    fn snaking(&self) -> Result<Option<Snaking>, Refused> {
+        let Some(stiffness) = self.stiffness_across else { return Ok(None) };
+        let law = self.law.dragged(&self.tip.0)?;
+        let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        let line = Snaking::new(&footprint, law, (self.velocity()?, stiffness));
+        line.map(Some).map_err(|error| Refused::number("stiffness_across", stiffness, error))
+    }
+
+    /// The width across the scan that is used, where the tip gives way there.
+    fn width_across(&self) -> Result<Option<f64>, Refused> {
+        match (self.stiffness_across, self.width_y) {
+            (Some(_), width) => Ok(footprint(width, &self.tip.0)?.1),
+            (None, None) => Ok(None),
+            (None, Some(width)) => {
+                let why = "is of a tip that gives way across the scan, or of a raster: give {stiffness_across} or {pitch} \
+                           too, or leave it out";
+                Err(Refused::number("width_y", width, why))
+            }
+        }
+    }
+
     /// Whether steady motion is stable; at a corner small oscillations grow above αc, whatever their amplitude.
     fn is_stable(&self, model: &Model, critical: Option<&Critical>) -> Result<bool, Failure> {
         if self.at_critical_point {
@@ -219,6 +254,9 @@ impl Ask for Stability {
         let law = self.law.dragged(&self.tip.0)?;
         let question = self.placed(law)?;
         question.judge_extent(&question.model()?)?;
+        let width_y = question.width_across()?;
+        let question = Self { width_y, ..question };
+        question.snaking()?;
         let default = question.re_above.is_none().then_some(Self::DEFAULT_ROOTS);
         Ok(Self { roots: question.roots.or(default), ..question })
     }
@@ -245,17 +283,32 @@ impl Ask for Stability {
         } else {
             said.extend(remarks(&spectrum, self.roots, "roots"));
         }
+        let line = self.snaking()?;
+        let snaking = line.as_ref().map(Snaking::critical).transpose().map_err(uncertain)?;
+        let snakes = match line.as_ref().zip(snaking.flatten()) {
+            Some((line, _)) => line.unstable_count(model.alpha()).map_err(uncertain)? > 0,
+            None => false,
+        };
         let kind = |at: &Critical| (!law.is_papers()).then_some(at.kind);
         let found = StabilityFound {
             critical: at.map(|at| CriticalDocument::of(at, kind(at))),
-            stable: self.is_stable(&model, at)?,
+            stable: !snakes && self.is_stable(&model, at)?,
             trapping: trapped,
             roots: spectrum.roots.iter().map(|z| ComplexDocument::new(z.re, z.im)).collect(),
             certificate: (&spectrum.certificate).into(),
             onset: onset.as_ref().ok().map(OnsetDocument::from),
             limits: limits(&model),
+            snaking: snaking.map(|snaking| snaking.map(Into::into)),
         };
         Ok((found, said))
+    }
+}
+
+/// What keeps a line from being judged across the scan.
+fn uncertain(error: StabilityError) -> Failure {
+    match error {
+        StabilityError::AcrossGaussiansOnly => Refused::whole("tip", error).into(),
+        error => failed(&error, "move {stiffness_across} or {r} a little"),
     }
 }
 

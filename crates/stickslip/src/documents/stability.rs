@@ -2,8 +2,10 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use stickslip_stability::{Certificate, Creep, Critical, Criticality, Onset, OnsetKind};
+use serde::{Deserialize, Deserializer, Serialize};
+use stickslip_stability::{
+    Certificate, Creep, Critical, Criticality, Onset, OnsetKind, SnakingCritical,
+};
 
 /// Linear stability of steady motion. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +28,26 @@ pub struct StabilityFound {
     /// Under a wider law: what leaves nothing unstable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsDocument>,
+    /// Where the line begins to snake, with a spring across the scan; null where it never does.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
+    pub snaking: Option<Option<SnakingDocument>>,
+}
+
+/// Where a single line of a tip that gives way across the scan begins to snake.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SnakingDocument {
+    /// α_y, the smallest α with a deviation across the scan that does not fade.
+    pub alpha: f64,
+    /// Its frequency ω in time, in k/Γ.
+    pub omega: f64,
+    /// 2πr/ω, in σ.
+    pub wavelength: f64,
+}
+
+/// null where there is a null, in place of nothing.
+fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(d).map(Some)
 }
 
 /// Which of α and r is varied to find a critical point.
@@ -220,6 +242,13 @@ impl From<Criticality> for CriticalityName {
             Criticality::Supercritical => Self::Supercritical,
             Criticality::Subcritical => Self::Subcritical,
         }
+    }
+}
+
+impl From<SnakingCritical> for SnakingDocument {
+    fn from(critical: SnakingCritical) -> Self {
+        let SnakingCritical { alpha, omega, wavelength, .. } = critical;
+        Self { alpha, omega, wavelength }
     }
 }
 

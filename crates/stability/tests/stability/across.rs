@@ -1,6 +1,6 @@
 //! Rasters of a tip that gives way across the lines. Judged by thresholds of two prototypes that share no code with this
-//! project (PHYSICS.md, section 8), and by the equations of one line after another, carried out here in the coordinates along
-//! and across and the weight with transforms by Simpson's rule ([`Slow`]).
+//! project (PHYSICS.md, section 8), by the equations of one line after another, carried out here in the coordinates along and
+//! across and the weight with transforms by Simpson's rule ([`Slow`]), and these by a line integrated in time ([`Timed`]).
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -22,6 +22,7 @@ fn gaussian(pitch: f64, stiffness: f64) -> Raster {
 fn thresholds_are_those_of_the_prototypes() {
     use RasterKind::{Bunching, Ripples};
     let table = [
+        // κ_y, α, crests; and the α of lines that bunch at κ_y = 1.
         (0.25, [(10.0, 0.21976, 42.4), (3.0, 0.22506, 35.5)], 0.10816, 5e-6),
         (0.5, [(10.0, 0.43056, 42.7), (3.0, 0.44986, 35.7)], 0.21632, 5e-6),
         (1.0, [(10.0, 0.83391, 43.8), (3.0, 0.89942, 35.7)], 0.43255, 5e-6),
@@ -36,6 +37,15 @@ fn thresholds_are_those_of_the_prototypes() {
         let found = gaussian(pitch, 1.0).critical(RasterPath::OneWay).unwrap();
         assert!((found.alpha - bunching).abs() < digits, "{found:?}");
         assert_eq!(found.kind, Bunching);
+    }
+    // κ_y = ∞
+    for (pitch, alpha, angle) in
+        [(0.25, 0.21494, 45.2), (0.5, 0.41879, 46.0), (1.0, 0.80517, 48.3), (2.0, 1.52378, 58.0)]
+    {
+        let held = Slow::triple(0.0, 1.0, (1.0, pitch), 1.0).held();
+        let found = held.critical(RasterPath::OneWay).unwrap();
+        assert!((found.alpha - alpha).abs() < 5e-6, "{found:?}");
+        assert!((found.crest_angle.unwrap() - angle).abs() < 0.05, "{found:?}");
     }
     let wide = |stiffness: f64| gaussian(2.0, stiffness).critical(RasterPath::OneWay).unwrap();
     let found = wide(10.0);
@@ -324,6 +334,149 @@ impl Slow {
             -area(now, before) / area(earlier, before)
         };
         0.5 * square.ln() / step as f64
+    }
+}
+
+/// One line over the grooves of others, integrated in time with its own past: none of it linearised.
+struct Timed<'a> {
+    slow: &'a Slow,
+    /// 1 on a way there, -1 on a way back.
+    way: f64,
+    /// αw0
+    a: f64,
+    q: f64,
+    /// Which line before is no even one, and its deviation: e^{iqx} times this.
+    other: (usize, Deviation),
+}
+
+/// Where, on which line, αw times a time, and how long ago.
+type Visit = [f64; 4];
+
+impl Timed<'_> {
+    /// The height under a tip at (x, y), and the forces along and across.
+    fn groove(&self, (x, y): (f64, f64), visits: impl Iterator<Item = Visit>) -> [f64; 3] {
+        let heal = self.slow.law.healing_time.map_or(0.0, |time| 1.0 / time);
+        let mut sums = [0.0; 3];
+        for [at, line, weight, ago] in visits {
+            let part = weight * (-heal * ago).exp();
+            for g in &self.slow.terms {
+                let z = (x - at - g.center) / g.width;
+                let bell = g.amplitude * (-0.5 * z * z).exp() * part;
+                let [h, slope] = [0, 1].map(|order: usize| Slow::across(g, y - line, order));
+                sums =
+                    [sums[0] - bell * h, sums[1] - bell * z / g.width * h, sums[2] + bell * slope];
+            }
+        }
+        sums
+    }
+
+    /// Visits of the lines before near X = ±rt, by the trapezoidal rule, which of Gaussians has no error to speak of.
+    fn before(&self, t: f64, is_even: bool) -> Vec<Visit> {
+        let Slow { r, pitch, law, left, .. } = *self.slow;
+        let spacing = 0.5;
+        let middle = (self.way * r * t / spacing).round();
+        let visit = |lines: usize, i: i32| {
+            let x = spacing * (middle + f64::from(i));
+            let here = Complex64::from_polar(1.0, self.q * x);
+            let (j, deviation) = self.other;
+            let deviates = lines == j && !is_even;
+            let [along, weight, across] =
+                deviation.map(|part| if deviates { (part * here).re } else { 0.0 });
+            // c = e^{-X/(rT)} for every line between; without healing it does not matter when.
+            let lines = lines as f64;
+            let ago = law.healing_time.map_or(0.0, |time| t - x / r - time * left.ln() * lines);
+            [x + along, across - pitch * lines, self.a * (1.0 + weight) * spacing / r, ago]
+        };
+        let lines = 1..=self.slow.felt();
+        lines
+            .flat_map(|line| (-20..=20).map(move |i| (line, i)))
+            .map(|(l, i)| visit(l, i))
+            .collect()
+    }
+
+    /// (along, weight, across) of this line, what of them goes as e^{iqx} when all else has faded: by Heun's method, and the
+    /// trapezoidal rule over its past, in so many steps a period.
+    fn answer(&self, steps: usize, periods: usize) -> Deviation {
+        let Slow { r, stiffness, law, .. } = *self.slow;
+        let step = 2.0 * PI / (self.q * r) / steps as f64;
+        let past = (10.0 / (r * step)) as usize;
+        let place = |n: i64| self.way * r * step * n as f64;
+        // Where this line was, and w over that of even motion, an even past before the first.
+        let mut track: Vec<[f64; 3]> = vec![];
+        let visits = |track: &[[f64; 3]], n: i64| -> Vec<Visit> {
+            let visit = |i: usize| {
+                let then = n - i as i64;
+                let [x, y, w] = usize::try_from(then).map_or([place(then), 0.0, 1.0], |n| track[n]);
+                [x, y, self.a * w * step, step * i as f64]
+            };
+            (1..=past).map(visit).collect()
+        };
+        let now = self.groove((0.0, 0.0), [[0.0, 0.0, 0.5 * self.a * step, 0.0]].into_iter())[0];
+        let all = visits(&track, 0).into_iter().chain(self.before(0.0, true));
+        let even = self.groove((0.0, 0.0), all);
+        let limited = |height: f64| law.depth_limit.map_or(1.0, |b| (-height.abs() / b).exp());
+        let still = limited(even[0] + now);
+        // Forces beyond those of even motion, and w.
+        let felt = |track: &[[f64; 3]], n: i64, x: f64, y: f64| {
+            let all = visits(track, n).into_iter().chain(self.before(step * n as f64, false));
+            let [height, along, across] = self.groove((x, y), all);
+            let weight = (0..30).fold(1.0, |w, _| limited(height + now * w) / still);
+            ([along - even[1], across - even[2]], weight)
+        };
+        let mass = law.inertia.unwrap();
+        let [mut x, mut v, mut y] = [0.0; 3];
+        let mut sums = [Complex64::ZERO; 3];
+        for n in 0..(steps * periods) as i64 {
+            let ([along, across], weight) = felt(&track, n, place(n) + x, y);
+            track.push([place(n) + x, y, weight]);
+            let first = [v, (along - v - x) / mass, across - stiffness * y];
+            let [x1, v1, y1] = [x + step * first[0], v + step * first[1], y + step * first[2]];
+            let ([along, across], _) = felt(&track, n + 1, place(n + 1) + x1, y1);
+            let second = [v1, (along - v1 - x1) / mass, across - stiffness * y1];
+            if n >= (steps * (periods - 1)) as i64 {
+                let turn = Complex64::from_polar(2.0 / steps as f64, -self.q * place(n));
+                for (sum, part) in sums.iter_mut().zip([x, weight - 1.0, y]) {
+                    *sum += turn * part;
+                }
+            }
+            let next = |now: f64, i: usize| now + 0.5 * step * (first[i] + second[i]);
+            [x, v, y] = [next(x, 0), next(v, 1), next(y, 2)];
+        }
+        sums
+    }
+}
+
+/// The matrices of [`Slow`] themselves, under depth limit, healing and inertia and on both ways: a line integrated in time
+/// over the grooves of others, one of which deviates a little. The error falls with the square of the step.
+#[test]
+fn a_line_integrated_in_time_answers_as_its_matrices_say() {
+    let c = Complex64::new;
+    let limited = Wider { depth_limit: Some(4.0), inertia: Some(0.3), ..Wider::default() };
+    let healing = Wider { healing_time: Some(12.0), ..limited };
+    for (law, left, way, j) in [
+        (limited, 1.0, 1.0, 1),
+        (limited, 1.0, -1.0, 2),
+        (healing, 0.7, 1.0, 1),
+        (healing, 0.7, 1.0, 2),
+    ] {
+        let slow = Slow { law, left, ..Slow::triple(0.0, 0.9, (1.1, 0.9), 1.4) };
+        let (alpha, q) = (0.6, 0.7);
+        let deviation = [c(0.7, -0.4), c(0.3, 0.5), c(-0.2, 0.8)].map(|part| part * 1e-4);
+        let m = slow.answers(alpha, q)[usize::from(way < 0.0)][j - 1];
+        let wanted: Vec<Complex64> =
+            m.iter().map(|row| row.iter().zip(deviation).map(|(m, x)| m * x).sum()).collect();
+        let line = Timed { slow: &slow, way, a: slow.weighted(alpha).0, q, other: (j, deviation) };
+        let off = [100, 200].map(|steps| {
+            let found = line.answer(steps, 7);
+            [0, 1, 2].map(|i: usize| (found[i] - wanted[i]) / wanted[i])
+        });
+        for i in 0..3 {
+            let [coarse, fine] = off.map(|off| off[i]);
+            let order = (coarse.norm() / fine.norm()).log2();
+            assert!((order - 2.0).abs() < 0.15, "{law:?} {way} {i} {order}");
+            let extrapolated = ((fine * 4.0 - coarse) / 3.0).norm();
+            assert!(extrapolated < 3e-5, "{law:?} {way} {i} {extrapolated:e}");
+        }
     }
 }
 

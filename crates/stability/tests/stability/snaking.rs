@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use stickslip_stability::{Snaking, SnakingCritical, StabilityError, critical};
 use stickslip_tip::{Footprint, Gaussian2d, TipFunction, Wider};
 
@@ -214,6 +214,22 @@ fn a_line_snakes_before_it_sticks_and_slips_on_a_weak_spring_only() {
         Line::triple(1.0, 1.0, 1.0, stiffness).snaking().critical().unwrap().unwrap().alpha
     };
     assert!(snakes(0.566_15) < sticks && sticks < snakes(0.566_25));
+}
+
+/// At β = 1 the height under the steady tip is 0 and its weight 1: no depth limit moves the threshold across, though along the
+/// scan there is no linear theory. Elsewhere it moves by e^{-h0/b}.
+#[test]
+fn a_depth_limit_enters_by_the_weight_of_the_steady_tip() {
+    let limited = Wider { depth_limit: Some(2.0), ..Wider::default() };
+    for (beta, stiffness) in [(1.0, 0.5), (0.8, 0.3)] {
+        let [free, held] = [Wider::default(), limited].map(|law| {
+            let line = Line { law, ..Line::triple(beta, 1.0, 1.0, stiffness) };
+            line.snaking().critical().unwrap().unwrap()
+        });
+        let depth = free.alpha * (1.0 - beta) * (0.5 * PI).sqrt();
+        assert!((held.alpha / free.alpha / (0.5 * depth).exp() - 1.0).abs() < 1e-13);
+        assert!((held.omega / free.omega - 1.0).abs() < 1e-15);
+    }
 }
 
 /// Footprints with lobes, rings and other widths, healing and a depth limit.

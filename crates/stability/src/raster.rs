@@ -23,93 +23,49 @@
 //! |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}: crests qx + κy = const., κ = φ/d, that stand
 //! oblique to the scan lines. On the way back of a zigzag q changes its sign: what is a line's own becomes its complex
 //! conjugate. α = a e^{|u0|/b} rises with a. `docs/stability.md` derives it.
+//!
+//! A tip that gives way across the lines, y' = -u_y + κ_y (Y_n - y), deviates there by C_n e^{iωt} too. Even motion is then
+//! displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart. Under the basic law
+//!
+//! ```text
+//!     D(q) A_n = (α/r) Σ_j Σ_l ĝ_l(q) [q² h_l(jd) A_{n-j} - iq h_l'(jd) C_{n-j}]
+//!     [irq + κ_y + (α/r)(S(iq) - S(0) - E'')] C_n = -(α/r) Σ_j Σ_l ĝ_l(q) [iq h_l'(jd) A_{n-j} + h_l''(jd) C_{n-j}]
+//! ```
+//!
+//! S the transform of `f_yy(x,0)` over x > 0, E'' = Σ_j Σ_l h_l''(jd) ĝ_l(0); `plane.rs` has all of the wider law. At small q
+//! lines fall into the grooves of those before them (bunch) where κ_y r/α is below the real part of Σ_j Σ_l ĝ_l(0) h_l''(jd)
+//! (1 - z^{-j}); at q = 0 itself only a real sum does, which is that of z = -1, of pairs of lines, or on a zigzag another. The
+//! threshold lies at a small q, therefore, close to what the largest real part says.
 
 mod bands;
 mod count;
+mod critical;
 mod determinant;
 mod entry;
 mod extent;
 mod growth;
+mod heights;
 mod lines;
+mod on_cell;
 mod optimum;
 mod patch;
 mod plane;
 mod polynomial;
+mod reach;
 mod search;
 mod waves;
 
 use super::StabilityError;
+pub use critical::{RasterCertificate, RasterCritical, RasterKind, RasterPath};
 use determinant::{Heights, Lines, Terms};
+use heights::heights;
 use optimum::Place;
 use plane::Sideways;
 use search::{Found, MARGIN, largest};
 use std::f64::consts::PI;
 use stickslip_tip::roots::zero_between;
-use stickslip_tip::{Across, Footprint, TipFunction, Wider};
+use stickslip_tip::{Footprint, TipFunction, Wider};
 use waves::Waves;
-
-/// How the tip goes from one line to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RasterPath {
-    /// Every line in the same direction.
-    OneWay,
-    /// The way back is the next line.
-    Zigzag,
-}
-
-/// What a wave of the tracks of a raster is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RasterKind {
-    /// Crests across the lines or oblique, at 22.5° or more to them.
-    Ripples,
-    /// Crests nearly along the lines, which fall into the grooves of earlier ones: trenches along the scan, or pairs of lines.
-    Bunching,
-    /// Deviations across the lines of which each line's own groove is most of the cause.
-    Snaking,
-}
-
-/// Where ripples begin to grow from line to line. Lengths in σ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RasterCritical {
-    /// Whether it is ripples that grow there: always, unless the tip gives way across the lines.
-    pub kind: RasterKind,
-    /// The smallest α with a ripple that does not fade from line to line.
-    pub alpha: f64,
-    /// r
-    pub r: f64,
-    /// Its wave number along the lines.
-    pub q: f64,
-    /// Phase φ from one line to the next, between -π and π; on a zigzag that from a way there to the way back.
-    pub phase_per_line: f64,
-    /// φ/d, the wave number across the lines; `None` on a zigzag.
-    pub kappa: Option<f64>,
-    /// Between crests and scan lines, in degrees: atan(q/|κ|); `None` on a zigzag.
-    pub crest_angle: Option<f64>,
-    /// 2π/q; infinite where the tracks stay straight.
-    pub wavelength_x: f64,
-    /// What shows that it is the threshold.
-    pub certificate: RasterCertificate,
-}
-
-/// Evidence that no ripple grows below the threshold, and that one does above.
-///
-/// Ripples that grow are the zeros of a determinant within the unit circle of w = 1/z (w² on a zigzag), counted by its turns
-/// along the circle. The search over all wave numbers and phases ruled out zeros on the circle, and with them any growth, at
-/// all α below the threshold by more than `tolerance`. It is floating-point arithmetic with bounds of what it leaves out,
-/// not interval arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RasterCertificate {
-    /// By how much of itself a lower threshold could at most be lower.
-    pub tolerance: f64,
-    /// Cells of wave numbers and phases that the search went through.
-    pub cells: usize,
-    /// Distance from the threshold, as a part of it, of the two α at which waves of its q were counted.
-    pub margin: f64,
-    /// How many grow below; `None` where they could not be counted, for lines that hardly feel each other.
-    pub growing_below: Option<usize>,
-    /// How many grow above.
-    pub growing_above: Option<usize>,
-}
 
 /// Lines that pass over each other's grooves.
 #[derive(Debug, Clone)]
@@ -127,10 +83,6 @@ pub struct Raster {
     terms: Terms,
 }
 
-/// h_k(jd) below this share of the largest is none.
-const NEGLIGIBLE: f64 = 1e-17;
-/// Lines beyond so many are not summed: the pitch is refused.
-const MOST_LINES: usize = 1_000_000;
 /// Crests at less than so many degrees to the scan lines are nearer to them than to the diagonal.
 const FLATTEST: f64 = 22.5;
 /// Thresholds of a kind are looked for at T above this part of the largest.
@@ -381,50 +333,6 @@ pub(super) fn single_across(
     let lines = Lines::single_across(waves, terms);
     let found = largest(&lines, LEAST * lines.scale())?;
     Ok((found.place.map(|place| (place.t, place.q)), found.cells))
-}
-
-/// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter, or its derivative of this order.
-fn heights(
-    footprint: &Footprint,
-    (pitch, left): (f64, f64),
-    order: usize,
-) -> Result<Vec<Vec<f64>>, StabilityError> {
-    let widest = footprint.layers().iter().map(|layer| layer.across);
-    let reach = widest.map(|h| h.center + 9.0 * h.width).fold(0.0, f64::max);
-    let lines = (reach / pitch).ceil();
-    if !(pitch.is_finite() && pitch > 0.0 && lines < MOST_LINES as f64) {
-        return Err(StabilityError::Pitch(pitch));
-    }
-    let layers = footprint.layers().iter();
-    let heights = layers.map(|layer| {
-        let mut kept = 1.0;
-        let height = |j: usize| {
-            kept *= left;
-            kept * derivative(&layer.across, pitch * j as f64, order)
-        };
-        let Across { center, width } = layer.across;
-        let largest = layer.across.value(center) / width.powi(order as i32);
-        let mut heights: Vec<f64> = (1..=lines as usize).map(height).collect();
-        let last = heights.iter().rposition(|h| h.abs() >= NEGLIGIBLE * largest);
-        heights.truncate(last.map_or(0, |last| last + 1));
-        heights
-    });
-    Ok(heights.collect())
-}
-
-/// h, h' or h''.
-fn derivative(across: &Across, y: f64, order: usize) -> f64 {
-    let Across { center, width } = *across;
-    let term = |center: f64| {
-        let z = (y - center) / width;
-        let bell = (-0.5 * z * z).exp();
-        if order == 1 { -z * bell / width } else { (z * z - 1.0) * bell / (width * width) }
-    };
-    match order {
-        0 => across.value(y),
-        _ if center > 0.0 => term(center) + term(-center),
-        _ => term(0.0),
-    }
 }
 
 fn is_gaussian(footprint: &Footprint) -> bool {

@@ -28,15 +28,16 @@
 
 use super::entry::Entry;
 use super::lines::Sequence;
+use super::on_cell::Determinant;
 use super::patch::Patch;
 use super::plane::{Across, Along, Sideways};
 use super::polynomial::{Polynomial, minor, null_vector};
 use super::waves::Waves;
 use num_complex::Complex64;
 
-/// What T is multiplied with.
+/// What N is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Scalar,
     Full,
     Zigzag,
@@ -65,32 +66,20 @@ pub(super) struct Phase {
     turn: Patch,
 }
 
-/// Q(T + τ) = value + slope τ, and + τ² where `curved`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Determinant {
-    pub(super) value: Patch,
-    pub(super) slope: Patch,
-    pub(super) curved: bool,
-    /// T - N11, T - N22 and N12 N21.
-    factors: Option<[Patch; 3]>,
-    /// All of Q where the tip gives way across.
-    plane: Option<Polynomial>,
-}
-
 /// A law, a footprint, and how the lines lie.
 #[derive(Debug, Clone)]
 pub(super) struct Lines {
     pub(super) waves: Waves,
-    kind: Kind,
-    r: f64,
+    pub(super) kind: Kind,
+    pub(super) r: f64,
     mass: f64,
     /// β
-    steepness: f64,
+    pub(super) steepness: f64,
     /// E
-    beside: f64,
-    across: Option<Sideways>,
-    all: Vec<Vec<Sequence>>,
-    odd: Vec<Vec<Sequence>>,
+    pub(super) beside: f64,
+    pub(super) across: Option<Sideways>,
+    pub(super) all: Vec<Vec<Sequence>>,
+    pub(super) odd: Vec<Vec<Sequence>>,
 }
 
 /// What of the law enters.
@@ -204,99 +193,8 @@ impl Lines {
         Phase { all: each(&self.all), odd: each(&self.odd), turn }
     }
 
-    /// Largest |T| of a real T with Q = 0 at wave numbers of at least q; falls with q.
-    ///
-    /// Without a depth limit the imaginary part of m T = K - Σ p²ĝ_l Λ_l, in which K has a real constant, says
-    /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|; on a zigzag the same follows for both directions together. With it, |T| is at most the
-    /// sum of |N11|, |N22| and √|N12 N21|.
-    ///
-    /// Where the tip gives way across it is at most the largest eigenvalue of a matrix of bounds of |N|.
-    pub(super) fn largest_beyond(&self, q: f64) -> f64 {
-        let p = q.hypot(self.waves.fading);
-        let [height, slope, curvature] = self.waves.own_bounds(p);
-        let layers = self.waves.layer_bounds(p);
-        let sums = |power: usize, order: usize| -> f64 {
-            let sums = layers.iter().zip(self.totals(order));
-            sums.map(|(layer, total)| layer[power] * total).sum()
-        };
-        let all = |power: usize| sums(power, 0);
-        let drag = self.r * q;
-        if let Some(sideways) = self.across {
-            return self.largest_across(sideways, p, drag, &sums);
-        }
-        if self.steepness.abs() <= 0.0 {
-            return (curvature + all(2)) / drag;
-        }
-        let steep = self.steepness.abs();
-        let still = self.still().abs();
-        let [_, steady, _] = self.waves.steady;
-        let groove = (curvature + still + all(2)) / drag;
-        let weight = steep * (height + all(0));
-        let felt = slope + all(1);
-        let fading = (steady + self.waves.fading * self.beside).abs();
-        groove + weight + (felt / drag * steep * (fading + felt)).sqrt()
-    }
-
-    /// Of T where it is large: that of a single line, or less.
-    pub(super) fn scale(&self) -> f64 {
-        let (bound, spring): (&dyn Fn(f64) -> f64, f64) = match (self.kind, self.across) {
-            (Kind::Across, Some(across)) => (&|p| self.waves.across_bound(p), across.stiffness),
-            _ => (&|p| self.waves.own_bounds(p)[2], 1.0),
-        };
-        let (far, near) = (bound(1e9), bound(0.0));
-        // Where both bounds of G are the same.
-        let q = 1e9 * far / near;
-        (near / spring).min(near / (self.r * q))
-    }
-
-    /// The same where the tip gives way across, |m| and |m_y| at least `drag`.
-    fn largest_across(
-        &self,
-        sideways: Sideways,
-        p: f64,
-        drag: f64,
-        sums: &dyn Fn(usize, usize) -> f64,
-    ) -> f64 {
-        let [height, slope, curvature] = self.waves.own_bounds(p);
-        let still = self.waves.across_at(self.waves.fading.into()).0.re;
-        let [tilt, bend] = sideways.beside.map(f64::abs);
-        let across = (still.abs() + bend + self.waves.across_bound(p) + sums(0, 2)) / drag;
-        if self.kind == Kind::Across {
-            return self.waves.across_bound(p) / drag;
-        }
-        let (steep, fading) = (self.steepness.abs(), self.waves.fading);
-        let groove = (curvature + self.still().abs() + sums(2, 0)) / drag;
-        let weight = steep * (height + sums(0, 0));
-        let faded = (fading * tilt + sums(1, 1)) / drag;
-        let raised = steep * (tilt + sums(0, 1));
-        if self.kind != Kind::PlaneFull && fading > 0.0 {
-            return largest_eigenvalue(&[[groove, faded], [faded, across]]);
-        }
-        if self.kind != Kind::PlaneFull {
-            let aside = raised + sums(2, 1) / drag;
-            return largest_eigenvalue(&[[groove + weight, aside], [sums(0, 1) / drag, across]]);
-        }
-        let [_, steady, _] = self.waves.steady;
-        let felt = slope + sums(1, 0);
-        let lost = steep * ((steady + fading * self.beside).abs() + felt);
-        largest_eigenvalue(&[
-            [groove, felt / drag, faded],
-            [lost, weight, raised],
-            [faded, sums(0, 1) / drag, across],
-        ])
-    }
-
-    /// Σ_j|h_l| of each layer, or of derivatives of h.
-    fn totals(&self, order: usize) -> Vec<f64> {
-        let all = self.all.get(order).map_or(&[][..], Vec::as_slice);
-        let odd = self.odd.get(order).map_or(&[][..], Vec::as_slice);
-        let mut totals: Vec<f64> = all.iter().map(Sequence::total).collect();
-        totals.iter_mut().zip(odd).for_each(|(total, odd)| *total += odd.total());
-        totals
-    }
-
     /// G(s) + s²E
-    fn still(&self) -> f64 {
+    pub(super) fn still(&self) -> f64 {
         let [_, _, curvature] = self.waves.steady;
         curvature + self.waves.fading.powi(2) * self.beside
     }
@@ -342,11 +240,9 @@ impl Lines {
     pub(super) fn determinant(&self, wave: &Wave, phase: &Phase, t: f64) -> Determinant {
         let t = Patch::constant(t);
         let entries = &wave.0;
-        let [x, y, product] = match self.kind {
+        Determinant::of_two(match self.kind {
             Kind::Scalar | Kind::Across => {
-                let value = t - entries[0].with(&phase.all);
-                let slope = Patch::constant(1.0);
-                return Determinant { value, slope, curved: false, factors: None, plane: None };
+                return Determinant::linear(t - entries[0].with(&phase.all));
             }
             Kind::Plane | Kind::PlaneFull | Kind::PlaneZigzag => {
                 return Determinant::in_plane(Polynomial::of(&self.matrix(wave, phase, t)));
@@ -360,14 +256,7 @@ impl Lines {
                 let felt = there.felt(&phase.odd) * back.felt(&phase.odd) * phase.turn;
                 [t - there.with(&phase.all), t - back.with(&phase.all), felt]
             }
-        };
-        Determinant {
-            value: x * y - product,
-            slope: x + y,
-            curved: true,
-            factors: Some([x, y, product]),
-            plane: None,
-        }
+        })
     }
 
     /// T - N, where the tip gives way across.
@@ -440,22 +329,6 @@ impl Lines {
     }
 }
 
-/// A bound of the largest eigenvalue of a matrix of numbers ≥ 0: the largest (Mx)_i/x_i of any x > 0 (Collatz).
-fn largest_eigenvalue<const N: usize>(m: &[[f64; N]; N]) -> f64 {
-    let times = |x: &[f64; N]| m.map(|row| row.iter().zip(x).map(|(m, x)| m * x).sum::<f64>());
-    let mut x = [1.0; N];
-    let mut least = f64::INFINITY;
-    for _ in 0..20 {
-        let next = times(&x);
-        let largest = next.iter().zip(&x).map(|(next, x)| next / x).fold(0.0, f64::max);
-        least = least.min(largest);
-        let size = next.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        // No component may vanish.
-        x = std::array::from_fn(|i| next[i] / size + 1e-3 * x[i]);
-    }
-    least
-}
-
 impl Wave {
     /// By how much what the determinant is made of may vary with q on a cell, and with the phase.
     pub(super) fn spreads(&self, phase: &Phase) -> [f64; 2] {
@@ -472,114 +345,5 @@ impl Wave {
             }
         }
         spreads
-    }
-}
-
-impl Determinant {
-    fn in_plane(q: Polynomial) -> Self {
-        let (value, slope) = (q.value(), q.slope());
-        Self { value, slope, curved: true, factors: None, plane: Some(q) }
-    }
-
-    /// By how much T must grow for Q to vanish in the middle of the cell, if it were real there: the largest there is.
-    pub(super) fn beyond(&self) -> f64 {
-        if let Some(plane) = &self.plane {
-            return plane.largest();
-        }
-        let (value, slope) = (self.value.value, self.slope.value);
-        if self.curved {
-            let root = (0.25 * slope * slope - value).sqrt();
-            (-0.5 * slope.re) + root.re.abs()
-        } else {
-            -(value / slope).re
-        }
-    }
-
-    /// By how much T must grow for zeros of Q that may be real on the cell, where the tip gives way across.
-    pub(super) fn near_axis(&self) -> Vec<f64> {
-        self.plane.as_ref().map_or_else(Vec::new, Polynomial::near_axis)
-    }
-
-    /// Whether Q has no zero at any real T from this on, anywhere on the cell.
-    pub(super) fn has_none(&self) -> bool {
-        if let Some(plane) = &self.plane {
-            return plane.has_none();
-        }
-        if let Some([x, y, product]) = &self.factors
-            && x.distance_to_negative() * y.distance_to_negative() > product.size()
-        {
-            return true;
-        }
-        self.is_beside_axis() || self.multipliers().any(|mu| self.is_positive(mu))
-    }
-
-    /// How near the cell, or a cell beside it, comes to a zero to first order: the larger, the nearer.
-    pub(super) fn promise(&self) -> f64 {
-        if let Some(plane) = &self.plane {
-            return plane.promise();
-        }
-        let turned: f64 = self.value.along.iter().map(|l| l.im.abs()).sum();
-        if self.value.value.im.abs() > 2.0 * turned {
-            return f64::NEG_INFINITY;
-        }
-        let least = |mu: f64| self.part(&self.value, mu, 0.0);
-        let most = self.multipliers().map(least).fold(f64::NEG_INFINITY, f64::max);
-        -most / self.slope.value.norm()
-    }
-
-    /// Re (1 - iμ) Q > 0 for all T: then Q ≠ 0.
-    fn is_positive(&self, mu: f64) -> bool {
-        let value = self.part(&self.value, mu, 1.0);
-        let slope = self.part(&self.slope, mu, 1.0);
-        value > 0.0 && (slope >= 0.0 || self.curved && slope * slope < 4.0 * value)
-    }
-
-    /// Im Q ≠ 0 for all T, or Re Q ≠ 0 where it vanishes.
-    fn is_beside_axis(&self) -> bool {
-        let range = |f: &Patch, part: fn(&Complex64) -> f64| {
-            let slopes: f64 = f.along.iter().map(|l| part(l).abs()).sum();
-            let off = slopes + f.rest;
-            (part(&f.value) - off, part(&f.value) + off)
-        };
-        let (low, high) = range(&self.value, |z| z.im);
-        if !self.curved {
-            return low > 0.0 || high < 0.0;
-        }
-        // Neither is so where a bound is infinite, and times 0 no number.
-        if !(low > 0.0 || high < 0.0) {
-            return false;
-        }
-        // Im Q = value + slope τ of the other sign at 0: what brings it to 0 is a slope towards it.
-        let (least, most) = range(&self.slope, |z| z.im);
-        let (near, far) = if low > 0.0 { (low, high) } else { (-high, -low) };
-        let (steepest, flattest) = if low > 0.0 { (-least, -most) } else { (most, least) };
-        if steepest <= 0.0 {
-            return true;
-        }
-        let first = near / steepest;
-        if !first.is_finite() {
-            return false;
-        }
-        let last = if flattest > 0.0 { far / flattest } else { f64::INFINITY };
-        let (value, slope) = (range(&self.value, |z| z.re), range(&self.slope, |z| z.re));
-        // Re Q = value + slope τ + τ² from the first to the last of these τ: below 0 at both ends, or above 0 throughout.
-        let below = |tau: f64| value.1 + (slope.1 + tau) * tau < 0.0;
-        let least = (-0.5 * slope.0).clamp(first, last.max(first));
-        let above = value.0 + (slope.0 + least) * least > 0.0;
-        above || last.is_finite() && below(first) && below(last)
-    }
-
-    /// The least of Re (1 - iμ) f on the cell.
-    fn part(&self, f: &Patch, mu: f64, rests: f64) -> f64 {
-        let part = |z: &Complex64| z.re + mu * z.im;
-        let slopes: f64 = f.along.iter().map(|l| part(l).abs()).sum();
-        part(&f.value) - slopes - rests * (1.0 + mu * mu).sqrt() * f.rest
-    }
-
-    /// Of Re Q > 0 under the condition Im Q = 0, to first order on the cell: the dual problem has its largest value at one
-    /// of these.
-    fn multipliers(&self) -> impl Iterator<Item = f64> {
-        let each = self.value.along.map(|l| -l.re / l.im);
-        std::iter::once(0.0).chain(each).filter(|mu| mu.is_finite())
     }
 }

@@ -1,6 +1,7 @@
 //! Where T is largest, by Newton's method.
 
-use super::determinant::{Determinant, Lines, Phase, Wave};
+use super::determinant::{Lines, Phase, Wave};
+use super::on_cell::Determinant;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 

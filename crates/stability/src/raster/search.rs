@@ -8,7 +8,8 @@
 //! tighten with the square of a cell's size, as T falls away from it. What it proves holds but for round-off, of which the
 //! bounds know nothing.
 
-use super::determinant::{Determinant, Lines, Phase, Wave};
+use super::determinant::{Lines, Phase, Wave};
+use super::on_cell::Determinant;
 use super::optimum::{Place, candidate};
 use crate::StabilityError;
 use stickslip_tip::stop;

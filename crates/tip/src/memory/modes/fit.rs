@@ -2,6 +2,7 @@
 
 use super::certificate::{FitCertificate, certify};
 use super::pencil::Pencil;
+use super::standard;
 use super::term::Term;
 use super::weights::weights;
 use super::window::{Retreat, Window, samples};
@@ -134,7 +135,8 @@ impl Fit {
         Self { terms, retreat: everywhere, between_steps: everywhere, wanted, certificate }
     }
 
-    /// As [`reaching_back`](Self::reaching_back), or a fit made before for the same.
+    /// As [`reaching_back`](Self::reaching_back), or a fit made before for the same: the last so many are kept for all
+    /// threads, and those of the default footprints come with the program. The bits are the same wherever it is from.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -142,16 +144,18 @@ impl Fit {
         type Known = (TipFunction, f64, Retreat, Result<Arc<Fit>, FitError>);
         type Cache = Mutex<Vec<Known>>;
         static CACHE: Cache = Mutex::new(vec![]);
-        const MOST: usize = 32;
-        let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        const MOST: usize = 64;
+        let same =
+            |(t, w, b, _): &&Known| w.to_bits() == wanted.to_bits() && *b == back && t == tip;
         // A thread that panicked did not leave half an entry behind.
         let lock = || CACHE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let known =
-            lock().iter().find(|(t, w, b, _)| same(*w, wanted) && *b == back && t == tip).cloned();
+        let known = lock().iter().find(same).cloned();
         if let Some((.., fit)) = known {
             return fit;
         }
-        let fit = Self::reaching_back(tip, wanted, back).map(Arc::new);
+        let fit = Self::standard(tip, wanted, back)
+            .map_or_else(|| Self::reaching_back(tip, wanted, back), Ok)
+            .map(Arc::new);
         if fit == Err(FitError::Stopped) {
             return fit;
         }
@@ -161,6 +165,16 @@ impl Fit {
         }
         cache.push((tip.clone(), wanted, back, fit.clone()));
         fit
+    }
+
+    /// One that comes with the program.
+    fn standard(tip: &TipFunction, wanted: f64, back: Retreat) -> Option<Self> {
+        if back != Retreat::Small {
+            return None;
+        }
+        let (terms, certificate) = standard::known(tip, wanted)?;
+        let Window { retreat, between_steps, .. } = Window::of(tip, tip.reach()?, back);
+        Some(Self { terms, retreat, between_steps, wanted, certificate })
     }
 
     /// The sum of given terms, with its certified error: for exponentials found elsewhere.

@@ -8,6 +8,7 @@ mod local;
 mod pencil;
 mod powers;
 mod prepared;
+mod standard;
 mod term;
 mod weights;
 mod window;

@@ -1,5 +1,6 @@
 //! The slope that a tip has left ahead of it.
 
+use crate::merged::merged;
 use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::TipFunction;
@@ -7,7 +8,7 @@ use stickslip_tip::exponential::exponentials;
 use stickslip_tip::memory::{Fit, Retreat};
 
 /// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f', where one is good enough,
-/// else visit by visit.
+/// else visit by visit, those side by side taken together.
 pub(crate) struct Ahead<'a> {
     tip: &'a TipFunction,
     reach: f64,
@@ -39,6 +40,7 @@ impl<'a> Ahead<'a> {
         let fit =
             if wanted >= FINEST { Fit::cached(tip, wanted, Retreat::Small).ok() } else { None };
         let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));
+        let visits = if sum.is_none() { merged(visits, tip.widths(1.0)) } else { visits };
         Self { tip, reach, visits, sum }
     }
 

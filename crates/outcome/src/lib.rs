@@ -11,6 +11,7 @@ mod ahead;
 mod creep;
 mod judge;
 mod linear;
+mod merged;
 mod motion;
 mod observer;
 mod oscillation;

@@ -4,7 +4,7 @@ use super::StabilityError;
 use super::cell::Cell;
 use super::certificate::{Certificate, ROUNDOFF, Region};
 use super::characteristic::Characteristic;
-use super::newton::{another, pair, polish};
+use super::newton::{MOST_ITERATIONS, another, pair, polish};
 use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
@@ -15,6 +15,8 @@ use stickslip_tip::stop;
 const FARTHEST: f64 = 1e9;
 /// A root whose error is more than this part of it has another beside it.
 const BESIDE: f64 = 1e-10;
+/// Newton's method from a start near a zero takes fewer steps than this.
+const SOON: usize = 10;
 /// A left edge on a root is moved this often, a little further each time.
 const MOST_SHIFTS: u32 = 8;
 
@@ -73,14 +75,18 @@ impl HalfPlane {
         Ok(Spectrum { roots, certificate })
     }
 
-    /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted.
+    /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted. Most starts that lead to a
+    /// zero do so soon: only if some zeros are missing after that, each is followed for long.
     fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
+        let starts = self.starts(h);
         let mut upper = Vec::new();
-        for start in self.starts(h) {
+        for (most, start) in
+            [SOON, MOST_ITERATIONS].iter().flat_map(|n| starts.iter().map(move |z| (*n, *z)))
+        {
             if total(&upper) >= self.count || stop::is_asked() {
                 break;
             }
-            let Some(zero) = another(|z| h.at(z), start, &upper, 2.0 / h.length()) else {
+            let Some(zero) = another(|z| h.at(z), start, &upper, (2.0 / h.length(), most)) else {
                 continue;
             };
             let is_new = |zero: &Complex64| {

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 
 /// Iterations before a start is given up.
-const MOST_ITERATIONS: usize = 40;
+pub(super) const MOST_ITERATIONS: usize = 40;
 
 /// Newton's method to round-off: until the steps no longer shrink. Beside a double zero they never
 /// settle: of all places on the way, that of the smallest |h|.
@@ -75,15 +75,15 @@ pub(super) fn pair(
 }
 
 /// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly),
-/// steps at most `longest`. `None` if it does not settle.
+/// steps at most `longest`, so many of them. `None` if it does not settle.
 pub(super) fn another(
     h: impl Fn(Complex64) -> Scaled,
     start: Complex64,
     known: &[Complex64],
-    longest: f64,
+    (longest, most): (f64, usize),
 ) -> Option<Complex64> {
     let mut z = start;
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..most {
         let at = h(z);
         let logarithmic = |k: &Complex64| {
             let own = (z - k).inv();

@@ -33,7 +33,7 @@ fn asymptotic_remainder(z: Complex64) -> Complex64 {
         odd += 2.0;
         term *= step * odd;
         sum += term;
-        if term.norm() <= 1e-17 * sum.norm() {
+        if term.norm_sqr() <= 1e-34 * sum.norm_sqr() {
             break;
         }
     }

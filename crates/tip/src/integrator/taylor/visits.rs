@@ -4,7 +4,7 @@ use super::values::{BLOCK, Block, Table};
 use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
 use crate::roots::zero_between;
 use multiversion::multiversion;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
 #[derive(Debug)]
@@ -22,7 +22,11 @@ pub(super) const MOST_NODES: usize = 24;
 pub(super) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
     [[0.0; BLOCK]; MOST_NODES.div_ceil(BLOCK)];
 
-static RULES: LazyLock<[Rule; COUNTS.len()]> = LazyLock::new(|| COUNTS.map(Rule::new));
+/// That of [`COUNTS`] at this index: made when it is first used, as no run uses them all.
+fn rule(index: usize) -> &'static Rule {
+    static RULES: [OnceLock<Rule>; COUNTS.len()] = [const { OnceLock::new() }; COUNTS.len()];
+    RULES[index].get_or_init(|| Rule::new(COUNTS[index]))
+}
 
 /// Of what the error of each rule is divided by: 2 (2n-1)!³/(n (n-1)!⁴).
 static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
@@ -66,7 +70,7 @@ impl Visits {
         let waning = healing / self.wave;
         let far = (moved * moved + waning * waning).sqrt();
         let index = self.farthest.iter().position(|farthest| far <= *farthest)?;
-        Some(&RULES[index])
+        Some(rule(index))
     }
 
     /// The farthest that a step of so many healing times may lead.
@@ -83,7 +87,7 @@ impl Visits {
 
 /// The rule of most nodes.
 pub(super) fn last() -> &'static Rule {
-    &RULES[COUNTS.len() - 1]
+    rule(COUNTS.len() - 1)
 }
 
 /// What is left of these weights at the end of a step, of so many healing times.
@@ -119,7 +123,10 @@ impl Rule {
             }
             (last, here)
         };
-        let difference = |x: f64| legendre(x).1 - legendre(x).0;
+        let difference = |x: f64| {
+            let (last, here) = legendre(x);
+            here - last
+        };
         // Zeros of P_n - P_{n-1} and points x = cos(kπ/n) alternate.
         let between = |k: usize| -cos(std::f64::consts::PI * k as f64 / n as f64);
         let zero = |k: usize| zero_between(difference, between(k), between(k + 1));
@@ -139,7 +146,7 @@ mod tests {
 
     #[test]
     fn rules_are_exact_to_their_degree_and_no_further() {
-        for (n, rule) in COUNTS.into_iter().zip(&*RULES) {
+        for (n, rule) in COUNTS.into_iter().zip((0..COUNTS.len()).map(rule)) {
             let miss = |degree: usize| {
                 let terms = rule.nodes.iter().zip(&rule.weights);
                 let sum: f64 = terms.map(|(x, w)| w * x.powi(degree as i32)).sum();

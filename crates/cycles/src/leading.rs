@@ -11,7 +11,7 @@ use super::orbit::Orbit;
 use super::past::Past;
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
-use super::step::LinearStep;
+use super::step::{Factors, LinearStep};
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use std::sync::Arc;
@@ -102,9 +102,9 @@ impl<'a> PeriodMap<'a> {
 
     /// What becomes of deviations, one a column.
     fn of(&self, past: &Past, block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        let mut state = Sensitivity::of(block);
+        let (mut state, mut room) = (Sensitivity::of(block), Factors::default());
         let carry = |_, step: &LinearStep, share: f64| {
-            step.carry(Parameter::Alpha, share, &mut state).map(drop)
+            step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
         };
         along(&self.equation, self.orbit, (past, past), carry).ok()?;
         Some(state.columns())
@@ -114,11 +114,12 @@ impl<'a> PeriodMap<'a> {
     fn kicks(&self, past: &Past) -> Option<DMatrix<f64>> {
         let steps = self.orbit.stages.len();
         let mut state = Sensitivity::of(&DMatrix::zeros(self.len(), BLOCK));
+        let mut room = Factors::default();
         let carry = |n, step: &LinearStep, share: f64| {
             for kick in (0..BLOCK).filter(|kick| kick * steps / BLOCK == n) {
                 state.set_column(kick, past.of_step(n).moved_on());
             }
-            step.carry(Parameter::Alpha, share, &mut state).map(drop)
+            step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
         };
         along(&self.equation, self.orbit, (past, past), carry).ok()?;
         Some(state.columns())

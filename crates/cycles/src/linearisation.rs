@@ -10,7 +10,7 @@ use super::mesh::OfStep;
 use super::orbit::Orbit;
 use super::past::Past;
 use super::sensitivity::Sensitivity;
-use super::step::{LinearStep, Solved};
+use super::step::{Factors, LinearStep, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::memory::Fit;
@@ -56,8 +56,9 @@ impl Linearisation {
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(equation.state_len());
         let (mut stages, mut heights, mut of_steps) = (vec![], vec![], vec![]);
+        let mut room = Factors::default();
         let gap = along(equation, orbit, (&past, solved), |_, step, share| {
-            let (of_stages, of_heights) = step.carry(free, share, &mut end)?;
+            let (of_stages, of_heights) = step.carry(free, share, &mut end, &mut room)?;
             stages.push(of_stages);
             heights.extend(of_heights);
             of_steps.push(step.of_step());

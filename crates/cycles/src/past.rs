@@ -61,8 +61,7 @@ impl<'a> Past<'a> {
             }
         }
         let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
-        let mut zeta = Vec::with_capacity(count + terms.len());
-        zeta.resize(terms.len(), Complex::ZERO);
+        let zeta = vec![Complex::ZERO; count + terms.len()];
         let mut past = Self { terms, exponentials, inverses, zeta, left };
         past.follow(&spent);
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
@@ -72,17 +71,21 @@ impl<'a> Past<'a> {
             added / (1.0 - complex_exp(term.exponent * moved) * kept)
         };
         let start: Vec<_> = added.iter().zip(terms).map(settled).collect();
-        past.zeta.clear();
-        past.zeta.extend(start);
+        past.zeta[..terms.len()].copy_from_slice(&start);
         past.follow(&spent);
         Some(past)
     }
 
     /// ζ at the ends of all steps, from what it is at the start.
     fn follow(&mut self, spent: &[Complex<f64>]) {
-        for (n, (e, spent)) in self.exponentials.iter().zip(spent).enumerate() {
-            let left = self.left[n / self.terms.len()][STAGES - 1];
-            self.zeta.push(e[STAGES - 1] * (self.zeta[n] * left + spent));
+        let count = self.terms.len();
+        let steps = self.exponentials.chunks_exact(count).zip(spent.chunks_exact(count));
+        for (n, ((exponentials, spent), left)) in steps.zip(&self.left).enumerate() {
+            let (before, after) = self.zeta[n * count..].split_at_mut(count);
+            let left = left[STAGES - 1];
+            for (j, after) in after[..count].iter_mut().enumerate() {
+                *after = exponentials[j][STAGES - 1] * (before[j] * left + spent[j]);
+            }
         }
     }
 

@@ -89,19 +89,32 @@ impl Sensitivity {
         expand(&stages.entries, stride, factors, &mut self.entries);
     }
 
-    /// Multiplies rows that are the real and imaginary part of one quantity.
-    pub(super) fn multiply_pair(&mut self, re: usize, im: usize, factor: Complex<f64>) {
+    /// Multiplies rows that are the real and the imaginary parts of as many quantities, the first of them row `from`.
+    pub(super) fn multiply_pairs(&mut self, from: usize, factors: &[Complex<f64>]) {
         let stride = self.stride();
-        let (first, second) = self.entries.split_at_mut(im * stride);
-        let (first, second) = (&mut first[re * stride..][..stride], &mut second[..stride]);
-        for (a, b) in first.iter_mut().zip(second) {
-            (*a, *b) = (*a * factor.re - *b * factor.im, *a * factor.im + *b * factor.re);
-        }
+        let pairs = &mut self.entries[from * stride..][..2 * factors.len() * stride];
+        let (re, im) = pairs.split_at_mut(factors.len() * stride);
+        turn(re, im, stride, factors);
     }
 
     /// Row i times the changes of the unknowns, 1 for the correction.
     pub(super) fn change(&self, i: usize, unknowns: &[f64]) -> f64 {
         self.row(i).iter().zip(unknowns).map(|(s, u)| s * u).sum()
+    }
+}
+
+/// Compiled for wider vectors too: columns do not know of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn turn(re: &mut [f64], im: &mut [f64], stride: usize, factors: &[Complex<f64>]) {
+    let rows = re.chunks_exact_mut(stride).zip(im.chunks_exact_mut(stride));
+    for ((re, im), factor) in rows.zip(factors) {
+        let (re, im) = (re.as_chunks_mut::<LANES>().0, im.as_chunks_mut::<LANES>().0);
+        for (re, im) in re.iter_mut().zip(im) {
+            for c in 0..LANES {
+                let (a, b) = (re[c], im[c]);
+                (re[c], im[c]) = (a * factor.re - b * factor.im, a * factor.im + b * factor.re);
+            }
+        }
     }
 }
 

@@ -45,6 +45,18 @@ pub(super) struct LinearStep<'a> {
     missed: f64,
 }
 
+/// Room for the factors by which rows are carried, kept from step to step.
+#[derive(Default)]
+pub(super) struct Factors {
+    /// ∂d/∂X by component of X.
+    of_stages: Vec<Stages>,
+    /// ∂X'/∂d and ∂X'/∂η by component of X'.
+    by_stages: Vec<Stages>,
+    by_heights: Vec<Stages>,
+    /// What each ζ is multiplied by.
+    turns: Vec<Complex<f64>>,
+}
+
 /// What is known of a step: its state at the start, its length, its solution.
 #[derive(Clone, Copy)]
 pub(super) struct Solved<'a> {
@@ -122,12 +134,14 @@ impl<'a> LinearStep<'a> {
         free: Parameter,
         share: f64,
         state: &mut Sensitivity,
+        room: &mut Factors,
     ) -> Option<(Sensitivity, Option<Sensitivity>)> {
         let Carrying { by_force, .. } = &self.carrying;
         let inverse = (Square::identity() - by_force * self.velocity_slope).try_inverse()?;
         let gain = inverse * by_force;
         let told = self.heights_by_state();
-        let mut stages = state.contracted(&self.stages_by_state(&told, &inverse, &gain));
+        self.stages_by_state(&told, &inverse, &gain, &mut room.of_stages);
+        let mut stages = state.contracted(&room.of_stages);
         let constants = self.constants(free, share, &inverse, &gain);
         for i in 0..STAGES {
             for (column, constant) in stages.constants(i).iter_mut().zip(&constants) {
@@ -138,7 +152,7 @@ impl<'a> LinearStep<'a> {
             .heights
             .as_ref()
             .map(|heights| heights.follow(&told, (free, share), state, &stages));
-        self.carry_state(free, share, (&stages, heights.as_ref()), state);
+        self.carry_state((free, share), (&stages, heights.as_ref()), state, room);
         Some((stages, heights))
     }
 
@@ -174,19 +188,30 @@ impl<'a> LinearStep<'a> {
     }
 
     /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is that of the heights.
-    fn stages_by_state(&self, told: &[Vector], inverse: &Square, gain: &Square) -> Vec<Stages> {
-        let alpha = self.equation.alpha;
-        let left = &self.carved.left;
-        let by = |part: &dyn Fn(usize) -> f64| Vector::from_fn(|i, _| part(i));
-        let exponentials = self.past.exponentials;
-        let re = exponentials.iter().map(|e| by(&|i| alpha * e[i].re * left[i]));
-        let im = exponentials.iter().map(|e| by(&|i| -alpha * e[i].im * left[i]));
-        let mut forces: Vec<Vector> = [by(&|_| 1.0)].into_iter().chain(re).chain(im).collect();
-        if let Some(heights) = &self.heights {
-            forces.iter_mut().zip(told).for_each(|(force, told)| *force += heights.force(told));
+    fn stages_by_state(
+        &self,
+        told: &[Vector],
+        inverse: &Square,
+        gain: &Square,
+        into: &mut Vec<Stages>,
+    ) {
+        let (alpha, left) = (self.equation.alpha, &self.carved.left);
+        let modes = self.past.terms.len();
+        into.clear();
+        into.resize(1 + 2 * modes, [1.0; STAGES]);
+        let (re, im) = into[1..].split_at_mut(modes);
+        for ((re, im), e) in re.iter_mut().zip(im).zip(self.past.exponentials) {
+            for i in 0..STAGES {
+                (re[i], im[i]) = (alpha * e[i].re * left[i], -alpha * e[i].im * left[i]);
+            }
         }
-        let glide = self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide));
-        forces.into_iter().map(|force| Stages::from(gain * force)).chain(glide).collect()
+        if let Some(heights) = &self.heights {
+            for (force, told) in into.iter_mut().zip(told) {
+                *force = Stages::from(Vector::from(*force) + heights.force(told));
+            }
+        }
+        into.iter_mut().for_each(|force| *force = product(gain, force));
+        into.extend(self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide)));
     }
 
     /// ∂g/∂X of the heights -α g, by component of X; nothing without a depth limit.
@@ -207,16 +232,23 @@ impl<'a> LinearStep<'a> {
     /// δX' from δX, δd and the changes of the heights.
     fn carry_state(
         &self,
-        free: Parameter,
-        share: f64,
+        (free, share): (Parameter, f64),
         (stages, heights): (&Sensitivity, Option<&Sensitivity>),
         state: &mut Sensitivity,
+        room: &mut Factors,
     ) {
         let modes = self.past.terms.len();
         let rows = self.equation.state_len();
-        let mut by_stages = vec![[0.0; STAGES]; rows];
-        let mut by_heights = vec![[0.0; STAGES]; if heights.is_some() { rows } else { 0 }];
+        let Factors { by_stages, by_heights, turns, .. } = room;
+        by_stages.clear();
+        by_stages.resize(rows, [0.0; STAGES]);
+        by_heights.clear();
+        by_heights.resize(if heights.is_some() { rows } else { 0 }, [0.0; STAGES]);
         by_stages[0][STAGES - 1] = -1.0;
+        let left = self.carved.left[STAGES - 1];
+        turns.clear();
+        turns.extend(self.past.exponentials.iter().map(|e| e[STAGES - 1] * left));
+        state.multiply_pairs(1, turns);
         state.constants(0)[0] += self.equation.r * share;
         if free == Parameter::R {
             state.constants(0)[1] += self.h;
@@ -224,30 +256,27 @@ impl<'a> LinearStep<'a> {
         let [stays, rate, by_height] =
             [self.carved.weighted(), self.carved.rate(), self.carved.by_height()]
                 .map(|b| b[STAGES - 1]);
-        let (left, fading) = (self.carved.left[STAGES - 1], self.carved.fading[STAGES - 1]);
+        let fading = self.carved.fading[STAGES - 1];
         for (j, term) in self.past.terms.iter().enumerate() {
-            let e = &self.past.exponentials[j];
+            let e = self.past.exponentials[j][STAGES - 1];
             let (re, im) = (1 + j, 1 + modes + j);
-            state.multiply_pair(re, im, e[STAGES - 1] * left);
-            let weight = term.weight * e[STAGES - 1];
+            let weight = term.weight * e;
             let visit = self.past.inverses[j].map(|e| weight * e);
-            let spent =
-                |b: &Stages| -> [Complex<f64>; STAGES] { std::array::from_fn(|k| visit[k] * b[k]) };
-            let stays = spent(&stays);
             for k in 0..STAGES {
-                let mut change = -term.exponent * stays[k] * self.carved.times;
+                let mut change = -term.exponent * (visit[k] * stays[k]) * self.carved.times;
                 if k == STAGES - 1 {
                     change += term.exponent * self.past.after[j];
                 }
                 (by_stages[re][k], by_stages[im][k]) = (change.re, change.im);
             }
             if heights.is_some() {
-                for (k, change) in spent(&by_height).into_iter().enumerate() {
+                for k in 0..STAGES {
+                    let change = visit[k] * by_height[k];
                     (by_heights[re][k], by_heights[im][k]) = (change.re, change.im);
                 }
             }
-            let spent: Complex<f64> = spent(&rate).iter().sum();
-            let faded = e[STAGES - 1] * self.past.zeta[j] * (left * fading);
+            let spent: Complex<f64> = visit.iter().zip(&rate).map(|(visit, b)| visit * b).sum();
+            let faded = e * self.past.zeta[j] * (left * fading);
             state.constants(re)[0] += (spent.re + faded.re) * share;
             state.constants(im)[0] += (spent.im + faded.im) * share;
         }
@@ -259,11 +288,22 @@ impl<'a> LinearStep<'a> {
             state.clear(rows - 1);
             state.constants(rows - 1)[0] -= velocity / self.h * share;
         }
-        state.add_expanded(&by_stages, stages);
+        state.add_expanded(by_stages, stages);
         if let Some(heights) = heights {
-            state.add_expanded(&by_heights, heights);
+            state.add_expanded(by_heights, heights);
         }
     }
+}
+
+/// Matrix times vector, summed column by column.
+fn product(matrix: &Square, vector: &Stages) -> Stages {
+    let mut product = [0.0; STAGES];
+    for (column, factor) in matrix.as_slice().as_chunks::<STAGES>().0.iter().zip(vector) {
+        for i in 0..STAGES {
+            product[i] += column[i] * factor;
+        }
+    }
+    product
 }
 
 #[cfg(test)]

@@ -2,9 +2,11 @@
 //!
 //! With c(Ω) = -∫f'' cos = Ω² f̂(Ω)/2 and s(Ω) = (1/Ω)∫f'' sin they read r = s/c and αc = r/c.
 
+use super::kept::Kept;
 use super::transform::CurvatureTransform;
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use std::sync::Arc;
 use stickslip_tip::roots::zero_between;
 use stickslip_tip::{TipFunction, stop};
 
@@ -53,7 +55,13 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(tip: &TipFunction) -> Self {
+    /// Of this footprint, scanned anew only where it has not been lately.
+    pub(super) fn of(tip: &TipFunction) -> Arc<Self> {
+        static KEPT: Kept<Axis> = Kept::new();
+        KEPT.of(tip, || Self::new(tip))
+    }
+
+    fn new(tip: &TipFunction) -> Self {
         let transform = CurvatureTransform::new(tip);
         let reach = tip.reach().unwrap_or(1.0);
         let step = (2.0 * PI / (SAMPLES_PER_PERIOD * reach)).max(tip.band() / MOST_SAMPLES);

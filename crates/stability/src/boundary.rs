@@ -4,6 +4,7 @@ use super::axis::{Axis, AxisPoint};
 use super::critical::{Critical, OnsetKind, bessel_wave_number, by_cosine, unless_stopped};
 use super::crossings::Scan;
 use super::{StabilityError, corner, limits};
+use std::sync::Arc;
 use stickslip_tip::{TipFunction, Wider};
 
 /// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below it.
@@ -35,7 +36,7 @@ enum Search {
     /// J0 under the basic law.
     ClosedForm,
     /// The curve (r(Ω), α(Ω)) of (42), (43), under the basic law.
-    Curve(Box<Axis>),
+    Curve(Arc<Axis>),
     /// Any law.
     General(Scan),
 }
@@ -62,7 +63,7 @@ impl Boundary {
     #[must_use]
     pub fn new(law: &Wider, tip: &TipFunction) -> Self {
         let search = match tip {
-            TipFunction::Gaussians(_) if law.is_papers() => Search::Curve(Box::new(Axis::new(tip))),
+            TipFunction::Gaussians(_) if law.is_papers() => Search::Curve(Axis::of(tip)),
             TipFunction::Bessel if law.is_papers() => Search::ClosedForm,
             _ => Search::General(Scan::new(law, tip)),
         };

@@ -1,9 +1,11 @@
 //! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ + κ grows, or for creep stays κ.
 
+use super::kept::Kept;
 use super::law::Law;
 use super::one_sided::OneSided;
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use std::sync::Arc;
 use stickslip_tip::{Gaussian, TipFunction};
 
 /// Samples of f over its reach, from which its integrals are bounded.
@@ -30,7 +32,15 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) fn new(footprint: &OneSided) -> Self {
+    /// Of this footprint, summed anew only where they have not been lately.
+    pub(super) fn of(footprint: &OneSided) -> Arc<Self> {
+        static ALONG: Kept<Bounds> = Kept::new();
+        static ACROSS: Kept<Bounds> = Kept::new();
+        let kept = if footprint.is_across() { &ACROSS } else { &ALONG };
+        kept.of(footprint.tip(), || Self::new(footprint))
+    }
+
+    fn new(footprint: &OneSided) -> Self {
         let tip = footprint.tip();
         let mut powers = [0, 1, 2];
         let TipFunction::Gaussians(sum) = tip else {

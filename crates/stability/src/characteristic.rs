@@ -7,6 +7,7 @@ use super::law::Law;
 use super::newton::simultaneous;
 use super::transform::Scaled;
 use num_complex::Complex64;
+use std::sync::Arc;
 use stickslip_tip::{Model, TipFunction};
 
 /// How many widths^{-1} to the left anyone may want to look.
@@ -20,7 +21,7 @@ const BESIDE_BRANCH_POINTS: f64 = 0.02;
 #[derive(Debug, Clone)]
 pub(super) struct Characteristic {
     law: Law,
-    bounds: Bounds,
+    bounds: Arc<Bounds>,
     length: f64,
 }
 
@@ -38,7 +39,7 @@ impl Characteristic {
     }
 
     pub(super) fn of(law: Law) -> Self {
-        let bounds = Bounds::new(&law.footprint);
+        let bounds = Bounds::of(&law.footprint);
         let length = law.footprint.tip().reach().unwrap_or(9.0) / 9.0;
         Self { law, bounds, length }
     }

@@ -79,7 +79,7 @@ pub fn critical_r(law: &Wider, tip: &TipFunction, alpha: f64) -> Result<Critical
         return Ok(Critical::basic(alpha, r, bessel_wave_number(r)));
     }
     // r = αc: the fastest is the one of the largest c.
-    let fastest = Axis::new(tip).crossings_of_alpha(alpha).into_iter().max_by(by_cosine);
+    let fastest = Axis::of(tip).crossings_of_alpha(alpha).into_iter().max_by(by_cosine);
     let none = unless_stopped(StabilityError::NoCriticalR { alpha });
     let AxisPoint { cosine, wave_number, .. } = fastest.ok_or(none)?;
     Ok(Critical::basic(alpha, alpha * cosine, wave_number))

@@ -30,6 +30,7 @@ mod crossings;
 mod error;
 mod half_plane;
 mod inversion;
+mod kept;
 mod law;
 mod limits;
 mod newton;

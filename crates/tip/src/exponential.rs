@@ -57,7 +57,13 @@ pub fn exponentials<const N: usize>(
     inverse: &mut Vec<[Complex<f64>; N]>,
 ) {
     let from = into.len();
-    into.extend(exponents.map(|s| x.map(|x| s * x)));
+    for s in exponents {
+        let mut values = [Complex::ZERO; N];
+        for (value, x) in values.iter_mut().zip(x) {
+            *value = s * x;
+        }
+        into.push(values);
+    }
     inverse.resize(into.len(), [Complex::ZERO; N]);
     all(into[from..].as_flattened_mut(), inverse[from..].as_flattened_mut());
 }
@@ -113,8 +119,12 @@ fn some(values: &mut [Complex<f64>; LANES], inverses: &mut [Complex<f64>; LANES]
 
 /// e^x, x held within ±700.
 #[inline(always)]
-fn exp<const N: usize>(x: [f64; N]) -> [f64; N] {
-    x.map(|x| exp_within(x.clamp(-LARGEST, LARGEST)))
+fn exp<const N: usize>(mut x: [f64; N]) -> [f64; N] {
+    // Not `map`, which is no part of the loop over lanes unless it happens to be inlined.
+    for x in &mut x {
+        *x = exp_within(x.clamp(-LARGEST, LARGEST));
+    }
+    x
 }
 
 #[inline(always)]

@@ -1,0 +1,67 @@
+//! What follows from a footprint alone, and takes long: kept for the next to ask, on any thread.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use stickslip_tip::{TipFunction, stop};
+
+/// So many footprints are remembered, those that were asked for last.
+const MOST: usize = 4;
+
+/// Something made from a footprint, with the footprints it was made from last.
+pub(super) struct Kept<T>(Mutex<Vec<(TipFunction, Arc<T>)>>);
+
+impl<T> Kept<T> {
+    pub(super) const fn new() -> Self {
+        Self(Mutex::new(vec![]))
+    }
+
+    /// For this footprint, as `make` would make it now.
+    pub(super) fn of(&self, tip: &TipFunction, make: impl FnOnce() -> T) -> Arc<T> {
+        // A thread that panicked did not leave half an entry behind.
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = |kept: &mut Vec<(TipFunction, Arc<T>)>| {
+            let at = kept.iter().position(|(known, _)| known == tip)?;
+            kept[at..].rotate_left(1);
+            kept.last().map(|(_, made)| Arc::clone(made))
+        };
+        if let Some(made) = known(&mut lock()) {
+            return made;
+        }
+        let made = Arc::new(make());
+        // What nobody waited for may be unfinished.
+        if !stop::is_asked() {
+            let mut kept = lock();
+            if kept.len() == MOST {
+                drop(kept.remove(0));
+            }
+            kept.push((tip.clone(), Arc::clone(&made)));
+        }
+        made
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn what_was_asked_for_last_is_kept_and_nothing_unfinished() {
+        let kept = Kept::new();
+        let tip = |i: u32| TipFunction::gaussian(1.0 + f64::from(i)).unwrap();
+        let made = std::cell::Cell::new(0);
+        let make = |i: u32| {
+            made.set(made.get() + 1);
+            i
+        };
+        let of = |i: u32| *kept.of(&tip(i), || make(i));
+        for i in [0, 1, 2, 3, 0, 4, 0, 3] {
+            assert_eq!(of(i), i);
+        }
+        // 1 made room for 4.
+        assert_eq!(made.get(), 5);
+        assert_eq!((of(0), of(1), made.get()), (0, 1, 6));
+        let flag = Arc::new(AtomicBool::new(true));
+        stop::where_asked_by(&flag, || of(9));
+        assert_eq!((of(9), made.get()), (9, 8));
+    }
+}

@@ -51,7 +51,10 @@ pub use integrator::{IntegrationError, Integrator, Work};
 pub use memory::MemoryChoice;
 pub use model::{Model, ModelError};
 pub use relief::{Noise, Relief};
-pub use run::{MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, run, run_observed};
+pub use run::{
+    MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, run, run_each, run_many,
+    run_observed,
+};
 pub use series::SeriesError;
 pub use support::{Support, SupportPath};
 pub use tip_function::{Gaussian, TipFunction, TipFunctionError};

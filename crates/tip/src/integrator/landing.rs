@@ -7,6 +7,29 @@ use crate::roots::zero_between;
 /// By which a step may be longer to end where it is to.
 const MOST_ROUNDINGS: usize = 64;
 
+/// As [`Integrator::landing`], of a step that begins at t.
+pub(super) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
+    // The difference of two representable times: t loses nothing as it grows.
+    let mut h = (t + h) - t;
+    let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
+    let least = roundings(t);
+    // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
+    // make up for a rounding short.
+    let rounding = least.max(roundings(end));
+    let is_short = |h: f64| t + h < end && end - (t + h) <= rounding;
+    for _ in 0..MOST_ROUNDINGS {
+        if !is_short(h) {
+            break;
+        }
+        h = h.next_up();
+    }
+    // Far from t = 0 the difference is exact, and the roundings of h are too small to be counted through.
+    if is_short(h) {
+        h = end - t;
+    }
+    (h > least).then_some(h)
+}
+
 impl<M: Memory> Integrator<'_, M> {
     /// Where the next step is to end at the latest.
     pub(super) fn next_end(&self, until: f64) -> f64 {
@@ -17,25 +40,7 @@ impl<M: Memory> Integrator<'_, M> {
     /// The length of a step of about the length h that ends at a representable time, and at `end` if it is near;
     /// `None` for one too short.
     pub(super) fn landing(&self, h: f64, end: f64) -> Option<f64> {
-        // The difference of two representable times: t loses nothing as it grows.
-        let mut h = (self.t + h) - self.t;
-        let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
-        let least = roundings(self.t);
-        // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
-        // make up for a rounding short.
-        let rounding = least.max(roundings(end));
-        let is_short = |h: f64| self.t + h < end && end - (self.t + h) <= rounding;
-        for _ in 0..MOST_ROUNDINGS {
-            if !is_short(h) {
-                break;
-            }
-            h = h.next_up();
-        }
-        // Far from t = 0 the difference is exact, and the roundings of h are too small to be counted through.
-        if is_short(h) {
-            h = end - self.t;
-        }
-        (h > least).then_some(h)
+        landing(self.t, h, end)
     }
 
     /// When the tip leaves the stretch, if it does: a polynomial, of which values at nodes are known.

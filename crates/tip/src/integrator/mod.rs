@@ -27,6 +27,7 @@ pub use error::IntegrationError;
 use stage_equations::{Begin, Solution, StageEquations};
 use std::cell::OnceCell;
 use taylor::Taylor;
+pub(crate) use taylor::{BeginBeside, EndedBeside, SideBySide};
 
 /// What the integrator did, in counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub struct Work {
     pub series: u64,
     /// How often collocation took over from series.
     pub switches: u64,
+    /// Of the series, those made side by side with other motions.
+    pub side_by_side: u64,
 }
 
 /// The state of a tip under way, and all that acts on it.

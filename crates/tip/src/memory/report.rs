@@ -76,7 +76,7 @@ impl MemoryReport {
         })
     }
 
-    fn fared(&self) -> Option<String> {
+    pub(crate) fn fared(&self) -> Option<String> {
         let Sum::Modes { terms, certificate: FitCertificate { slope, area, .. }, retreats } =
             &self.sum
         else {

@@ -1,8 +1,10 @@
 //! A run: a tip set going from a given start, integrated to a given time.
 
+mod many;
 mod running;
 mod scenario;
 
+pub use many::{run_each, run_many};
 pub use running::Running;
 pub use scenario::{MOST_STEPS, RunError, Scenario, Start, TOLERANCES};
 

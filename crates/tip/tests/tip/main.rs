@@ -5,3 +5,4 @@
 mod fft_bounded;
 mod groove;
 mod modes;
+mod side_by_side;

@@ -20,7 +20,7 @@ const LEAST_ORDER: usize = 10;
 
 /// So many of the last coefficients are looked at: of an even function every other one vanishes, and where poles come in
 /// pairs several in a row may be small.
-const LAST: usize = 4;
+pub(super) const LAST: usize = 4;
 
 /// The length for which the last coefficient amounts to `error`, judged by the last few as if each were worth half of the
 /// one before.
@@ -41,7 +41,8 @@ pub(super) fn root(most: f64, size: f64, k: usize) -> f64 {
 }
 
 /// The logarithm of a normal number above 0, to 0.01: of its mantissa a parabola.
-fn log2(x: f64) -> f64 {
+#[inline(always)]
+pub(super) fn log2(x: f64) -> f64 {
     let bits = x.to_bits();
     let mantissa = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
     #[expect(clippy::cast_possible_truncation, reason = "11 bits")]
@@ -50,7 +51,8 @@ fn log2(x: f64) -> f64 {
 }
 
 /// 2^y, to half a per cent, for a y of a normal number.
-fn exp2(y: f64) -> f64 {
+#[inline(always)]
+pub(super) fn exp2(y: f64) -> f64 {
     // What is above 0 rounded towards 0 is its floor.
     let above = y.clamp(-1000.0, 1000.0) + 1023.0;
     #[expect(clippy::cast_possible_truncation, reason = "23 to 2023")]

@@ -9,6 +9,7 @@ mod length;
 mod pieces;
 mod plan;
 mod series;
+mod side_by_side;
 mod switch;
 mod values;
 mod visits;
@@ -27,6 +28,8 @@ use plan::Plan;
 use series::Series;
 use switch::Switch;
 use visits::Visits;
+
+pub(crate) use side_by_side::{Begin as BeginBeside, Ended as EndedBeside, SideBySide};
 
 /// What steps by series need.
 #[derive(Debug, Clone)]

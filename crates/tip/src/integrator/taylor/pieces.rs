@@ -115,8 +115,12 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
 /// The longest part of a step that may be a piece, for interpolation to err by at most `error`, where the step has a
 /// divided difference as steep as this.
 pub(super) fn longest(steepest: f64, error: f64) -> f64 {
-    let size = RADAU.interpolation_bound(steepest, 1.0);
-    length::root(error, size, STAGES + 1)
+    length::root(error, bound(steepest), STAGES + 1)
+}
+
+/// What interpolation leaves out over a whole step.
+pub(super) fn bound(steepest: f64) -> f64 {
+    RADAU.interpolation_bound(steepest, 1.0)
 }
 
 /// The nodes of all pieces of a step, as parts of it.

@@ -2,7 +2,7 @@
 
 use super::super::Integrator;
 use super::pieces::{self, MOST_PIECES};
-use super::series::MOST_ORDER;
+use super::series::{MOST_ORDER, Series};
 use super::values::Outlook;
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
 use crate::memory::Memory;
@@ -17,11 +17,43 @@ pub(super) struct Plan {
 }
 
 /// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
-const SHARE_OF_INTERPOLATION: f64 = 0.1;
+pub(super) const SHARE_OF_INTERPOLATION: f64 = 0.1;
 /// A piece leads no farther than this part of what a step of collocation may,
-const REACH_OF_PIECE: f64 = 0.7;
+pub(super) const REACH_OF_PIECE: f64 = 0.7;
 /// and a step than so many pieces.
-const FARTHEST: f64 = 3.0;
+pub(super) const FARTHEST: f64 = 3.0;
+
+/// As much of a step as leads no farther than `longest`, and what the series is over it.
+pub(super) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
+    let mut outlook = Outlook::of(&series.over(over));
+    for _ in 0..MOST_SHORTENINGS {
+        let moved = outlook.moved.abs();
+        if moved <= longest {
+            break;
+        }
+        over *= (0.9 * longest / moved).max(0.3);
+        outlook = Outlook::of(&series.over(over));
+    }
+    (over, outlook)
+}
+
+/// As in collocation: the end at this distance is met, or enough left for another step.
+pub(super) fn to_end(length: f64, distance: f64) -> f64 {
+    if length >= distance * (1.0 - 1e-9) {
+        distance
+    } else if 2.0 * length > distance {
+        0.5 * distance
+    } else {
+        length
+    }
+}
+
+/// Pieces of at most this length.
+pub(super) fn count(length: f64, piece: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let count = (length / piece).ceil() as usize;
+    count.clamp(1, MOST_PIECES)
+}
 
 impl<M: Memory> Integrator<'_, M> {
     /// How long a step, in how many pieces; `None` where collocation gets farther.
@@ -41,15 +73,7 @@ impl<M: Memory> Integrator<'_, M> {
         let limited = self.reach_of_piece();
         let healing = self.model.wider().healing_time.map_or(0.0, |time| over / time);
         let longest = (FARTHEST * limited).min(self.taylor.visits.farthest(healing));
-        let mut outlook = Outlook::of(&series.over(over));
-        for _ in 0..MOST_SHORTENINGS {
-            let moved = outlook.moved.abs();
-            if moved <= longest {
-                break;
-            }
-            over *= (0.9 * longest / moved).max(0.3);
-            outlook = Outlook::of(&series.over(over));
-        }
+        let (over, outlook) = within(series, over, longest);
         let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
         let steepest = outlook.steepest.max(self.steepness_of_heights(over));
         let piece = pieces::longest(steepest, error);
@@ -62,18 +86,8 @@ impl<M: Memory> Integrator<'_, M> {
         if self.taylor.switch.leaves(fades * length, fades * most, self.taylor.order) {
             return None;
         }
-        // As in collocation: the end is met, or enough left for another step.
-        let distance = end - self.t;
-        let length = if length >= distance * (1.0 - 1e-9) {
-            distance
-        } else if 2.0 * length > distance {
-            0.5 * distance
-        } else {
-            length
-        };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
-        Some(Plan { length, pieces, fastest })
+        let length = to_end(length, end - self.t);
+        Some(Plan { length, pieces: count(length, piece), fastest })
     }
 
     /// How long a step may be for what heals within it: rules for visits have an end, and of e^{-t/T} the terms beyond the

@@ -34,7 +34,11 @@ const PATIENCE: (u64, u64) = (8, 1 << 10);
 
 impl Switch {
     pub(super) fn new(has_inertia: bool) -> Self {
-        let cost = if has_inertia { COST_WITH_INERTIA } else { COST };
+        Self::at_cost(if has_inertia { COST_WITH_INERTIA } else { COST })
+    }
+
+    /// Where a step of collocation costs so many by series.
+    pub(super) fn at_cost(cost: f64) -> Self {
         let (patience, _) = PATIENCE;
         Self { cost, collocation: false, wait: patience, patience, in_series: false }
     }

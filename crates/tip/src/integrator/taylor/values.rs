@@ -39,7 +39,7 @@ impl Table {
 }
 
 /// Even and odd rows in sums of their own: in this order on every machine.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block]) {
     let (pairs, rest) = series.coefficients().as_chunks::<2>();
     for (block, sums) in blocks.iter().zip(room) {
@@ -79,6 +79,11 @@ impl Outlook {
         let (fastest, steepest) = (largest(&sums[1..4]), largest(&sums[4..]));
         Self { moved: sums[0], fastest, steepest }
     }
+}
+
+/// What each coefficient counts for in an outlook: displacement, speeds at three places, divided differences at four.
+pub(super) fn outlook() -> &'static [Block; MOST_ORDER + 1] {
+    &OUTLOOK.blocks[0]
 }
 
 static OUTLOOK: LazyLock<Table> = LazyLock::new(|| {

@@ -38,7 +38,7 @@ struct Group {
     state: (Lane, Lane),
 }
 
-const LOWEST_DEGREE: usize = 3;
+pub(crate) const LOWEST_DEGREE: usize = 3;
 /// Expansions err by at most this fraction of the fit.
 const SHARE_OF_EXPANSION: f64 = 0.01;
 
@@ -209,7 +209,7 @@ impl Bank {
 
 /// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the accuracy of
 /// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
-fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
+pub(crate) fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
     let share = SHARE_OF_EXPANSION * error / terms.len() as f64;
     let sizes = terms.iter().map(|t| (norm(t.exponent), norm(t.weight).max(f64::MIN_POSITIVE)));
     let allowed = (0.1 * error).max(2e-14);

@@ -3,7 +3,7 @@
 use crate::collocation::{STAGES, Stages};
 
 /// Of expansions.
-pub(super) const HIGHEST_DEGREE: usize = 40;
+pub(crate) const HIGHEST_DEGREE: usize = 40;
 
 /// The slope of the groove about a point near the tip: `Σ_k c_k (x - center)^k`.
 #[derive(Debug, Clone)]

@@ -14,8 +14,10 @@ mod weights;
 mod window;
 
 pub use accuracy::{accuracy_needed, displacement};
+pub(crate) use bank::{LOWEST_DEGREE, expansion_lengths};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
+pub(crate) use local::HIGHEST_DEGREE;
 pub use term::Term;
 pub use window::Retreat;
 

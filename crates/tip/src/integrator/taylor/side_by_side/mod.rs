@@ -1,0 +1,352 @@
+//! Several motions in the lanes of the machine, each with its own step, length and end.
+//!
+//! A step by series asks for the same sums whatever the motion is: its derivatives, its coefficients, what its visits leave.
+//! Here each of them is taken for several motions at a time, under the basic law, without forces, noise or profiles, of one
+//! footprint and one sum of exponentials. When a motion ends, the next one takes its lane. What a lane holds depends on
+//! nothing but its own motion, so that the company does not matter.
+//!
+//! Motions that get too stiff for series, or come back too far behind where they have been, leave: [`Ended::Elsewhere`].
+
+mod expansion;
+mod lanes;
+mod past;
+mod plan;
+
+use super::length::order;
+use super::pieces::MOST_PIECES;
+use super::plan::{FARTHEST, REACH_OF_PIECE, SHARE_OF_INTERPOLATION, count, to_end};
+use super::switch::Switch;
+use super::visits::{self, Rule, Visits as Rules};
+use super::{SHARE_OF_SERIES, SHARE_OF_VISITS};
+use crate::collocation::{RADAU, STAGES};
+use crate::history::Step;
+use crate::integrator::Work;
+use crate::integrator::control::Control;
+use crate::integrator::landing::landing;
+use crate::memory::Fit;
+use crate::step::longest_displacement;
+use crate::{TipFunction, stop};
+use expansion::{Acting, Expansion};
+use lanes::{LANES, Lanes};
+use multiversion::multiversion;
+use num_complex::Complex;
+use past::{Exponentials, MOST_STRETCHES, Past, Visits};
+use plan::Plan;
+
+/// A motion that is to be made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Begin {
+    /// Of those who ask for it.
+    pub(crate) number: usize,
+    pub(crate) alpha: f64,
+    pub(crate) r: f64,
+    pub(crate) t: f64,
+    /// R - x0 at the start.
+    pub(crate) extension: f64,
+    pub(crate) until: f64,
+    /// Where there has been steady motion before: how far ahead of the tip it came.
+    pub(crate) steady: Option<f64>,
+}
+
+/// What became of a motion.
+pub(crate) enum Ended {
+    /// It came to its end.
+    Whole(Vec<Step>, Work),
+    /// It is to be made otherwise, from its start.
+    Elsewhere,
+}
+
+/// Motions of one footprint, to one tolerance.
+pub(crate) struct SideBySide {
+    limits: Limits,
+    exponentials: Exponentials,
+    members: [Option<Member>; LANES],
+    numbers: Numbers,
+    /// Of those that have ended: room for the next.
+    most_steps: usize,
+}
+
+/// What bounds a step of any of them.
+struct Limits {
+    /// What a series may leave out.
+    error: f64,
+    /// What a piece may err by as an interpolant.
+    of_piece: f64,
+    /// How far a piece may lead, and a step.
+    limited: f64,
+    longest: f64,
+    /// How far behind its farthest point a tip may look, and where a step may begin.
+    retreat: f64,
+    between_steps: f64,
+    /// So many steps may be kept of a motion.
+    most_steps: usize,
+    rules: Rules,
+    order: usize,
+}
+
+/// What is dealt with side by side.
+struct Numbers {
+    acting: Acting,
+    past: Past,
+    expansion: Expansion,
+    plan: Plan,
+    /// Lengths of the steps.
+    length: Lanes,
+    /// Displacements, in parts of them.
+    displacement: Vec<Lanes>,
+    /// Of how many pieces they are to be, and where those have their nodes.
+    pieces: Lanes,
+    nodes: [Lanes; MOST_PIECES * STAGES],
+    visits: Visits,
+}
+
+/// A motion under way.
+struct Member {
+    begin: Begin,
+    t: f64,
+    extension: f64,
+    /// Of the places it has been to, the farthest, as a displacement from where it is.
+    farthest: f64,
+    switch: Switch,
+    steps: Vec<Step>,
+    work: Work,
+}
+
+/// What a step of collocation costs, over a series beside seven others.
+const COST_OF_COLLOCATION: f64 = 16.0;
+
+impl SideBySide {
+    /// Of this footprint, with this sum for it.
+    pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: usize) -> Self {
+        let target = Control::new(tolerance).target();
+        let error = SHARE_OF_SERIES * target;
+        let exponentials = Exponentials::new(fit);
+        let rules = Rules::new(tip.band(), SHARE_OF_VISITS * target);
+        let limited = REACH_OF_PIECE * longest_displacement(tip.band());
+        let limits = Limits {
+            error,
+            of_piece: SHARE_OF_INTERPOLATION * tolerance,
+            limited,
+            longest: (FARTHEST * limited)
+                .min(rules.farthest(0.0))
+                .min(MOST_STRETCHES as f64 * exponentials.longest()),
+            retreat: fit.retreat(),
+            between_steps: fit.retreat_between_steps(),
+            most_steps,
+            rules,
+            order: order(error),
+        };
+        let zero = Lanes::ZERO;
+        let numbers = Numbers {
+            acting: Acting { alpha: zero, support: zero, extension: zero },
+            past: Past::nothing(&exponentials),
+            expansion: Expansion::new(limits.order),
+            plan: Plan::NONE,
+            length: zero,
+            displacement: vec![zero; limits.order + 1],
+            pieces: Lanes::all(1.0),
+            nodes: [zero; MOST_PIECES * STAGES],
+            visits: Visits::none(),
+        };
+        Self { limits, exponentials, members: [const { None }; LANES], numbers, most_steps: 0 }
+    }
+
+    /// Makes all of these motions, and tells of each when it has ended: which one, and how. Once nobody waits any more
+    /// the others are left out.
+    pub(crate) fn run(
+        &mut self,
+        mut begins: impl Iterator<Item = Begin>,
+        mut ended: impl FnMut(usize, Ended),
+    ) {
+        loop {
+            for lane in 0..LANES {
+                if self.members[lane].is_none()
+                    && let Some(begin) = begins.next()
+                {
+                    self.members[lane] = Some(self.enter(lane, begin));
+                }
+            }
+            if self.members.iter().all(Option::is_none) || stop::is_asked() {
+                self.members = [const { None }; LANES];
+                return;
+            }
+            self.step(&mut ended);
+        }
+    }
+
+    /// A motion takes a lane.
+    fn enter(&mut self, lane: usize, begin: Begin) -> Member {
+        let Begin { alpha, r, t, extension, steady, .. } = begin;
+        let Numbers { acting, past, .. } = &mut self.numbers;
+        (acting.alpha.0[lane], acting.support.0[lane]) = (alpha, r);
+        match steady {
+            Some(ahead) => past.set(lane, self.exponentials.steady(r, ahead)),
+            None => past.set(lane, std::iter::repeat(Complex::ZERO)),
+        }
+        let farthest = steady.unwrap_or(f64::NEG_INFINITY);
+        let switch = Switch::at_cost(COST_OF_COLLOCATION);
+        let (steps, work) =
+            (Vec::with_capacity(self.most_steps + self.most_steps / 4), Work::default());
+        Member { begin, t, extension, farthest, switch, steps, work }
+    }
+
+    /// One step of each.
+    fn step(&mut self, ended: &mut impl FnMut(usize, Ended)) {
+        let Self { limits, exponentials, members, numbers, .. } = self;
+        for (lane, member) in members.iter().enumerate() {
+            numbers.acting.extension.0[lane] = member.as_ref().map_or(0.0, |m| m.extension);
+        }
+        expand(numbers, exponentials, limits);
+        for (lane, member) in members.iter_mut().enumerate() {
+            let length = member.as_mut().and_then(|member| member.length(limits, numbers, lane));
+            let (length, pieces) = length.unwrap_or((0.0, 1));
+            (numbers.length.0[lane], numbers.pieces.0[lane]) = (length, pieces as f64);
+        }
+        follow(numbers);
+        numbers.visits.clear();
+        for (lane, place) in members.iter_mut().enumerate() {
+            let Some(member) = place else { continue };
+            let rule = member.advance(limits, numbers, lane);
+            let end = match rule {
+                Some(rule) => {
+                    numbers.visits.set(lane, rule, numbers.length.0[lane]);
+                    let is_there = member.t >= member.begin.until;
+                    is_there.then(|| Ended::Whole(std::mem::take(&mut member.steps), member.work))
+                }
+                None => Some(Ended::Elsewhere),
+            };
+            if let Some(end) = end {
+                self.most_steps = self.most_steps.max(member.work.steps as usize);
+                ended(member.begin.number, end);
+                *place = None;
+            }
+        }
+        remember(numbers, exponentials);
+    }
+}
+
+impl Member {
+    /// How long its step is to be, of how many pieces; `None` where it is to be made elsewhere.
+    fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<(f64, usize)> {
+        let Plan { over, piece, fastest } = &numbers.plan;
+        let (over, fastest) = (over.0[lane], fastest.0[lane]);
+        let piece = over * piece.0[lane];
+        let fades = 1.0 - numbers.expansion.curvature().0[lane];
+        let length = over.min(MOST_PIECES as f64 * piece);
+        let most = limits.limited / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
+        if self.switch.leaves(fades * length, fades * most, limits.order) {
+            return None;
+        }
+        let until = self.begin.until;
+        let length = landing(self.t, to_end(length, until - self.t), until)?;
+        Some((length, count(length, piece)))
+    }
+
+    /// Makes its step: the rule for its visits. `None` where it is to be made elsewhere.
+    fn advance(
+        &mut self,
+        limits: &Limits,
+        numbers: &Numbers,
+        lane: usize,
+    ) -> Option<&'static Rule> {
+        let total = numbers.length.0[lane];
+        if total <= 0.0 {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let count = numbers.pieces.0[lane] as usize * STAGES;
+        let (mut positions, mut before, mut moves_on) = ([0.0; MOST_PIECES * STAGES], 0.0, true);
+        for (position, nodes) in positions.iter_mut().zip(&numbers.nodes[..count]) {
+            *position = nodes.0[lane];
+            moves_on &= *position >= before;
+            before = *position;
+        }
+        let positions = &positions[..count];
+        self.passes(limits, positions, moves_on)?;
+        self.take(positions, total);
+        let rule = limits.rules.rule(numbers.plan.fastest.0[lane] * total, 0.0);
+        Some(rule.unwrap_or_else(visits::last))
+    }
+
+    /// Follows the tip through these places; `None` if it comes too far back.
+    fn passes(&mut self, limits: &Limits, positions: &[f64], moves_on: bool) -> Option<()> {
+        let end = *positions.last()?;
+        let mut farthest = self.farthest.max(end);
+        if !(moves_on && end <= limits.longest) {
+            farthest = self.farthest;
+            for position in positions {
+                farthest = farthest.max(*position);
+                let is_near = position.abs() <= limits.longest;
+                if !(is_near && *position >= farthest - limits.retreat) {
+                    return None;
+                }
+            }
+        }
+        self.farthest = farthest - end;
+        let has_room = self.steps.len() + MOST_PIECES <= limits.most_steps;
+        (self.farthest <= limits.between_steps && has_room).then_some(())
+    }
+
+    /// The pieces of a step, by their nodes.
+    fn take(&mut self, positions: &[f64], total: f64) {
+        let (pieces, _) = positions.as_chunks::<STAGES>();
+        let (start, mut before) = (self.t, 0.0);
+        self.steps.reserve(pieces.len());
+        for (i, positions) in pieces.iter().enumerate() {
+            let part = (i + 1) as f64 / pieces.len() as f64;
+            // Ends are representable times.
+            let end = if i + 1 < pieces.len() { start + part * total } else { start + total };
+            let mut displacement = *positions;
+            displacement.iter_mut().for_each(|position| *position -= before);
+            let (t, extension) = (self.t, self.extension);
+            let step = Step { t, h: end - t, extension, displacement, height: None };
+            before = positions[STAGES - 1];
+            (self.t, self.extension) = (step.end(), step.extension_at_end(self.begin.r));
+            self.steps.push(step);
+        }
+        self.work.steps += pieces.len() as u64;
+        self.work.series += 1;
+        self.work.side_by_side += 1;
+    }
+}
+
+/// Compiled for wider vectors too: lanes do not know of each other.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
+    let Numbers { acting, past, expansion, plan, .. } = numbers;
+    past.derivatives(exponentials, acting.alpha, expansion.start());
+    expansion.run(acting, &exponentials.of_tip);
+    *plan = Plan::of(limits, expansion.displacement());
+}
+
+/// Where the tips are at the nodes of the pieces, as many as any of them has.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn follow(numbers: &mut Numbers) {
+    let Numbers { expansion, length, displacement, pieces, nodes, .. } = numbers;
+    let mut power = *length;
+    for (scaled, coefficient) in displacement.iter_mut().zip(expansion.displacement()).skip(1) {
+        *scaled = *coefficient * power;
+        power *= *length;
+    }
+    let most = pieces.0.iter().fold(1.0, |most: f64, count| most.max(*count));
+    let part = pieces.map(f64::recip);
+    for (i, nodes) in nodes.as_chunks_mut::<STAGES>().0.iter_mut().enumerate() {
+        if i as f64 >= most {
+            break;
+        }
+        let at = RADAU.c.map(|c| part * (i as f64 + c));
+        *nodes = [Lanes::ZERO; STAGES];
+        for coefficient in displacement.iter().rev() {
+            for (node, at) in nodes.iter_mut().zip(&at) {
+                *node = *node * *at + *coefficient;
+            }
+        }
+    }
+}
+
+/// Likewise.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn remember(numbers: &mut Numbers, exponentials: &Exponentials) {
+    let Numbers { past, displacement, visits, .. } = numbers;
+    past.remember(exponentials, displacement, visits);
+}

@@ -1,0 +1,372 @@
+//! The pasts of several motions as states of the same exponentials, `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'`.
+
+use super::super::series::MOST_ORDER;
+use super::super::visits::{MOST_NODES, Rule};
+use super::lanes::{LANES, Lanes};
+use crate::elementary::complex_exp;
+use crate::memory::{Fit, HIGHEST_DEGREE, LOWEST_DEGREE, Term, expansion_lengths};
+use num_complex::Complex;
+
+/// What follows from the exponentials alone.
+pub(super) struct Exponentials {
+    terms: Vec<Term>,
+    /// `Re w_j s_j^{n-1}` and `-Im w_j s_j^{n-1}`, n = 1, 2, …: what Re z and Im z count for in the n-th derivative.
+    derivatives: Vec<[[f64; 2]; ROOM]>,
+    /// `s_j^m`
+    powers: Vec<[[f64; 2]; HIGHEST_DEGREE + 1]>,
+    /// How far a polynomial of each degree follows all of them.
+    lengths: Vec<f64>,
+    /// Derivatives of f at 0 on the side of the past, from the first on.
+    pub(super) of_tip: [f64; MOST_ORDER],
+}
+
+/// Derivatives that are summed at a time, and room for whole blocks of them.
+const AT_ONCE: usize = 8;
+const ROOM: usize = MOST_ORDER.next_multiple_of(AT_ONCE);
+
+/// 1/m!
+const INVERSE_FACTORIALS: [f64; HIGHEST_DEGREE + 1] = {
+    let mut inverse = [1.0; HIGHEST_DEGREE + 1];
+    let mut m = 1;
+    while m <= HIGHEST_DEGREE {
+        inverse[m] = inverse[m - 1] / m as f64;
+        m += 1;
+    }
+    inverse
+};
+
+impl Exponentials {
+    pub(super) fn new(fit: &Fit) -> Self {
+        let terms = fit.terms().to_vec();
+        let derivatives: Vec<[[f64; 2]; ROOM]> = terms
+            .iter()
+            .map(|term| powers_of(term.exponent, term.weight).map(|[re, im]| [re, -im]))
+            .collect();
+        let sum = |n: usize| derivatives.iter().map(|of_term| of_term[n][0]).sum();
+        Self {
+            powers: terms.iter().map(|term| powers_of(term.exponent, Complex::ONE)).collect(),
+            lengths: expansion_lengths(&terms, fit.wanted()),
+            of_tip: std::array::from_fn(sum),
+            derivatives,
+            terms,
+        }
+    }
+
+    /// States after a steady motion of this velocity, as far as this ahead of the tip.
+    pub(super) fn steady(&self, velocity: f64, ahead: f64) -> impl Iterator<Item = Complex<f64>> {
+        self.terms.iter().map(move |Term { exponent, .. }| {
+            -complex_exp(-exponent * ahead) / (velocity * exponent)
+        })
+    }
+
+    /// How far the ends of a step may be from its middle.
+    pub(super) fn longest(&self) -> f64 {
+        self.lengths.last().copied().unwrap_or(0.0)
+    }
+
+    /// The degree that follows all exponentials so far.
+    fn degree(&self, radius: f64) -> usize {
+        let at = self.lengths.partition_point(|length| *length < radius);
+        (at + LOWEST_DEGREE).min(HIGHEST_DEGREE)
+    }
+}
+
+/// `factor s^m`, m = 0, 1, …
+fn powers_of<const N: usize>(s: Complex<f64>, factor: Complex<f64>) -> [[f64; 2]; N] {
+    let mut power = factor;
+    std::array::from_fn(|_| {
+        let here = [power.re, power.im];
+        power *= s;
+        here
+    })
+}
+
+/// The states of all motions.
+pub(super) struct Past {
+    /// Real and imaginary part of each.
+    states: Vec<[Lanes; 2]>,
+    /// Room for what they are carried by.
+    moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,
+}
+
+/// Visits of a step, of each motion its own rule: those that a rule has not have no weight.
+pub(super) struct Visits {
+    count: usize,
+    parts: Nodes,
+    weights: Nodes,
+}
+
+/// Nodes that are dealt with at a time.
+const BLOCK: usize = 4;
+type Nodes = [Lanes; MOST_NODES];
+
+impl Visits {
+    pub(super) fn none() -> Self {
+        let nothing = [Lanes::ZERO; MOST_NODES];
+        Self { count: 0, parts: nothing, weights: nothing }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.parts[..self.count].fill(Lanes::ZERO);
+        self.weights[..self.count].fill(Lanes::ZERO);
+        self.count = 0;
+    }
+
+    /// Those of a step of this length.
+    pub(super) fn set(&mut self, lane: usize, rule: &Rule, length: f64) {
+        self.count = self.count.max(rule.nodes.len());
+        for (i, (node, weight)) in rule.nodes.iter().zip(&rule.weights).enumerate() {
+            (self.parts[i].0[lane], self.weights[i].0[lane]) = (*node, weight * length);
+        }
+    }
+}
+
+impl Past {
+    pub(super) fn nothing(exponentials: &Exponentials) -> Self {
+        let moments = Box::new([[Lanes::ZERO; 2]; HIGHEST_DEGREE + 1]);
+        Self { states: vec![[Lanes::ZERO; 2]; exponentials.terms.len()], moments }
+    }
+
+    pub(super) fn set(&mut self, lane: usize, states: impl Iterator<Item = Complex<f64>>) {
+        for ([re, im], state) in self.states.iter_mut().zip(states) {
+            (re.0[lane], im.0[lane]) = (state.re, state.im);
+        }
+    }
+
+    /// Derivatives of the grooves under the tips, from the first on, times these factors.
+    #[inline(always)]
+    pub(super) fn derivatives(&self, of: &Exponentials, factor: Lanes, into: &mut [Lanes]) {
+        for (block, into) in into.chunks_mut(AT_ONCE).enumerate() {
+            let mut sums = [Lanes::ZERO; AT_ONCE];
+            for ([re, im], powers) in self.states.iter().zip(&of.derivatives) {
+                let powers = &powers.as_chunks::<AT_ONCE>().0[block];
+                for (sum, [by_re, by_im]) in sums.iter_mut().zip(powers) {
+                    *sum += *re * *by_re;
+                    *sum += *im * *by_im;
+                }
+            }
+            for (entry, sum) in into.iter_mut().zip(sums) {
+                *entry = sum * factor;
+            }
+        }
+    }
+
+    /// Carries the states over steps of these displacements, series in the part of the step: as far at a time as the
+    /// exponentials can be expanded.
+    #[inline(always)]
+    pub(super) fn remember(&mut self, of: &Exponentials, displacement: &[Lanes], visits: &Visits) {
+        let blocks = visits.count.div_ceil(BLOCK);
+        let mut positions = [Lanes::ZERO; MOST_NODES];
+        positions_at(displacement, &visits.parts, &mut positions, blocks);
+        let mut end = Lanes::ZERO;
+        displacement.iter().for_each(|coefficient| end += *coefficient);
+        let mut stretches = [Stretch { start: 0.0, end: 0.0, nodes: (0, 0) }; LANES];
+        for _ in 0..MOST_STRETCHES {
+            let mut more = false;
+            for (lane, stretch) in stretches.iter_mut().enumerate() {
+                *stretch =
+                    stretch.next(of.longest(), lane, (&positions, visits.count), end.0[lane]);
+                more |= stretch.end.to_bits() != end.0[lane].to_bits();
+            }
+            self.carry(of, (&positions, visits), &stretches);
+            if !more {
+                break;
+            }
+        }
+    }
+
+    /// Carries each state over a stretch.
+    #[inline(always)]
+    fn carry(
+        &mut self,
+        of: &Exponentials,
+        (positions, visits): (&Nodes, &Visits),
+        stretches: &[Stretch; LANES],
+    ) {
+        let (mut middle, mut half) = (Lanes::ZERO, Lanes::ZERO);
+        let mut weights = visits.weights;
+        for (lane, Stretch { start, end, nodes }) in stretches.iter().enumerate() {
+            (middle.0[lane], half.0[lane]) = (0.5 * (start + end), 0.5 * (end - start));
+            let others = (0..nodes.0).chain(nodes.1..visits.count);
+            others.for_each(|node| weights[node].0[lane] = 0.0);
+        }
+        let (mut off, mut radius) = ([Lanes::ZERO; MOST_NODES], half.map(f64::abs));
+        for ((off, position), weight) in off[..visits.count].iter_mut().zip(positions).zip(&weights)
+        {
+            *off = middle - *position;
+            for lane in 0..LANES {
+                // What counts for nothing may be anywhere.
+                off.0[lane] = if weight.0[lane] > 0.0 { off.0[lane] } else { 0.0 };
+            }
+            radius = radius.larger(off.map(f64::abs));
+        }
+        let degrees = radius.0.map(|radius| of.degree(radius));
+        let degree = degrees.iter().copied().fold(0, usize::max);
+        let moments = &mut self.moments[..=degree];
+        moments_about(half, (&off, &weights), visits.count.div_ceil(BLOCK), moments);
+        for (lane, own) in degrees.into_iter().enumerate() {
+            for [carried, moment] in &mut moments[own + 1..] {
+                (carried.0[lane], moment.0[lane]) = (0.0, 0.0);
+            }
+        }
+        for (state, powers) in self.states.iter_mut().zip(&of.powers) {
+            carry(state, &powers[..=degree], moments);
+        }
+    }
+}
+
+/// A part of a step: from where to where the tip moves on it, and which of the visits are there.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    start: f64,
+    end: f64,
+    nodes: (usize, usize),
+}
+
+/// A step leads no farther than so many stretches, and what has not been reached by then is passed at once.
+pub(super) const MOST_STRETCHES: usize = 8;
+
+impl Stretch {
+    /// The one after this: to the end, or as far as all of it is so near to its middle.
+    #[inline(always)]
+    fn next(
+        self,
+        longest: f64,
+        lane: usize,
+        (positions, count): (&Nodes, usize),
+        end: f64,
+    ) -> Self {
+        let (start, first) = (self.end, self.nodes.1);
+        let (low, high) = (start.min(end), start.max(end));
+        // A tip that moves on to and fro is nowhere far off.
+        if high - low <= 2.0 * longest {
+            return Self { start, end, nodes: (first, count) };
+        }
+        let farthest = if end > start { start + 2.0 * longest } else { start - 2.0 * longest };
+        let is_within = |at: &Lanes| (at.0[lane] - start).abs() <= 2.0 * longest;
+        let within = positions[first..count].iter().take_while(|at| is_within(at)).count();
+        Self { start, end: farthest, nodes: (first, first + within) }
+    }
+}
+
+/// The places of visits, by Horner's rule.
+#[inline(always)]
+fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, blocks: usize) {
+    let (parts, _) = parts.as_chunks::<BLOCK>();
+    for (parts, into) in parts[..blocks].iter().zip(into.as_chunks_mut::<BLOCK>().0) {
+        let mut values = [Lanes::ZERO; BLOCK];
+        for coefficient in series.iter().rev() {
+            for (value, part) in values.iter_mut().zip(parts) {
+                *value = *value * *part + *coefficient;
+            }
+        }
+        *into = values;
+    }
+}
+
+/// `half^m/m!` and `Σ_k weight_k off_k^m/m!`: coefficients of e^{s half}, and of what the visits leave.
+#[inline(always)]
+fn moments_about(
+    half: Lanes,
+    (off, weights): (&Nodes, &Nodes),
+    blocks: usize,
+    into: &mut [[Lanes; 2]],
+) {
+    into.fill([Lanes::ZERO; 2]);
+    let (off, weights) = (off.as_chunks::<BLOCK>().0, weights.as_chunks::<BLOCK>().0);
+    for (off, terms) in off[..blocks].iter().zip(weights) {
+        let mut terms = *terms;
+        for [_, moment] in into.iter_mut() {
+            *moment += (terms[0] + terms[1]) + (terms[2] + terms[3]);
+            for (term, off) in terms.iter_mut().zip(off) {
+                *term *= *off;
+            }
+        }
+    }
+    let mut power = Lanes::all(1.0);
+    for ([carried, moment], inverse) in into.iter_mut().zip(INVERSE_FACTORIALS) {
+        (*carried, *moment) = (power * inverse, *moment * inverse);
+        power *= half;
+    }
+}
+
+/// With E = e^{s half} and N what the visits leave, z becomes E (E z + N).
+#[inline(always)]
+fn carry(state: &mut [Lanes; 2], powers: &[[f64; 2]], moments: &[[Lanes; 2]]) {
+    let zero = [Lanes::ZERO; 2];
+    let (mut e, mut new) = (zero, zero);
+    for (power, [carried, moment]) in powers.iter().zip(moments) {
+        for part in 0..2 {
+            e[part] += *carried * power[part];
+            new[part] += *moment * power[part];
+        }
+    }
+    let turned = product(e, *state);
+    *state = product(e, [turned[0] + new[0], turned[1] + new[1]]);
+}
+
+#[inline(always)]
+fn product(a: [Lanes; 2], b: [Lanes; 2]) -> [Lanes; 2] {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TipFunction;
+
+    /// Judged by the definition: ∫ f⁽ⁿ⁾ over all that was visited, each e^{s x} by itself. Steps of several lengths, of which
+    /// some lead farther than any expansion, side by side.
+    #[test]
+    fn a_state_is_the_sum_over_all_visits() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let fit = Fit::new(&tip, 1e-11).unwrap();
+        let of = Exponentials::new(&fit);
+        let rules = super::super::Rules::new(tip.band(), 1e-12);
+        let mut past = Past::nothing(&of);
+        past.set(3, of.steady(1.3, 0.2));
+        let mut visited: [Vec<(f64, f64)>; LANES] = std::array::from_fn(|_| vec![]);
+        let mut tips = [0.0; LANES];
+        for step in 0..12 {
+            // x = a τ + b τ²
+            let ahead = |lane: usize| 0.02 + 0.2 * ((lane + step) % LANES) as f64;
+            let bend = |lane: usize| 0.01 * lane as f64;
+            let displacement =
+                [Lanes::ZERO, Lanes(std::array::from_fn(ahead)), Lanes(std::array::from_fn(bend))];
+            let mut visits = Visits::none();
+            for lane in 0..LANES {
+                let rule = rules.rule(ahead(lane) + bend(lane), 0.0).unwrap();
+                visits.set(lane, rule, 0.7);
+                for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                    let at = ahead(lane) * node + bend(lane) * node * node;
+                    visited[lane].push((tips[lane] + at, 0.7 * weight));
+                }
+                tips[lane] += ahead(lane) + bend(lane);
+            }
+            past.remember(&of, &displacement, &visits);
+        }
+        let mut told = [Lanes::ZERO; 6];
+        past.derivatives(&of, Lanes::all(2.0), &mut told);
+        for lane in 0..LANES {
+            let mut sums = [0.0; 6];
+            for term in fit.terms() {
+                let one = |(x, weight): &(f64, f64)| {
+                    complex_exp(term.exponent * (tips[lane] - x)) * weight
+                };
+                let mut state: Complex<f64> = visited[lane].iter().map(one).sum();
+                if lane == 3 {
+                    // ∫_0^∞ e^{s (x - 0.2 + 1.3 τ)}dτ
+                    state -=
+                        complex_exp(term.exponent * (tips[lane] - 0.2)) / (1.3 * term.exponent);
+                }
+                for (n, sum) in sums.iter_mut().enumerate() {
+                    *sum += 2.0 * (term.weight * term.exponent.powu(n as u32) * state).re;
+                }
+            }
+            for (n, sum) in sums.into_iter().enumerate() {
+                let off = (told[n].0[lane] - sum).abs();
+                assert!(off < 3e-12 * 8.0_f64.powi(n as i32), "{lane} {n}: {off:e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! How long the next steps are to be: as [`plan`](super::super::plan) has it for one motion, under the basic law.
+
+use super::super::length::{LAST, exp2, log2};
+use super::super::pieces;
+use super::super::values::{BLOCK, outlook};
+use super::super::{MOST_SHORTENINGS, chain::INVERSE};
+use super::Limits;
+use super::lanes::Lanes;
+use crate::collocation::STAGES;
+
+/// Steps before they are made.
+pub(super) struct Plan {
+    /// As long as series, exponentials and rules are good.
+    pub(super) over: Lanes,
+    /// The longest piece, as a part of that.
+    pub(super) piece: Lanes,
+    /// Displacement per time at its fastest.
+    pub(super) fastest: Lanes,
+}
+
+impl Plan {
+    pub(super) const NONE: Self =
+        Self { over: Lanes::ZERO, piece: Lanes::ZERO, fastest: Lanes::ZERO };
+
+    /// From series of displacements.
+    #[inline(always)]
+    pub(super) fn of(limits: &Limits, series: &[Lanes]) -> Self {
+        let mut over = length(series, limits.error);
+        for _ in 0..MOST_SHORTENINGS {
+            let moved = value(series, over).map(f64::abs);
+            let too_far = |moved: f64| {
+                if moved > limits.longest { (0.9 * limits.longest / moved).max(0.3) } else { 1.0 }
+            };
+            if moved.0.iter().all(|moved| too_far(*moved) >= 1.0) {
+                break;
+            }
+            over *= moved.map(too_far);
+        }
+        let outlook = Outlook::of(series, over);
+        let (error, order) = (log2(limits.of_piece), INVERSE[STAGES + 1]);
+        let bound = |steepest| log2(pieces::bound(steepest).max(f64::MIN_POSITIVE));
+        let piece = outlook.steepest.map(|steepest| exp2((error - bound(steepest)) * order));
+        let limited = |moved: f64| limits.limited / moved.abs().max(f64::MIN_POSITIVE);
+        let piece = piece.smaller(outlook.moved.map(limited));
+        let fastest = outlook.fastest * over.map(f64::recip);
+        Self { over, piece, fastest }
+    }
+}
+
+/// As [`length`](super::super::length::length).
+#[inline(always)]
+fn length(series: &[Lanes], error: f64) -> Lanes {
+    let (order, wanted) = (series.len() - 1, log2(error));
+    let mut shortest = Lanes::all(f64::INFINITY);
+    for before in 0..LAST {
+        let digits = |coefficient: f64| {
+            let size = coefficient.abs().max(f64::MIN_POSITIVE);
+            (wanted - log2(size) + before as f64) * INVERSE[order - before]
+        };
+        shortest = shortest.smaller(series[order - before].map(digits));
+    }
+    shortest.map(exp2)
+}
+
+/// Values of series.
+#[inline(always)]
+fn value(series: &[Lanes], at: Lanes) -> Lanes {
+    series.iter().rev().fold(Lanes::ZERO, |value, coefficient| value * at + *coefficient)
+}
+
+/// What is asked of series over lengths.
+struct Outlook {
+    moved: Lanes,
+    fastest: Lanes,
+    steepest: Lanes,
+}
+
+impl Outlook {
+    #[inline(always)]
+    fn of(series: &[Lanes], over: Lanes) -> Self {
+        let mut sums = [Lanes::ZERO; BLOCK];
+        let mut power = over;
+        for (coefficient, counts) in series[1..].iter().zip(&outlook()[1..]) {
+            let scaled = *coefficient * power;
+            power *= over;
+            for (sum, count) in sums.iter_mut().zip(counts) {
+                *sum += scaled * *count;
+            }
+        }
+        let [moved, rest @ ..] = sums.map(|sum| sum.map(f64::abs));
+        let largest = |of: &[Lanes]| of.iter().fold(Lanes::ZERO, |most, sum| most.larger(*sum));
+        Self { moved, fastest: largest(&rest[..3]), steepest: largest(&rest[3..]) }
+    }
+}

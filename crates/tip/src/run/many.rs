@@ -1,0 +1,128 @@
+//! Many runs, those side by side that allow it.
+
+use super::{MOST_STEPS, Run, RunError, Scenario, Start, run};
+use crate::integrator::{BeginBeside, EndedBeside, SideBySide, Work};
+use crate::memory::{Fit, MemoryChoice, MemoryReport, Retreat, Sum, accuracy_needed};
+use crate::{Step, TipFunction, Trajectory};
+use std::sync::Arc;
+
+/// Runs of all these scenarios, as [`run`] makes each, in their order: see [`run_each`].
+#[must_use]
+pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
+    let mut runs: Vec<_> = scenarios.iter().map(|_| None).collect();
+    run_each(scenarios, |number, run| runs[number] = Some(run));
+    runs.into_iter().flatten().collect()
+}
+
+/// Makes a run of each of these scenarios, and hands it over with its number when it has ended, in any order.
+///
+/// Under the basic law, without forces, noise and profiles, where the memory is `auto` or `modes`, motions of one footprint
+/// and one tolerance go side by side in the lanes of the machine, in a third of the time ([`Work::side_by_side`] counts
+/// their series). They are as accurate as those that [`run`] makes, though not the same to the last bits; they do not depend
+/// on what other scenarios there are. All others, and those that become too stiff on the way, are made by [`run`].
+///
+/// ```
+/// use stickslip_tip::{Model, Scenario, TipFunction, run_each};
+///
+/// let tip = TipFunction::triple_gaussian(1.0, 1.0)?;
+/// let scenario = |i| Ok(Scenario::new(Model::new(tip.clone(), 0.1 * f64::from(i), 1.0)?, 60.0));
+/// let scenarios: Vec<_> = (0..12).map(scenario).collect::<Result<_, stickslip_tip::ModelError>>()?;
+/// run_each(&scenarios, |i, run| {
+///     let (l, steady) = (run.unwrap().trajectory.l(60.0), scenarios[i].model.steady_l());
+///     assert!((l - steady).abs() < 1e-8);
+/// });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run, RunError>)) {
+    let mut waiting = vec![true; scenarios.len()];
+    for group in groups(scenarios) {
+        let mut beside = SideBySide::new(&group.tip, &group.fit, group.tolerance, MOST_STEPS);
+        beside.run(group.begins.iter().copied(), |number, end| {
+            if let EndedBeside::Whole(steps, work) = end
+                && let Ok(run) = group.run(&scenarios[number], steps, work)
+            {
+                waiting[number] = false;
+                ended(number, Ok(run));
+            }
+        });
+    }
+    for (number, scenario) in scenarios.iter().enumerate().filter(|(number, _)| waiting[*number]) {
+        ended(number, run(scenario));
+    }
+}
+
+/// Motions that go side by side: of one footprint, in one sum of exponentials, to one tolerance.
+struct Group {
+    tip: TipFunction,
+    fit: Arc<Fit>,
+    tolerance: f64,
+    begins: Vec<BeginBeside>,
+}
+
+fn groups(scenarios: &[Scenario]) -> Vec<Group> {
+    let mut groups: Vec<Group> = vec![];
+    for (number, scenario) in scenarios.iter().enumerate().filter(|(_, s)| is_plain(s)) {
+        let Scenario { model, tolerance, .. } = scenario;
+        let wanted = accuracy_needed(model, *tolerance);
+        let Ok(fit) = Fit::cached(model.tip(), wanted, Retreat::Small) else { continue };
+        if scenario.kick > fit.retreat_between_steps() {
+            continue;
+        }
+        let is_theirs = |group: &&mut Group| {
+            let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+            same(group.tolerance, *tolerance)
+                && same(group.fit.wanted(), wanted)
+                && group.tip == *model.tip()
+        };
+        let begin = begin(number, scenario);
+        match groups.iter_mut().find(is_theirs) {
+            Some(group) => group.begins.push(begin),
+            None => {
+                let (tip, tolerance) = (model.tip().clone(), *tolerance);
+                groups.push(Group { tip, fit, tolerance, begins: vec![begin] });
+            }
+        }
+    }
+    groups
+}
+
+/// Whether nothing acts but the groove and a support of one velocity.
+fn is_plain(scenario: &Scenario) -> bool {
+    let Scenario { model, path, start_velocity, noise, profile, force, memory, .. } = scenario;
+    let is_free = path.is_none() && start_velocity.is_none() && force.begins().is_infinite();
+    let is_even = noise.is_none() && profile.is_none();
+    let by_modes = matches!(memory, MemoryChoice::Auto | MemoryChoice::Modes);
+    let fades = model.tip().reach().is_some();
+    let is_plain = is_free && force.begins() > 0.0 && is_even && by_modes && fades;
+    is_plain && model.wider().is_papers() && scenario.validate().is_ok()
+}
+
+fn begin(number: usize, scenario: &Scenario) -> BeginBeside {
+    BeginBeside {
+        number,
+        alpha: scenario.model.alpha(),
+        r: scenario.model.r(),
+        t: scenario.start_time(),
+        extension: scenario.start_extension() + scenario.kick,
+        until: scenario.until,
+        steady: (scenario.start == Start::Steady).then_some(scenario.kick),
+    }
+}
+
+impl Group {
+    fn run(&self, scenario: &Scenario, steps: Vec<Step>, work: Work) -> Result<Run, RunError> {
+        let (terms, certificate) = (self.fit.terms().len(), self.fit.certificate());
+        let sum = Sum::Modes { terms, certificate, retreats: 0 };
+        let report = MemoryReport { choice: scenario.memory, accuracy: self.fit.wanted(), sum };
+        let fared = report.fared().unwrap_or_default();
+        let wider = *scenario.model.wider();
+        Ok(Run {
+            initial_surface: scenario.initial_surface()?,
+            trajectory: Trajectory::under(wider, scenario.support(), steps),
+            work,
+            memory: report.name(),
+            memory_reason: format!("side by side with other motions; {fared}"),
+            interrupted: false,
+        })
+    }
+}

@@ -75,6 +75,8 @@ struct Limits {
     /// How far a piece may lead, and a step.
     limited: f64,
     longest: f64,
+    /// How far from its middle all exponentials are told by polynomials.
+    expanded: f64,
     /// How far behind its farthest point a tip may look, and where a step may begin.
     retreat: f64,
     between_steps: f64,
@@ -130,6 +132,7 @@ impl SideBySide {
             longest: (FARTHEST * limited)
                 .min(rules.farthest(0.0))
                 .min(MOST_STRETCHES as f64 * exponentials.longest()),
+            expanded: exponentials.longest(),
             retreat: fit.retreat(),
             between_steps: fit.retreat_between_steps(),
             most_steps,
@@ -276,7 +279,8 @@ impl Member {
             farthest = self.farthest;
             for position in positions {
                 farthest = farthest.max(*position);
-                let is_near = position.abs() <= limits.longest;
+                // All in one stretch.
+                let is_near = (position - 0.5 * end).abs() <= limits.expanded;
                 if !(is_near && *position >= farthest - limits.retreat) {
                     return None;
                 }

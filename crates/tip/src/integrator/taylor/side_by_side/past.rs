@@ -223,7 +223,7 @@ struct Stretch {
     nodes: (usize, usize),
 }
 
-/// A step leads no farther than so many stretches, and what has not been reached by then is passed at once.
+/// A step is no longer than so many stretches.
 pub(super) const MOST_STRETCHES: usize = 8;
 
 impl Stretch {
@@ -237,13 +237,12 @@ impl Stretch {
         end: f64,
     ) -> Self {
         let (start, first) = (self.end, self.nodes.1);
-        let (low, high) = (start.min(end), start.max(end));
-        // A tip that moves on to and fro is nowhere far off.
-        if high - low <= 2.0 * longest {
+        let farthest = start + 2.0 * longest;
+        let is_beyond = end > farthest;
+        if !is_beyond {
             return Self { start, end, nodes: (first, count) };
         }
-        let farthest = if end > start { start + 2.0 * longest } else { start - 2.0 * longest };
-        let is_within = |at: &Lanes| (at.0[lane] - start).abs() <= 2.0 * longest;
+        let is_within = |at: &Lanes| at.0[lane] <= farthest;
         let within = positions[first..count].iter().take_while(|at| is_within(at)).count();
         Self { start, end: farthest, nodes: (first, first + within) }
     }

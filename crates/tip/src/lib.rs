@@ -20,6 +20,7 @@ pub mod exponential;
 pub mod friction;
 pub mod memory;
 pub mod motion;
+pub mod planar;
 pub mod roots;
 pub mod state;
 pub mod step;

@@ -9,7 +9,7 @@ use crate::state::{Damaged, Reader, State};
 const SHARE_OF_A_STEP: f64 = 0.05;
 
 /// A displacement larger than planned by this factor is still accepted.
-pub(super) const OVERSHOOT: f64 = 1.5;
+pub(crate) const OVERSHOOT: f64 = 1.5;
 
 /// Weight of the change of the defect from step to step in the error estimate: where the leading
 /// derivative passes through zero, the defect alone says nothing.
@@ -26,7 +26,7 @@ const ORDER_WITHIN_A_STEP: i32 = STAGES as i32 + 1;
 
 /// Chooses step lengths.
 #[derive(Debug, Clone)]
-pub(super) struct Control {
+pub(crate) struct Control {
     tolerance: f64,
     next: f64,
     fixed: bool,
@@ -36,48 +36,48 @@ pub(super) struct Control {
 }
 
 impl Control {
-    pub(super) fn new(tolerance: f64) -> Self {
+    pub(crate) fn new(tolerance: f64) -> Self {
         Self { tolerance, next: FIRST_STEP, fixed: false, just_rejected: false, last: None }
     }
 
-    pub(super) fn fix(&mut self, h: f64) {
+    pub(crate) fn fix(&mut self, h: f64) {
         (self.next, self.fixed) = (h, true);
     }
 
-    pub(super) fn is_fixed(&self) -> bool {
+    pub(crate) fn is_fixed(&self) -> bool {
         self.fixed
     }
 
     /// Steps of about this length have been made otherwise.
-    pub(super) fn resume(&mut self, h: f64) {
+    pub(crate) fn resume(&mut self, h: f64) {
         (self.next, self.just_rejected, self.last) = (h, false, None);
     }
 
-    pub(super) fn tolerance(&self) -> f64 {
+    pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
     /// What the next lengths depend on, beside the tolerance.
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.number(self.next);
         state.flag(self.just_rejected);
         state.pairs(self.last.iter());
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.next, self.just_rejected) = (state.finite()?, state.flag()?);
         self.last = state.pairs()?.pop();
         Ok(())
     }
 
     /// Largest error allowed within a step.
-    pub(super) fn target(&self) -> f64 {
+    pub(crate) fn target(&self) -> f64 {
         SHARE_OF_A_STEP * self.tolerance
     }
 
     /// The length to try next: below `limit`, and either reaching the end in `distance` or leaving
     /// room for a step of the same length before it.
-    pub(super) fn proposal(&self, limit: f64, distance: f64) -> f64 {
+    pub(crate) fn proposal(&self, limit: f64, distance: f64) -> f64 {
         let h = if self.fixed { self.next } else { self.next.min(limit) };
         if h >= distance * (1.0 - 1e-9) {
             distance
@@ -96,7 +96,7 @@ impl Control {
     /// is δ N(τ)/N(0), N vanishing at the nodes. Where it is large, the stages are exact, velocities are
     /// not, and the stage polynomial errs by interpolation.
     #[inline]
-    pub(super) fn judge(
+    pub(crate) fn judge(
         &mut self,
         (defect, interpolation): (f64, f64),
         h: f64,

@@ -7,8 +7,9 @@ use crate::roots::zero_between;
 /// By which a step may be longer to end where it is to.
 const MOST_ROUNDINGS: usize = 64;
 
-/// As [`Integrator::landing`], of a step that begins at t.
-pub(super) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
+/// The length of a step from t of about the length h that ends at a representable time, and at `end` if it is near; `None`
+/// for one too short.
+pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
     // The difference of two representable times: t loses nothing as it grows.
     let mut h = (t + h) - t;
     let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
@@ -37,8 +38,7 @@ impl<M: Memory> Integrator<'_, M> {
         breaks.min(until)
     }
 
-    /// The length of a step of about the length h that ends at a representable time, and at `end` if it is near;
-    /// `None` for one too short.
+    /// As [`landing`], from where the tip is.
     pub(super) fn landing(&self, h: f64, end: f64) -> Option<f64> {
         landing(self.t, h, end)
     }

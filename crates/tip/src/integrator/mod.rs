@@ -5,13 +5,13 @@
 //! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
 
 mod ahead;
-mod control;
+pub(crate) mod control;
 mod corner;
 mod error;
-mod landing;
+pub(crate) mod landing;
 mod saved;
 mod stage_equations;
-mod taylor;
+pub(crate) mod taylor;
 
 use crate::collocation::{RADAU, Stages};
 use crate::elementary::exp;
@@ -78,10 +78,10 @@ pub struct Integrator<'a, M> {
 }
 
 /// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
-const ENOUGH: f64 = 0.01;
+pub(crate) const ENOUGH: f64 = 0.01;
 
 /// An error of the velocity is so many times what a step errs by, over its length: it leads M times as far astray.
-const COASTING: f64 = 10.0;
+pub(crate) const COASTING: f64 = 10.0;
 
 impl<'a, M: Memory> Integrator<'a, M> {
     /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing

@@ -21,6 +21,7 @@ mod report;
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use derivatives::{Derivatives, ROOM, SteadyPast};
 pub use groove::{Groove, Memory, longest_look};
+pub(crate) use modes::Powers;
 pub use modes::{Fit, FitCertificate, FitError, Retreat, Term, accuracy_needed, displacement};
 pub(crate) use modes::{HIGHEST_DEGREE, LOWEST_DEGREE, expansion_lengths};
 pub use policy::Policy;

@@ -207,7 +207,7 @@ impl Scenario {
     }
 
     /// R - x0 at the start, before the kick.
-    pub(super) fn start_extension(&self) -> f64 {
+    pub(crate) fn start_extension(&self) -> f64 {
         if !self.model.wider().spring {
             return -self.start_position;
         }

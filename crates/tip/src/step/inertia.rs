@@ -31,7 +31,7 @@ impl Inertia {
     }
 
     /// d less what force and start make of it.
-    pub(super) fn residual(&self, d: &Stages, force: &Stages) -> Stages {
+    pub(crate) fn residual(&self, d: &Stages, force: &Stages) -> Stages {
         let carried = apply(&self.carried, force);
         std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
     }

@@ -1,23 +1,21 @@
-//! Elimination for the s×s systems of a step. They are solved once or twice a step, and so small that a
+//! Elimination for the systems of a step, s×s for each coordinate. They are solved once or twice a step, and so small that a
 //! general routine spends its time on bookkeeping.
 
-use super::own::Matrix;
-use crate::collocation::{STAGES, Stages};
+use crate::collocation::STAGES;
 
 /// P J = L U with partial pivoting: L below the diagonal, U on and above it.
-pub(crate) struct Factors {
-    rows: [Stages; STAGES],
-    order: [usize; STAGES],
+pub(crate) struct Factors<const N: usize = STAGES> {
+    rows: [[f64; N]; N],
+    order: [usize; N],
 }
 
-impl Factors {
+impl<const N: usize> Factors<N> {
     /// `None` for a matrix that is singular or not finite.
     #[inline]
-    pub(crate) fn of(mut rows: [Stages; STAGES]) -> Option<Self> {
+    pub(crate) fn of(mut rows: [[f64; N]; N]) -> Option<Self> {
         let mut order = std::array::from_fn(|i| i);
-        for k in 0..STAGES {
-            let pivot =
-                (k..STAGES).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+        for k in 0..N {
+            let pivot = (k..N).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
             if !(rows[pivot][k].is_finite() && rows[pivot][k].abs() > 0.0) {
                 return None;
             }
@@ -27,7 +25,7 @@ impl Factors {
             let top = &above[k];
             for row in below {
                 let factor = row[k] / top[k];
-                for j in k + 1..STAGES {
+                for j in k + 1..N {
                     row[j] -= factor * top[j];
                 }
                 row[k] = factor;
@@ -38,15 +36,15 @@ impl Factors {
 
     /// J⁻¹ `right`
     #[inline]
-    pub(crate) fn solve(&self, right: &Stages) -> Stages {
+    pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
         let mut x = self.order.map(|i| right[i]);
-        for i in 1..STAGES {
+        for i in 1..N {
             for j in 0..i {
                 x[i] -= self.rows[i][j] * x[j];
             }
         }
-        for i in (0..STAGES).rev() {
-            for j in i + 1..STAGES {
+        for i in (0..N).rev() {
+            for j in i + 1..N {
                 x[i] -= self.rows[i][j] * x[j];
             }
             x[i] /= self.rows[i][i];
@@ -55,15 +53,15 @@ impl Factors {
     }
 
     /// The same for all columns of a matrix, side by side.
-    pub(crate) fn solve_columns(&self, right: &Matrix) -> Matrix {
+    pub(crate) fn solve_columns(&self, right: &[[f64; N]; N]) -> [[f64; N]; N] {
         let mut x = self.order.map(|i| right[i]);
-        for i in 0..STAGES {
+        for i in 0..N {
             for j in 0..i {
                 x[i] = less(x[i], self.rows[i][j], x[j]);
             }
         }
-        for i in (0..STAGES).rev() {
-            for j in i + 1..STAGES {
+        for i in (0..N).rev() {
+            for j in i + 1..N {
                 x[i] = less(x[i], self.rows[i][j], x[j]);
             }
             x[i] = x[i].map(|x| x / self.rows[i][i]);
@@ -73,14 +71,14 @@ impl Factors {
 }
 
 /// a - factor b
-fn less(a: Stages, factor: f64, b: Stages) -> Stages {
+fn less<const N: usize>(a: [f64; N], factor: f64, b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] - factor * b[i])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collocation::apply;
+    use crate::collocation::{Stages, apply};
 
     #[test]
     fn solutions_satisfy_their_equations_where_rows_must_be_exchanged_too() {

@@ -20,7 +20,7 @@ const LANES: usize = 4;
 const WIDTH: usize = ROOM + LANES;
 type Row = [f64; WIDTH];
 /// 1/k
-pub(super) const INVERSE: [f64; MOST_ORDER + 1] = {
+pub(crate) const INVERSE: [f64; MOST_ORDER + 1] = {
     let mut inverse = [0.0; MOST_ORDER + 1];
     let mut k = 1;
     while k <= MOST_ORDER {

@@ -8,7 +8,7 @@ use super::chain::INVERSE;
 use super::series::MOST_ORDER;
 
 /// The order for an error ε of a step.
-pub(super) fn order(error: f64) -> usize {
+pub(crate) fn order(error: f64) -> usize {
     let digits = -libm::log(error);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let order = (ORDER_PER_DIGIT * digits).round().max(0.0) as usize;
@@ -24,7 +24,7 @@ pub(super) const LAST: usize = 4;
 
 /// The length for which the last coefficient amounts to `error`, judged by the last few as if each were worth half of the
 /// one before.
-pub(super) fn length(coefficients: &[f64], error: f64) -> f64 {
+pub(crate) fn length(coefficients: &[f64], error: f64) -> f64 {
     let order = coefficients.len() - 1;
     let wanted = log2(error);
     let of = |before: usize| {
@@ -36,7 +36,7 @@ pub(super) fn length(coefficients: &[f64], error: f64) -> f64 {
 }
 
 /// The length of which the power k times a size is `most`.
-pub(super) fn root(most: f64, size: f64, k: usize) -> f64 {
+pub(crate) fn root(most: f64, size: f64, k: usize) -> f64 {
     exp2((log2(most) - log2(size.max(f64::MIN_POSITIVE))) * INVERSE[k])
 }
 

@@ -5,14 +5,14 @@
 mod chain;
 mod expansion;
 mod heights;
-mod length;
-mod pieces;
+pub(crate) mod length;
+pub(crate) mod pieces;
 mod plan;
 mod series;
 mod side_by_side;
-mod switch;
-mod values;
-mod visits;
+pub(crate) mod switch;
+pub(crate) mod values;
+pub(crate) mod visits;
 
 use super::Integrator;
 use crate::collocation::STAGES;
@@ -22,10 +22,12 @@ use crate::memory::{Derivatives, Memory};
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
 use chain::Chain;
+pub(crate) use chain::INVERSE;
 use heights::{Along, AtCorner};
 use pieces::Pieces;
 use plan::Plan;
-use series::Series;
+pub(crate) use plan::{FARTHEST, REACH_OF_PIECE, SHARE_OF_INTERPOLATION};
+pub(crate) use series::{MOST_ORDER, Series};
 use switch::Switch;
 use visits::Visits;
 
@@ -46,9 +48,9 @@ pub(super) struct Taylor {
 
 /// What a series leaves out may amount to, over the error allowed in a step of collocation: there are fewer steps, but
 /// nothing else tells of their errors.
-const SHARE_OF_SERIES: f64 = 0.1;
+pub(crate) const SHARE_OF_SERIES: f64 = 0.1;
 /// What visits stand for is known to this part of the same.
-const SHARE_OF_VISITS: f64 = 0.0005;
+pub(crate) const SHARE_OF_VISITS: f64 = 0.0005;
 /// What came of a plan.
 enum Made {
     Step,
@@ -60,7 +62,7 @@ enum Made {
 /// Of the corner.
 const SIDES: usize = 2;
 /// A step is shortened so often to stay where its series holds; collocation goes on from there.
-const MOST_SHORTENINGS: usize = 8;
+pub(crate) const MOST_SHORTENINGS: usize = 8;
 
 impl Taylor {
     pub(super) fn new(model: &Model, target: f64) -> Self {

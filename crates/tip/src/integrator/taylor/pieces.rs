@@ -8,9 +8,9 @@ use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
 
 /// Of one series at most.
-pub(super) const MOST_PIECES: usize = 8;
+pub(crate) const MOST_PIECES: usize = 8;
 /// For values at the nodes of all of them.
-pub(super) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =
+pub(crate) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =
     [[0.0; BLOCK]; (MOST_PIECES * STAGES).div_ceil(BLOCK)];
 
 /// Steps made: those before `next` have been handed out, those up to `end` are yet to be.
@@ -114,27 +114,27 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
 
 /// The longest part of a step that may be a piece, for interpolation to err by at most `error`, where the step has a
 /// divided difference as steep as this.
-pub(super) fn longest(steepest: f64, error: f64) -> f64 {
+pub(crate) fn longest(steepest: f64, error: f64) -> f64 {
     length::root(error, bound(steepest), STAGES + 1)
 }
 
 /// What interpolation leaves out over a whole step.
-pub(super) fn bound(steepest: f64) -> f64 {
+pub(crate) fn bound(steepest: f64) -> f64 {
     RADAU.interpolation_bound(steepest, 1.0)
 }
 
 /// The nodes of all pieces of a step, as parts of it.
 #[derive(Debug)]
-pub(super) struct Nodes {
-    pub(super) parts: Vec<f64>,
-    pub(super) table: Table,
+pub(crate) struct Nodes {
+    pub(crate) parts: Vec<f64>,
+    pub(crate) table: Table,
 }
 
 static NODES_OF: LazyLock<[Nodes; MOST_PIECES]> =
     LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
 
 /// Of a step in so many pieces.
-pub(super) fn nodes(pieces: usize) -> &'static Nodes {
+pub(crate) fn nodes(pieces: usize) -> &'static Nodes {
     &NODES_OF[pieces - 1]
 }
 
@@ -147,7 +147,7 @@ impl Nodes {
 }
 
 /// A polynomial at one point.
-pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
+pub(crate) fn value(coefficients: &[f64], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
 }
 

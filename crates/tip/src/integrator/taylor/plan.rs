@@ -17,14 +17,14 @@ pub(super) struct Plan {
 }
 
 /// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
-pub(super) const SHARE_OF_INTERPOLATION: f64 = 0.1;
+pub(crate) const SHARE_OF_INTERPOLATION: f64 = 0.1;
 /// A piece leads no farther than this part of what a step of collocation may,
-pub(super) const REACH_OF_PIECE: f64 = 0.7;
+pub(crate) const REACH_OF_PIECE: f64 = 0.7;
 /// and a step than so many pieces.
-pub(super) const FARTHEST: f64 = 3.0;
+pub(crate) const FARTHEST: f64 = 3.0;
 
 /// As much of a step as leads no farther than `longest`, and what the series is over it.
-pub(super) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
+pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
     let mut outlook = Outlook::of(&series.over(over));
     for _ in 0..MOST_SHORTENINGS {
         let moved = outlook.moved.abs();
@@ -38,7 +38,7 @@ pub(super) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outl
 }
 
 /// As in collocation: the end at this distance is met, or enough left for another step.
-pub(super) fn to_end(length: f64, distance: f64) -> f64 {
+pub(crate) fn to_end(length: f64, distance: f64) -> f64 {
     if length >= distance * (1.0 - 1e-9) {
         distance
     } else if 2.0 * length > distance {
@@ -49,7 +49,7 @@ pub(super) fn to_end(length: f64, distance: f64) -> f64 {
 }
 
 /// Pieces of at most this length.
-pub(super) fn count(length: f64, piece: f64) -> usize {
+pub(crate) fn count(length: f64, piece: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let count = (length / piece).ceil() as usize;
     count.clamp(1, MOST_PIECES)

@@ -1,7 +1,7 @@
 //! Power series, up to an order.
 
 /// The highest order.
-pub(super) const MOST_ORDER: usize = 28;
+pub(crate) const MOST_ORDER: usize = 28;
 const LANES: usize = 4;
 /// Coefficients, with room to fill the lanes.
 const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
@@ -19,39 +19,39 @@ const ORDERS: [f64; WIDTH] = {
 
 /// Coefficients of powers of time, or of the part of a step; 0 beyond the order.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Series {
+pub(crate) struct Series {
     order: usize,
     coefficients: [f64; WIDTH],
 }
 
 impl Series {
-    pub(super) fn zero(order: usize) -> Self {
+    pub(crate) fn zero(order: usize) -> Self {
         Self { order, coefficients: [0.0; WIDTH] }
     }
 
     /// From that of the power 0 on.
-    pub(super) fn coefficients(&self) -> &[f64] {
+    pub(crate) fn coefficients(&self) -> &[f64] {
         &self.coefficients[..=self.order]
     }
 
     /// That of the power k.
     #[inline(always)]
-    pub(super) fn at(&self, k: usize) -> f64 {
+    pub(crate) fn at(&self, k: usize) -> f64 {
         self.coefficients[k]
     }
 
     #[inline(always)]
-    pub(super) fn set(&mut self, k: usize, coefficient: f64) {
+    pub(crate) fn set(&mut self, k: usize, coefficient: f64) {
         self.coefficients[k] = coefficient;
     }
 
     /// Where time starts.
-    pub(super) fn start(&self) -> f64 {
+    pub(crate) fn start(&self) -> f64 {
         self.coefficients[0]
     }
 
     /// The derivative at 1.
-    pub(super) fn slope_at_end(&self) -> f64 {
+    pub(crate) fn slope_at_end(&self) -> f64 {
         let mut sums = [0.0; LANES];
         let groups = self.coefficients.as_chunks::<LANES>().0.iter();
         for (coefficients, orders) in groups.zip(ORDERS.as_chunks::<LANES>().0) {
@@ -64,7 +64,7 @@ impl Series {
 
     /// In parts of this length: coefficient k times its power k.
     #[must_use]
-    pub(super) fn over(&self, length: f64) -> Self {
+    pub(crate) fn over(&self, length: f64) -> Self {
         let square = length * length;
         let mut power = [1.0, length, square, square * length];
         let fourth = square * square;
@@ -80,7 +80,7 @@ impl Series {
     }
 
     #[cfg(test)]
-    pub(super) fn of(coefficients: &[f64]) -> Self {
+    pub(crate) fn of(coefficients: &[f64]) -> Self {
         let mut series = Self::zero(coefficients.len() - 1);
         series.coefficients[..coefficients.len()].copy_from_slice(coefficients);
         series

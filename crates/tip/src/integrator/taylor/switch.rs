@@ -10,7 +10,7 @@ use crate::state::{Damaged, Reader, State};
 
 /// The way in use.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Switch {
+pub(crate) struct Switch {
     /// What a step of collocation costs, over one by series.
     cost: f64,
     collocation: bool,
@@ -33,24 +33,24 @@ const TRIAL: u64 = 8;
 const PATIENCE: (u64, u64) = (8, 1 << 10);
 
 impl Switch {
-    pub(super) fn new(has_inertia: bool) -> Self {
+    pub(crate) fn new(has_inertia: bool) -> Self {
         Self::at_cost(if has_inertia { COST_WITH_INERTIA } else { COST })
     }
 
     /// Where a step of collocation costs so many by series.
-    pub(super) fn at_cost(cost: f64) -> Self {
+    pub(crate) fn at_cost(cost: f64) -> Self {
         let (patience, _) = PATIENCE;
         Self { cost, collocation: false, wait: patience, patience, in_series: false }
     }
 
     /// Whether the next step is to be tried by series.
-    pub(super) fn is_to_series(&self) -> bool {
+    pub(crate) fn is_to_series(&self) -> bool {
         !self.collocation
     }
 
     /// Whether collocation is to take over from a series of this order, that is as long as accuracy allows and
     /// of this stiffness over its length; `most` is that over the longest step that collocation could make.
-    pub(super) fn leaves(&mut self, stiffness: f64, most: f64, order: usize) -> bool {
+    pub(crate) fn leaves(&mut self, stiffness: f64, most: f64, order: usize) -> bool {
         if stiffness < REACH * order as f64 || !self.is_ahead(most, order) {
             return false;
         }
@@ -63,12 +63,12 @@ impl Switch {
     }
 
     /// A step by series has been made.
-    pub(super) fn made_series(&mut self) {
+    pub(crate) fn made_series(&mut self) {
         self.in_series = true;
     }
 
     /// A step of collocation has been made, of this stiffness over it, where a series is of this order.
-    pub(super) fn made(&mut self, stiffness: f64, order: usize) {
+    pub(crate) fn made(&mut self, stiffness: f64, order: usize) {
         if !self.collocation {
             return;
         }
@@ -88,18 +88,18 @@ impl Switch {
     }
 
     /// Whether the way changes from series to collocation just now.
-    pub(super) fn left_series(&mut self) -> bool {
+    pub(crate) fn left_series(&mut self) -> bool {
         std::mem::take(&mut self.in_series)
     }
 
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.flag(self.collocation);
         state.flag(self.in_series);
         state.count(self.wait);
         state.count(self.patience);
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.collocation, self.in_series) = (state.flag()?, state.flag()?);
         (self.wait, self.patience) = (state.count()?, state.count()?.min(PATIENCE.1));
         Ok(())

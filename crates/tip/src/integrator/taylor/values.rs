@@ -7,19 +7,19 @@ use multiversion::multiversion;
 use std::sync::LazyLock;
 
 /// Points that are summed side by side.
-pub(super) const BLOCK: usize = 8;
-pub(super) type Block = [f64; BLOCK];
+pub(crate) const BLOCK: usize = 8;
+pub(crate) type Block = [f64; BLOCK];
 
 /// What each coefficient counts for in sums, `BLOCK` of them side by side.
 #[derive(Debug, Clone)]
-pub(super) struct Table {
+pub(crate) struct Table {
     sums: usize,
     blocks: Vec<[Block; MOST_ORDER + 1]>,
 }
 
 impl Table {
     /// Sum n counts the k-th coefficient `of(n, k)` times.
-    pub(super) fn new(sums: usize, of: impl Fn(usize, usize) -> f64) -> Self {
+    pub(crate) fn new(sums: usize, of: impl Fn(usize, usize) -> f64) -> Self {
         let entry = |n: usize, k: usize| if n < sums { of(n, k) } else { 0.0 };
         let row = |b: usize, k: usize| std::array::from_fn(|i| entry(b * BLOCK + i, k));
         let block = |b: usize| std::array::from_fn(|k| row(b, k));
@@ -27,12 +27,12 @@ impl Table {
     }
 
     /// Values of the polynomial at these parts of the step.
-    pub(super) fn of_parts(parts: &[f64]) -> Self {
+    pub(crate) fn of_parts(parts: &[f64]) -> Self {
         Self::new(parts.len(), |n, k| parts[n].powi(k as i32))
     }
 
     /// The sums, in this room.
-    pub(super) fn sums<'a>(&self, series: &Series, room: &'a mut [Block]) -> &'a mut [f64] {
+    pub(crate) fn sums<'a>(&self, series: &Series, room: &'a mut [Block]) -> &'a mut [f64] {
         sums(&self.blocks, series, room);
         &mut room.as_flattened_mut()[..self.sums]
     }
@@ -62,17 +62,17 @@ fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block])
 
 /// What is asked of a series before it is made a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Outlook {
+pub(crate) struct Outlook {
     /// Of x0, over the whole step.
-    pub(super) moved: f64,
+    pub(crate) moved: f64,
     /// Displacement per step at its fastest: at the start, in the middle, or at the end.
-    pub(super) fastest: f64,
+    pub(crate) fastest: f64,
     /// The largest divided difference of order s + 1, at four points: what interpolation leaves out.
-    pub(super) steepest: f64,
+    pub(crate) steepest: f64,
 }
 
 impl Outlook {
-    pub(super) fn of(series: &Series) -> Self {
+    pub(crate) fn of(series: &Series) -> Self {
         let mut room = [[0.0; BLOCK]];
         let sums = OUTLOOK.sums(series, &mut room);
         let largest = |sums: &[f64]| sums.iter().fold(0.0, |most: f64, sum| most.max(sum.abs()));

@@ -8,18 +8,18 @@ use std::sync::{LazyLock, OnceLock};
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
 #[derive(Debug)]
-pub(super) struct Rule {
-    pub(super) nodes: Vec<f64>,
-    pub(super) weights: Vec<f64>,
+pub(crate) struct Rule {
+    pub(crate) nodes: Vec<f64>,
+    pub(crate) weights: Vec<f64>,
     /// Of the nodes.
-    pub(super) table: Table,
+    pub(crate) table: Table,
 }
 
 /// Numbers of nodes.
 const COUNTS: [usize; 9] = [6, 8, 10, 12, 14, 16, 18, 20, 24];
-pub(super) const MOST_NODES: usize = 24;
+pub(crate) const MOST_NODES: usize = 24;
 /// For values at the nodes of any of them.
-pub(super) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
+pub(crate) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
     [[0.0; BLOCK]; MOST_NODES.div_ceil(BLOCK)];
 
 /// That of [`COUNTS`] at this index: made when it is first used, as no run uses them all.
@@ -38,7 +38,7 @@ static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
 
 /// Which rule is accurate enough for a step, by how far it leads and how much of its groove heals meanwhile.
 #[derive(Debug, Clone)]
-pub(super) struct Visits {
+pub(crate) struct Visits {
     /// Each of them is so up to this displacement.
     farthest: [f64; COUNTS.len()],
     /// The wave number that they are chosen for.
@@ -55,7 +55,7 @@ impl Visits {
     /// those to φ = qd, d the displacement, are weaker than the error: at the band they are so by round-off, and they
     /// fall as those of a Gaussian. What heals fades by e^{-β(1-τ)}, with β healing times in a step: the derivatives of
     /// the product are those of e^{iφτ} with |iφ + β| for φ.
-    pub(super) fn new(band: f64, error: f64) -> Self {
+    pub(crate) fn new(band: f64, error: f64) -> Self {
         let digits = (-ln(error)).max(1.0);
         let wave = band * (digits / -ln(f64::EPSILON)).min(1.0).sqrt();
         let phase = |(n, logarithm)| exp((logarithm - digits) / (2 * n - 1) as f64) / wave;
@@ -66,7 +66,7 @@ impl Visits {
     }
 
     /// The rule for a step that leads so far and lasts so many healing times; `None` if that is too much for any.
-    pub(super) fn rule(&self, moved: f64, healing: f64) -> Option<&'static Rule> {
+    pub(crate) fn rule(&self, moved: f64, healing: f64) -> Option<&'static Rule> {
         let waning = healing / self.wave;
         let far = (moved * moved + waning * waning).sqrt();
         let index = self.farthest.iter().position(|farthest| far <= *farthest)?;
@@ -74,24 +74,24 @@ impl Visits {
     }
 
     /// The farthest that a step of so many healing times may lead.
-    pub(super) fn farthest(&self, healing: f64) -> f64 {
+    pub(crate) fn farthest(&self, healing: f64) -> f64 {
         let most = self.farthest[COUNTS.len() - 1];
         (most * most - (healing / self.wave).powi(2)).max(0.0).sqrt()
     }
 
     /// A step lasts at most so many healing times.
-    pub(super) fn most_healing(&self) -> f64 {
+    pub(crate) fn most_healing(&self) -> f64 {
         MOST_HEALING * self.wave * self.farthest[COUNTS.len() - 1]
     }
 }
 
 /// The rule of most nodes.
-pub(super) fn last() -> &'static Rule {
+pub(crate) fn last() -> &'static Rule {
     rule(COUNTS.len() - 1)
 }
 
 /// What is left of these weights at the end of a step, of so many healing times.
-pub(super) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
+pub(crate) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
     if times <= LARGEST {
         fade_side_by_side(nodes, times, weights);
     } else {

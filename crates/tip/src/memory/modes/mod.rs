@@ -18,6 +18,7 @@ pub(crate) use bank::{LOWEST_DEGREE, expansion_lengths};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub(crate) use local::HIGHEST_DEGREE;
+pub(crate) use powers::Powers;
 pub use term::Term;
 pub use window::Retreat;
 

@@ -9,11 +9,11 @@ use multiversion::multiversion;
 
 /// Lanes that are summed side by side.
 const LANES: usize = 4;
-type Row = [f64; ROOM];
+pub(crate) type Row = [f64; ROOM];
 
 /// `w_j s_j^{n-1}`, n = 0, 1, …
 #[derive(Debug, Clone)]
-pub(super) struct Powers {
+pub(crate) struct Powers {
     /// Of each term a row for the real part of its state and one for the imaginary part.
     rows: Vec<Row>,
     /// The derivatives of f at 0, as the sum has them.
@@ -21,7 +21,7 @@ pub(super) struct Powers {
 }
 
 impl Powers {
-    pub(super) fn new(terms: &[Term]) -> Self {
+    pub(crate) fn new(terms: &[Term]) -> Self {
         let mut rows = Vec::with_capacity(2 * terms.len());
         let mut of_tip = [0.0; ROOM];
         for Term { exponent, weight } in terms {
@@ -35,6 +35,16 @@ impl Powers {
             rows.extend([real, imaginary]);
         }
         Self { rows, of_tip }
+    }
+
+    /// `Re(w_j s_j^{n-1})` of each term, and -Im of it.
+    pub(crate) fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The derivatives of f at 0, as the sum has them.
+    pub(crate) fn of_tip(&self) -> &Row {
+        &self.of_tip
     }
 
     /// The first `count` derivatives, and as many more as fill the lanes, of these states: real and imaginary parts in

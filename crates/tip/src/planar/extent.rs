@@ -1,0 +1,81 @@
+//! The range across the scan of all visits that can still be felt.
+
+use std::collections::VecDeque;
+
+/// Visits are taken together within this part of the reach.
+const BINS: f64 = 16.0;
+
+/// Lowest and highest y of visits, by where they lie along the scan.
+#[derive(Debug, Clone)]
+pub(super) struct Extent {
+    reach: f64,
+    bins: VecDeque<Bin>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Bin {
+    /// Where the first visit lies, and the farthest-forward one.
+    first: f64,
+    last: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Extent {
+    /// Of a footprint of this reach.
+    pub(super) fn new(reach: f64) -> Self {
+        Self { reach, bins: VecDeque::new() }
+    }
+
+    pub(super) fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// How many are kept.
+    pub(super) fn bins(&self) -> usize {
+        self.bins.len()
+    }
+
+    /// A visit at (x, y).
+    pub(super) fn add(&mut self, x: f64, y: f64) {
+        let length = self.reach / BINS;
+        match self.bins.back_mut() {
+            Some(bin) if x <= bin.first + length => {
+                bin.last = bin.last.max(x);
+                (bin.low, bin.high) = (bin.low.min(y), bin.high.max(y));
+            }
+            _ => self.bins.push_back(Bin { first: x, last: x, low: y, high: y }),
+        }
+    }
+
+    /// Of a tip at (x, y) and all visits within its reach; the others are forgotten.
+    pub(super) fn about(&mut self, x: f64, y: f64) -> (f64, f64) {
+        while self.bins.front().is_some_and(|bin| bin.last < x - self.reach) {
+            self.bins.pop_front();
+        }
+        let widest = |(low, high): (f64, f64), bin: &Bin| (low.min(bin.low), high.max(bin.high));
+        self.bins.iter().fold((y, y), widest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_that_of_the_visits_within_reach() {
+        let (mut extent, reach) = (Extent::new(10.0), 10.0);
+        let visit = |i: u32| (0.1 * f64::from(i), (0.05 * f64::from(i)).sin());
+        for i in 0..2000 {
+            let (x, y) = visit(i);
+            extent.add(x, y);
+            let (low, high) = extent.about(x, y);
+            // Bins end no sooner than their visits, and no later than by one bin.
+            let within = |reach: f64| (0..=i).map(visit).filter(move |v| v.0 >= x - reach);
+            assert!(within(reach).all(|(_, y)| low <= y && y <= high));
+            let longer: Vec<f64> = within(reach * (1.0 + 1.01 / BINS)).map(|v| v.1).collect();
+            assert!(longer.iter().any(|y| *y <= low) && longer.iter().any(|y| *y >= high));
+            assert!(extent.bins.len() < 20);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Steps by collocation, with their error control.
+
+use super::super::stages::{Solution, StageEquations};
+use super::Integrator;
+use crate::collocation::{RADAU, STAGES, Stages};
+use crate::integrator::control::OVERSHOOT;
+use crate::integrator::landing::landing;
+use crate::integrator::{COASTING, ENOUGH, IntegrationError};
+use crate::memory::longest_look;
+use crate::step::{self, Inertia, carving, healing};
+
+/// Weight of the defect of the motion across, as far as its change from step to step is not looked at.
+const WEIGHT_OF_DEFECT: f64 = 1.5;
+
+impl Integrator<'_> {
+    /// Makes a step that ends at `until` at the latest.
+    pub(super) fn step_by_collocation(&mut self, until: f64) -> Result<(), IntegrationError> {
+        let now = self.forces_now();
+        if self.wider().inertia.is_none() {
+            self.velocity[0] = now[0];
+        }
+        self.velocity[1] = now[1];
+        let end = self.next_end(until);
+        let mut h = self.control.proposal(self.length_limit(), end - self.t);
+        loop {
+            let (t, tolerance) = (self.t, self.control.tolerance());
+            h = landing(t, h, end).ok_or(IntegrationError::StepTooSmall { t, h, tolerance })?;
+            match self.attempt(h) {
+                Ok(()) => return Ok(()),
+                Err(shorter) => {
+                    self.work.rejected += 1;
+                    h = shorter;
+                }
+            }
+        }
+    }
+
+    /// Longest step to try: not over a pulse, and not too far.
+    fn length_limit(&self) -> f64 {
+        let speed = self.effective(self.velocity).max(1e-300);
+        self.longest_step().min(self.longest_displacement() / speed)
+    }
+
+    fn longest_displacement(&self) -> f64 {
+        step::longest_displacement(self.model.tip().band())
+    }
+
+    /// Makes a step of length h, or says which shorter length to try instead.
+    fn attempt(&mut self, h: f64) -> Result<(), f64> {
+        let longest = self.longest_displacement();
+        let mass = self.wider().inertia;
+        let inertia = mass.map(|mass| Inertia::new(mass, h, self.velocity[0]));
+        let enough = ENOUGH * self.control.target();
+        // As far as exponentials and layers hold.
+        let look = longest_look(self.model.tip());
+        let room = (self.frame.radius() - self.frame.eta(self.y).abs()) * self.frame.width();
+        let equations = self.equations(h, inertia.as_ref());
+        let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
+        let carving = equations.carving;
+        self.work.newton_iterations += solved.iterations;
+        let Some(solution) = solved.solution else { return Err(0.3 * h) };
+        let [along, across] = &solution.displacement;
+        let moves = along.iter().zip(across).map(|(d, e)| self.effective([*d, *e]));
+        let moved = moves.fold(0.0, f64::max);
+        if moved > OVERSHOOT * longest {
+            return Err(h * (0.8 * OVERSHOOT * longest / moved).max(0.1));
+        }
+        let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+        let lowest = along.iter().copied().fold(0.0, f64::min);
+        if farthest > room || lowest < self.modes.behind() - self.modes.retreat() {
+            return Err(0.5 * h);
+        }
+        self.judge(&solution, h)?;
+        self.accept_stages(&solution, h, &carving[STAGES - 1]);
+        Ok(())
+    }
+
+    fn equations<'b>(&'b self, h: f64, inertia: Option<&'b Inertia>) -> StageEquations<'b> {
+        // At the end of a step forces are their limits from before: they may jump there.
+        let last = (self.t + h).next_down();
+        let force = |j: usize, c: f64| self.force[j].value((self.t + h * c).min(last));
+        let moved = self.support.velocity(self.t) * h;
+        let along = RADAU.c.map(|c| self.extension + moved * c + force(0, c));
+        let across = RADAU.c.map(|c| force(1, c) - self.stiffness * self.y);
+        let wider = self.wider();
+        StageEquations {
+            footprint: self.footprint,
+            alpha: self.model.alpha(),
+            stiffness: self.stiffness,
+            modes: &self.modes,
+            eta: self.frame.eta(self.y),
+            width: self.frame.width(),
+            h,
+            pull: [along, across],
+            carving: wider.healing_time.map_or_else(|| carving(h), |time| healing(h, time)),
+            left: RADAU.c.map(|c| wider.left_after(h * c)),
+            inertia,
+        }
+    }
+
+    /// The last polynomials continued, where they can be trusted to; else straight lines.
+    fn guess(&self, h: f64, longest: f64) -> [Stages; 2] {
+        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.along.h) {
+            let ratio = h / last.along.h;
+            let guess = [last.along.displacement, last.across].map(|d| RADAU.continued(&d, ratio));
+            if guess.as_flattened().iter().all(|d| d.abs() < longest) {
+                return guess;
+            }
+        }
+        self.velocity.map(|v| RADAU.c.map(|c| (c * h * v).clamp(-longest, longest)))
+    }
+
+    /// Accepts both polynomials, or says what length to try instead.
+    fn judge(&mut self, solution: &Solution, h: f64) -> Result<(), f64> {
+        let [[_, mixed, across], [along, ..]] = [solution.curvatures; 2];
+        let [d, e] = &solution.displacement;
+        let before = |d: &Stages, of: fn(&super::Step) -> &Stages| {
+            self.last
+                .as_ref()
+                .map_or(0.0, |last| step::interpolation_error(d, h, (of(last), last.along.h)))
+        };
+        let coasting = self.wider().inertia.map_or(1.0, |mass| 1.0 + COASTING * mass / h);
+        let signs = (
+            coasting * step::defect(d, h, self.velocity[0]),
+            coasting * before(d, |last| &last.along.displacement),
+        );
+        // Across, by the same rule; see `Control::judge`.
+        let stiffness = (self.stiffness + across + mixed.abs()).max(0.0);
+        let soft = 1.0 / (1.0 + RADAU.defect_to_error * h * stiffness);
+        let defect = WEIGHT_OF_DEFECT * h * step::defect(e, h, self.velocity[1]).abs();
+        let interpolation = before(e, |last| &last.across);
+        let beside = soft * RADAU.defect_to_error * defect + (1.0 - soft) * interpolation;
+        self.control.judge(signs, h, (1.0 + along + mixed.abs()).max(0.0), beside)
+    }
+
+    fn accept_stages(&mut self, solution: &Solution, h: f64, spent: &Stages) {
+        let [d, e] = solution.displacement;
+        let step = self.step_to(h, [d, e]);
+        self.remember(&d, &e, spent, h);
+        self.velocity = [d, e].map(|d| step::velocity_at_end(&d, h));
+        self.switch.made(h * self.fastest(solution.curvatures), self.chain.order());
+        self.accept(step);
+    }
+}

@@ -1,0 +1,242 @@
+//! Steps in two coordinates: by Taylor series, and by collocation where the groove or the spring across is stiff.
+
+mod collocation;
+mod series;
+
+use super::chain::{Chain, Curvatures};
+use super::frame::{Frame, Layers};
+use super::history::Step;
+use super::layers::{LANES, Lanes, slopes, values};
+use super::modes::Modes;
+use super::scenario::{PlanarError, PlanarScenario};
+use crate::collocation::Stages;
+use crate::footprint::Across;
+use crate::integrator::Work;
+use crate::integrator::control::Control;
+use crate::integrator::taylor::switch::Switch;
+use crate::integrator::taylor::visits::Visits;
+use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
+use crate::memory::{Fit, FitError, Retreat, SteadyPast, accuracy_needed};
+use crate::tip_function::{BAND_OF_A_GAUSSIAN, TipFunction};
+use crate::{Force, Model, Start, Support, Wider};
+use std::collections::VecDeque;
+
+/// The state of a tip under way, and all that acts on it.
+pub(super) struct Integrator<'a> {
+    model: &'a Model,
+    /// g and h.
+    footprint: (&'a TipFunction, Across),
+    /// κ_y
+    stiffness: f64,
+    /// Along and across.
+    force: [&'a Force; 2],
+    support: Support,
+    modes: Modes,
+    frame: Frame,
+    control: Control,
+    chain: Chain,
+    visits: Visits,
+    switch: Switch,
+    /// Time that the series and stages are made up to; steps made but not yet handed out lie before it.
+    t: f64,
+    /// R - x0
+    extension: f64,
+    y: f64,
+    /// Along and across; only a tip with inertia has one along that is not that of the force.
+    velocity: [f64; 2],
+    last: Option<Step>,
+    made: VecDeque<Step>,
+    work: Work,
+}
+
+/// Kicks and swings back lead behind the farthest point: with either, exponentials are to hold farther back.
+fn retreat(scenario: &PlanarScenario) -> Retreat {
+    let swings = scenario.along.model.wider().inertia.is_some();
+    if swings || scenario.along.kick.abs() > 0.0 { Retreat::Swing } else { Retreat::Small }
+}
+
+impl<'a> Integrator<'a> {
+    /// At the start of a scenario, which is valid.
+    pub(super) fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
+        let (along, footprint) = (&scenario.along, scenario.footprint()?);
+        let model = &along.model;
+        let accuracy = accuracy_needed(model, along.tolerance);
+        let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(scenario))?);
+        let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
+        let control = Control::new(along.tolerance);
+        let target = control.target();
+        let mut integrator = Self {
+            frame: Frame::new(footprint.1.width, reach, accuracy),
+            chain: Chain::new(length::order(SHARE_OF_SERIES * target)),
+            visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
+            switch: Switch::new(model.wider().inertia.is_some()),
+            model,
+            footprint,
+            stiffness: scenario.stiffness_across,
+            force: [&along.force, &scenario.force_across],
+            support: along.support(),
+            modes,
+            control,
+            t: along.start_time(),
+            extension: along.start_extension() + along.kick,
+            y: scenario.kick_across,
+            velocity: [along.velocity_at_start(), 0.0],
+            last: None,
+            made: VecDeque::new(),
+            work: Work::default(),
+        };
+        if along.start == Start::Steady {
+            integrator.remember_steady(along.start_position, along.kick)?;
+        }
+        Ok(integrator)
+    }
+
+    /// A tip that moved along the line to here for ever.
+    fn remember_steady(&mut self, x: f64, kick: f64) -> Result<(), PlanarError> {
+        self.frame.visit(x, 0.0);
+        self.follow()?;
+        let past = SteadyPast {
+            distance: -kick,
+            velocity: self.model.r(),
+            healing: self.healing(),
+            weight: self.model.steady_weight(),
+        };
+        let mut phi = vec![[0.0; LANES]; self.modes.groups()];
+        values(self.frame.eta(0.0), &mut phi);
+        self.modes.remember_steady(&past, &phi);
+        Ok(())
+    }
+
+    pub(super) fn work(&self) -> Work {
+        self.work
+    }
+
+    pub(super) fn layers(&self) -> Layers {
+        self.frame.layers()
+    }
+
+    pub(super) fn memory_size(&self) -> usize {
+        self.modes.size() + self.frame.size()
+    }
+
+    /// The next step; `None` where the tip is at the end.
+    pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
+        if self.made.is_empty() && self.t < until {
+            self.follow()?;
+            self.check_retreat()?;
+            if !self.step_by_series(until) {
+                self.step_by_collocation(until)?;
+            }
+        }
+        let step = self.made.pop_front();
+        self.work.steps += u64::from(step.is_some());
+        Ok(step)
+    }
+
+    /// The layers that hold where the tip is.
+    fn follow(&mut self) -> Result<(), PlanarError> {
+        let place = (self.position(), self.y);
+        self.frame.follow(&mut self.modes, self.t, place)
+    }
+
+    fn check_retreat(&self) -> Result<(), PlanarError> {
+        let (behind, allowed) = (self.modes.behind(), self.modes.retreat_between_steps());
+        let t = self.t;
+        if behind > allowed { Err(PlanarError::Retreat { t, behind, allowed }) } else { Ok(()) }
+    }
+
+    /// x0
+    fn position(&self) -> f64 {
+        self.support.position(self.t) - self.extension
+    }
+
+    fn wider(&self) -> &'a Wider {
+        self.model.wider()
+    }
+
+    /// 1/T
+    fn healing(&self) -> f64 {
+        self.wider().healing_time.map_or(0.0, |time| 1.0 / time)
+    }
+
+    /// Where the next step is to end at the latest.
+    fn next_end(&self, until: f64) -> f64 {
+        let breaks = self.force.iter().map(|force| force.next_break(self.t));
+        breaks.fold(self.support.next_break(self.t).min(until), f64::min)
+    }
+
+    /// Longest step that does not lead over a pulse.
+    fn longest_step(&self) -> f64 {
+        self.force.iter().map(|force| force.longest_step(self.t)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A motion as one along the scan that carves as fine a groove: waves of f are shortest along the motion.
+    fn effective(&self, [along, across]: [f64; 2]) -> f64 {
+        let ratio = BAND_OF_A_GAUSSIAN / (self.footprint.1.width * self.model.tip().band());
+        (along * along + (ratio * across) * (ratio * across)).sqrt()
+    }
+
+    /// How fast the fastest fades over a groove of these curvatures, in k/Γ.
+    fn fastest(&self, [along, mixed, across]: Curvatures) -> f64 {
+        let (along, across) = (1.0 + along, self.stiffness + across);
+        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
+        let Some(mass) = self.wider().inertia else {
+            return mean + (half * half + mixed * mixed).sqrt();
+        };
+        let damped = 1.0 - 4.0 * mass * along;
+        let swings = (along.abs() / mass).sqrt();
+        let along = if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { swings };
+        along.max(across) + mixed.abs()
+    }
+
+    /// Tells the memory of visits of these displacements from the tip and of this weight, after which it stands at the last.
+    fn remember(&mut self, along: &[f64], across: &[f64], weights: &[f64], h: f64) {
+        let groups = self.modes.groups();
+        let mut weighted = vec![[0.0; LANES]; groups * along.len()];
+        let visits = weighted.chunks_exact_mut(groups).zip(along.iter().zip(across)).zip(weights);
+        for ((layers, (d, e)), weight) in visits {
+            values(self.frame.eta(self.y + e), layers);
+            layers.as_flattened_mut().iter_mut().for_each(|layer| *layer *= weight);
+            self.frame.visit(self.position() + d, self.y + e);
+        }
+        if let Some(time) = self.wider().healing_time {
+            self.modes.fade(crate::elementary::exp(-h / time));
+        }
+        self.modes.remember(along, &weighted);
+    }
+
+    /// Forces on the tip where it is, along and across, after what may jump there.
+    fn forces_now(&self) -> [f64; 2] {
+        let (groups, alpha) = (self.modes.groups(), self.model.alpha());
+        let mut room: [Vec<Lanes>; 4] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
+        let [phi, psi, value, first] = &mut room;
+        let mut groove = vec![[0.0; LANES]; 2 * groups];
+        self.modes.derivatives(2, alpha, &mut groove);
+        value.copy_from_slice(&groove[..groups]);
+        first.copy_from_slice(&groove[groups..]);
+        let eta = self.frame.eta(self.y);
+        values(eta, phi);
+        slopes(eta, phi, psi);
+        let force = self.force.map(|force| force.value(self.t.next_up()));
+        let across = super::chain::dot(psi, value) / self.frame.width();
+        [
+            super::chain::dot(phi, first) + self.extension + force[0],
+            across - self.stiffness * self.y + force[1],
+        ]
+    }
+
+    /// A step is made, its end where the tip is now.
+    fn accept(&mut self, step: Step) {
+        self.extension = step.along.extension_at_end(self.support.velocity(self.t));
+        (self.t, self.y) = (step.end(), step.y_at_end());
+        self.last = Some(step);
+        self.made.push_back(step);
+    }
+
+    /// A step from where the tip is.
+    fn step_to(&self, h: f64, [along, across]: [Stages; 2]) -> Step {
+        let (t, extension) = (self.t, self.extension);
+        let along = crate::Step { t, h, extension, displacement: along, height: None };
+        Step { along, y: self.y, across }
+    }
+}

@@ -1,0 +1,205 @@
+//! Steps by Taylor series: long ones, handed out in pieces.
+
+use super::super::chain::Acting;
+use super::Integrator;
+use crate::collocation::STAGES;
+use crate::integrator::landing::landing;
+use crate::integrator::taylor::pieces::{self, MOST_PIECES};
+use crate::integrator::taylor::values::Outlook;
+use crate::integrator::taylor::visits;
+use crate::integrator::taylor::{
+    FARTHEST, MOST_ORDER, MOST_SHORTENINGS, REACH_OF_PIECE, SHARE_OF_INTERPOLATION,
+    SHARE_OF_SERIES, length,
+};
+use crate::step;
+
+/// A step before it is made.
+struct Plan {
+    length: f64,
+    pieces: usize,
+    /// Displacement per time at its fastest, about.
+    fastest: f64,
+}
+
+impl Integrator<'_> {
+    /// Makes a step: its pieces wait, the memory knows of all of it. False where collocation is to make it.
+    pub(super) fn step_by_series(&mut self, until: f64) -> bool {
+        if !self.switch.is_to_series() {
+            return false;
+        }
+        let end = self.next_end(until);
+        let made = self.look_ahead() && self.plan(end).is_some_and(|plan| self.make(&plan, end));
+        if !made && self.switch.left_series() {
+            self.work.switches += 1;
+            if let Some(last) = &self.last {
+                self.control.resume(last.along.h);
+            }
+        }
+        made
+    }
+
+    /// The series from here on; false where there is none.
+    fn look_ahead(&mut self) -> bool {
+        let order = self.chain.order();
+        let alpha = self.model.alpha();
+        let room = self.chain.start(self.modes.groups(), alpha, self.modes.of_tip());
+        self.modes.derivatives(order + 1, alpha, room);
+        for (force, series) in self.force.iter().zip(&mut self.chain.force) {
+            if !force.series(self.t, &mut series[..order]) {
+                return false;
+            }
+        }
+        let acting = Acting {
+            stiffness: self.stiffness,
+            support: self.support.velocity(self.t),
+            healing: self.healing(),
+            inertia: self.wider().inertia.map(|mass| (mass, self.velocity[0])),
+            extension: self.extension,
+            y: self.y,
+            eta: self.frame.eta(self.y),
+            width: self.frame.width(),
+        };
+        self.chain.run(&acting);
+        true
+    }
+
+    /// How long a step, in how many pieces; `None` where collocation gets farther.
+    fn plan(&mut self, end: f64) -> Option<Plan> {
+        let [along, across] = self.chain.displacement();
+        let error = SHARE_OF_SERIES * self.control.target();
+        let of = |series: &[f64]| length::length(series, error);
+        let mut over = of(along.coefficients()).min(of(across.coefficients()));
+        if let Some(mass) = self.wider().inertia {
+            // An error of the velocity leads so far astray before friction has used it up.
+            let mut coasting = [0.0; MOST_ORDER + 1];
+            let order = self.chain.order();
+            for (k, c) in along.coefficients().iter().enumerate() {
+                coasting[k] = mass * k as f64 * c;
+            }
+            over = over.min(of(&coasting[1..=order]));
+        }
+        over = over.min(self.longest_step()).min(self.longest_healing());
+        let limited = self.reach_of_piece();
+        let longest = (FARTHEST * limited).min(self.visits.farthest(over * self.healing()));
+        let outlook = |over: f64| [along, across].map(|series| Outlook::of(&series.over(over)));
+        let moved = |outlook: &[Outlook; 2]| self.effective([outlook[0].moved, outlook[1].moved]);
+        let mut ahead = outlook(over);
+        for _ in 0..MOST_SHORTENINGS {
+            let moved = moved(&ahead);
+            if moved <= longest {
+                break;
+            }
+            over *= (0.9 * longest / moved).max(0.3);
+            ahead = outlook(over);
+        }
+        let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
+        let steepest = ahead[0].steepest.max(ahead[1].steepest);
+        let part = pieces::longest(steepest, error);
+        let piece = over * part.min(limited / moved(&ahead).max(f64::MIN_POSITIVE));
+        let length = over.min(MOST_PIECES as f64 * piece);
+        let fastest = self.effective([ahead[0].fastest, ahead[1].fastest]) / over;
+        let (eta, width) = (self.frame.eta(self.y), self.frame.width());
+        let fades = self.fastest(self.chain.curvatures(eta, width));
+        // A step of collocation leads no farther either.
+        let most = limited / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
+        let order = self.chain.order();
+        if self.switch.leaves(fades * length, fades * most, order) {
+            return None;
+        }
+        // As in collocation: the end is met, or enough left for another step.
+        let distance = end - self.t;
+        let length = if length >= distance * (1.0 - 1e-9) {
+            distance
+        } else if 2.0 * length > distance {
+            0.5 * distance
+        } else {
+            length
+        };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let pieces = ((length / piece).ceil() as usize).clamp(1, MOST_PIECES);
+        Some(Plan { length, pieces, fastest })
+    }
+
+    /// How long a step may be for what heals within it: rules for visits have an end, and of e^{-t/T} the terms beyond the
+    /// order are to fall by half from one to the next.
+    fn longest_healing(&self) -> f64 {
+        let times = self.visits.most_healing().min(0.5 * self.chain.order() as f64);
+        self.wider().healing_time.map_or(f64::INFINITY, |time| times * time)
+    }
+
+    /// How far a piece may lead: its nodes stand for what it carves.
+    fn reach_of_piece(&self) -> f64 {
+        REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
+    }
+
+    /// The pieces of a step, shortened to where exponentials and layers hold.
+    fn make(&mut self, plan: &Plan, end: f64) -> bool {
+        let Plan { mut length, mut pieces, fastest } = *plan;
+        for _ in 0..MOST_SHORTENINGS {
+            let Some(total) = landing(self.t, length, end) else { return false };
+            let nodes = pieces::nodes(pieces);
+            let [x, y] = self.chain.displacement();
+            let (mut room_x, mut room_y) = (pieces::ROOM_FOR_NODES, pieces::ROOM_FOR_NODES);
+            let along = nodes.table.sums(&x.over(total), &mut room_x);
+            let across = nodes.table.sums(&y.over(total), &mut room_y);
+            let Some(shorter) = self.broken(&nodes.parts, (along, across)) else {
+                self.remember_series(fastest, total);
+                self.accept_series((along, across), total);
+                return true;
+            };
+            let shorter = shorter * total;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+            let fewer = (pieces as f64 * shorter / length).ceil() as usize;
+            (pieces, length) = (fewer.clamp(1, pieces), shorter);
+        }
+        false
+    }
+
+    /// A part of a step that goes too far back for the exponentials, or too far across for the layers.
+    fn broken(&self, parts: &[f64], (along, across): (&[f64], &[f64])) -> Option<f64> {
+        let mut farthest = self.modes.behind();
+        for ((part, x), y) in parts.iter().zip(along).zip(across) {
+            farthest = farthest.max(*x);
+            let is_held = self.frame.eta(self.y + y).abs() <= self.frame.radius();
+            if *x < farthest - self.modes.retreat() || !is_held {
+                return Some(0.7 * part);
+            }
+        }
+        None
+    }
+
+    /// Hands out the pieces, and moves the tip to the end of the last.
+    fn accept_series(&mut self, (along, across): (&[f64], &[f64]), total: f64) {
+        let start = self.t;
+        let (along, across) = (along.as_chunks::<STAGES>().0, across.as_chunks::<STAGES>().0);
+        let mut before = [0.0; 2];
+        for (i, (x, y)) in along.iter().zip(across).enumerate() {
+            let part = (i + 1) as f64 / along.len() as f64;
+            // Ends are representable times.
+            let end = if i + 1 < along.len() { start + part * total } else { start + total };
+            let step =
+                self.step_to(end - self.t, [x.map(|x| x - before[0]), y.map(|y| y - before[1])]);
+            before = [x[STAGES - 1], y[STAGES - 1]];
+            self.accept(step);
+        }
+        self.switch.made_series();
+        self.work.series += 1;
+    }
+
+    /// Tells the memory of the whole step, which begins where the tip is.
+    fn remember_series(&mut self, fastest: f64, total: f64) {
+        let healing = total * self.healing();
+        let rule = self.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
+        let [x, y] = self.chain.displacement().each_ref().map(|series| series.over(total));
+        self.velocity = [x.slope_at_end() / total, y.slope_at_end() / total];
+        let (mut room_x, mut room_y) = (visits::ROOM, visits::ROOM);
+        let (along, across) = (rule.table.sums(&x, &mut room_x), rule.table.sums(&y, &mut room_y));
+        let mut room = [0.0; visits::MOST_NODES];
+        let weights = &mut room[..along.len()];
+        weights.iter_mut().zip(&rule.weights).for_each(|(weight, spent)| *weight = spent * total);
+        if healing > 0.0 {
+            visits::fade(&rule.nodes, healing, weights);
+        }
+        self.remember(along, across, weights, total);
+    }
+}

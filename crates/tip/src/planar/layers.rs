@@ -1,0 +1,217 @@
+//! Layers across the scan: a Gaussian of the distance between two points as a sum of products.
+//!
+//! About a center c, with η = (y - c)/v and `φ_m(η) = η^m e^{-η²/2}/√m!`,
+//!
+//! ```text
+//!     e^{-(η-η')²/2} = Σ_m φ_m(η) φ_m(η')        dφ_m/dη = √m φ_{m-1} - √(m+1) φ_{m+1}
+//! ```
+//!
+//! The squares of `φ_m(η)` are the probabilities of a Poisson distribution of mean η². So the layers from M on amount to at
+//! most P[Poisson(ρ²) ≥ M] for any two points within ρ of the center, by the inequality of Cauchy and Schwarz. A change of
+//! center is a rotation of the φ, as long as none of them is cut off:
+//!
+//! ```text
+//!     φ_a(η - D) = Σ_b T_ab(D) φ_b(η)            T_0b = e^{-D²/2} D^b/√b!
+//!                                                √(a+1) T_{a+1,b} = √b T_{a,b-1} - D T_ab
+//! ```
+//!
+//! (`φ_m(η)` are the amplitudes of a coherent state of the harmonic oscillator, T is its displacement operator.)
+
+use crate::elementary::exp;
+
+/// Layers side by side in the vectors of the machine: their number is a multiple of it.
+pub(super) const LANES: usize = 8;
+/// Of so many layers.
+pub(super) type Lanes = [f64; LANES];
+/// More layers would cost more than a sum over the history: a range of 20 widths.
+const MOST: usize = 256;
+
+/// `φ_m` at η, as many as there is room for.
+pub(super) fn values(eta: f64, phi: &mut [Lanes]) {
+    let mut value = exp(-0.5 * eta * eta);
+    for (phi, roots) in phi.iter_mut().zip(INVERSE_ROOTS.as_chunks::<LANES>().0) {
+        for i in 0..LANES {
+            phi[i] = value;
+            value *= eta * roots[i];
+        }
+    }
+}
+
+/// dφ/dη at η, from φ: `√m φ_{m-1} - η φ_m`. Applied to the result once more and less φ, it is the second derivative.
+pub(super) fn slopes(eta: f64, phi: &[Lanes], slope: &mut [Lanes]) {
+    let mut below = 0.0;
+    let roots = ROOTS.as_chunks::<LANES>().0;
+    for ((slope, phi), roots) in slope.iter_mut().zip(phi).zip(roots) {
+        for i in 0..LANES {
+            slope[i] = roots[i] * below - eta * phi[i];
+            below = phi[i];
+        }
+    }
+}
+
+/// √m
+pub(super) const ROOTS: [f64; MOST + LANES] = {
+    let mut roots = [0.0; MOST + LANES];
+    let mut m = 1;
+    while m < MOST + LANES {
+        roots[m] = root(m as f64);
+        m += 1;
+    }
+    roots
+};
+
+/// 1/√(m+1)
+const INVERSE_ROOTS: [f64; MOST] = {
+    let mut inverse = [0.0; MOST];
+    let mut m = 0;
+    while m < MOST {
+        inverse[m] = 1.0 / ROOTS[m + 1];
+        m += 1;
+    }
+    inverse
+};
+
+/// √x of a number of at least 1, by Newton's iteration: it falls until round-off.
+const fn root(x: f64) -> f64 {
+    let mut root = x;
+    loop {
+        let next = 0.5 * (root + x / root);
+        if next >= root {
+            return root;
+        }
+        root = next;
+    }
+}
+
+/// P[Poisson(mean) ≥ count]
+pub(super) fn poisson_tail(mean: f64, count: usize) -> f64 {
+    let mut term = (1..=count).fold(exp(-mean), |term, m| term * mean / m as f64);
+    let (mut sum, mut m) = (0.0, count);
+    while term > f64::EPSILON * sum || (m as f64) < mean {
+        sum += term;
+        m += 1;
+        term *= mean / m as f64;
+    }
+    sum.min(1.0)
+}
+
+/// What the layers from `count` on amount to at most, in f and in v `f_y`, where visits lie within `of_visits` and the tip within
+/// `of_tip` widths of the center.
+///
+/// `(φ_m')² ≤ 2(m φ_{m-1}² + (m+1) φ_{m+1}²)`, and m φ_{m-1}² = φ_{m-1}² + η² φ_{m-2}².
+pub(super) fn error(of_visits: f64, of_tip: f64, count: usize) -> f64 {
+    let (mean, visits) = (of_tip * of_tip, poisson_tail(of_visits * of_visits, count));
+    let tail = |count: usize| poisson_tail(mean, count);
+    let slopes = tail(count - 1) + mean * (tail(count - 2) + tail(count));
+    (visits * tail(count).max(2.0 * slopes)).sqrt()
+}
+
+/// The radius, in widths, within which so many layers err by at most `allowed`; `None` for more layers than there are.
+pub(super) fn radius(count: usize, allowed: f64) -> Option<f64> {
+    // Errors grow with the radius.
+    let (mut low, mut high) = (0.0, (count as f64).sqrt());
+    while count <= MOST && high - low > 1e-3 {
+        let middle = 0.5 * (low + high);
+        let holds = error(middle, middle, count) <= allowed;
+        (low, high) = if holds { (middle, high) } else { (low, middle) };
+    }
+    (count <= MOST).then_some(low)
+}
+
+/// T of a change of center by D widths: of `states` each is a vector of layers.
+pub(super) fn recenter(distance: f64, states: &mut [Lanes], groups: usize) {
+    let count = groups * LANES;
+    let mut matrix = vec![0.0; count * count];
+    let mut entry = exp(-0.5 * distance * distance);
+    for b in 0..count {
+        matrix[b] = entry;
+        entry *= distance * INVERSE_ROOTS[b];
+    }
+    for a in 0..count - 1 {
+        for b in 0..count {
+            let left = if b > 0 { ROOTS[b] * matrix[a * count + b - 1] } else { 0.0 };
+            let next = (left - distance * matrix[a * count + b]) * INVERSE_ROOTS[a];
+            matrix[(a + 1) * count + b] = next;
+        }
+    }
+    let mut moved = vec![0.0; count];
+    for state in states.chunks_exact_mut(groups).map(<[Lanes]>::as_flattened_mut) {
+        for (moved, row) in moved.iter_mut().zip(matrix.chunks_exact(count)) {
+            *moved = row.iter().zip(&*state).map(|(t, z)| t * z).sum();
+        }
+        state.copy_from_slice(&moved);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn phi(eta: f64, groups: usize) -> Vec<Lanes> {
+        let mut phi = vec![[0.0; LANES]; groups];
+        values(eta, &mut phi);
+        phi
+    }
+
+    fn product(a: &[Lanes], b: &[Lanes]) -> f64 {
+        a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
+    }
+
+    /// Largest errors of h and h' for points within the radius, by h itself.
+    fn worst(radius: f64, groups: usize) -> f64 {
+        let of = |a: f64, b: f64| {
+            let (phi, other) = (phi(a, groups), phi(b, groups));
+            let mut slope = phi.clone();
+            slopes(a, &phi, &mut slope);
+            let h = (-0.5 * (a - b) * (a - b)).exp();
+            let value = (product(&phi, &other) - h).abs();
+            value.max((product(&slope, &other) + (a - b) * h).abs())
+        };
+        let ends = [-radius, -0.3 * radius, 0.8 * radius, radius];
+        ends.iter().flat_map(|a| ends.map(|b| of(*a, b))).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn layers_are_as_near_as_asked_within_their_radius_and_not_far_beyond() {
+        for allowed in [1e-4, 1e-7, 1e-10, 1e-13] {
+            for groups in 1..=5 {
+                let (radius, count) = (radius(LANES * groups, allowed).unwrap(), LANES * groups);
+                let (met, bound) = (worst(radius, groups), error(radius, radius, count));
+                println!("{allowed:e} {count}: {radius:.3} {met:.1e} {bound:.1e}");
+                assert!(bound <= allowed && met <= bound + 2e-15, "{count}: {met:e} {bound:e}");
+                assert!(worst(1.5 * radius, groups) > allowed, "{allowed:e} {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_tail_is_that_of_the_distribution() {
+        // 1 - e^{-2}(1 + 2 + 2 + 4/3)
+        let exact = 1.0 - (-2.0_f64).exp() * (5.0 + 4.0 / 3.0);
+        assert!((poisson_tail(2.0, 4) - exact).abs() < 1e-15);
+        assert!((poisson_tail(30.0, 1) - 1.0).abs() < 1e-12 && poisson_tail(0.0, 3) < 1e-300);
+    }
+
+    #[test]
+    fn second_derivatives_follow_from_first_ones() {
+        let (phi, eta) = (phi(0.8, 3), 0.8);
+        let (mut slope, mut twice) = (phi.clone(), phi.clone());
+        slopes(eta, &phi, &mut slope);
+        slopes(eta, &slope, &mut twice);
+        // About another point near: h'' = ((η-η')² - 1) h.
+        let other = self::phi(0.5, 3);
+        let exact = (0.09 - 1.0) * (-0.045_f64).exp();
+        assert!((product(&twice, &other) - product(&phi, &other) - exact).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_visit_about_another_center_is_the_same_visit() {
+        for distance in [-0.7, 0.2, 1.1] {
+            let mut moved = phi(0.4, 5);
+            recenter(distance, &mut moved, 5);
+            for (a, b) in moved.as_flattened().iter().zip(phi(0.4 - distance, 5).as_flattened()) {
+                assert!((a - b).abs() < 1e-14, "{distance}: {a} {b}");
+            }
+        }
+    }
+}

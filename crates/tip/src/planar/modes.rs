@@ -1,0 +1,301 @@
+//! The past in two coordinates: of each exponential along the scan and each layer across it one complex number.
+//!
+//! With g'(ξ) ≈ `Σ_j Re(c_j e^{s_j ξ})` on the side of the past and the [`layers`] φ about a center,
+//!
+//! ```text
+//!     z_jm = ∫ w φ_m(η') e^{s_j (x0 - x')} dt'        ∫ w φ_m(η') g⁽ⁿ⁾(x0 + d - x') dt' = Σ_j Re(c_j s_j^{n-1} e^{s_j d} z_jm)
+//! ```
+//!
+//! The case n = 0 reads g itself, of which the error is at most the [area](crate::memory::FitCertificate::area) of the fit.
+
+use super::layers::{self, LANES, Lanes};
+use crate::elementary::complex_exp;
+use crate::exponential::of_lanes;
+use crate::memory::{Fit, Powers, SteadyPast};
+use multiversion::multiversion;
+use num_complex::Complex;
+use std::sync::Arc;
+
+/// Exponentials side by side.
+const TERMS: usize = 4;
+type Terms = ([f64; TERMS], [f64; TERMS]);
+
+/// All of the past.
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    fit: Arc<Fit>,
+    powers: Powers,
+    exponents: Vec<Terms>,
+    /// Layers, in groups of lanes.
+    groups: usize,
+    /// For each term the layers of the real part of its state, then those of the imaginary part.
+    states: Vec<Lanes>,
+    /// The farthest-forward position, as a displacement from the tip.
+    farthest: f64,
+}
+
+/// Of each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
+pub(super) type Jet<'a> = [&'a mut [Lanes]; 3];
+
+impl Modes {
+    /// Nothing remembered yet.
+    pub(super) fn new(fit: Arc<Fit>) -> Self {
+        let terms = fit.terms();
+        let lanes = |terms: &[crate::memory::Term]| -> Terms {
+            let part = |i: usize| terms.get(i).map_or(Complex::from(-1.0), |term| term.exponent);
+            (std::array::from_fn(|i| part(i).re), std::array::from_fn(|i| part(i).im))
+        };
+        let exponents: Vec<Terms> = terms.chunks(TERMS).map(lanes).collect();
+        let powers = Powers::new(terms);
+        Self { fit, powers, exponents, groups: 0, states: vec![], farthest: f64::NEG_INFINITY }
+    }
+
+    /// Exponentials, of which a conjugate pair is one.
+    pub(super) fn terms(&self) -> usize {
+        self.fit.terms().len()
+    }
+
+    /// The layers as groups of lanes.
+    pub(super) fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// How far behind its farthest point the tip is.
+    pub(super) fn behind(&self) -> f64 {
+        self.farthest
+    }
+
+    /// How far behind it the sum holds.
+    pub(super) fn retreat(&self) -> f64 {
+        self.fit.retreat()
+    }
+
+    /// How far behind it a step may begin.
+    pub(super) fn retreat_between_steps(&self) -> f64 {
+        self.fit.retreat_between_steps()
+    }
+
+    /// Numbers that it consists of.
+    pub(super) fn size(&self) -> usize {
+        self.states.len() * LANES
+    }
+
+    /// Derivatives of g at 0, as the sum has them.
+    pub(super) fn of_tip(&self) -> &[f64] {
+        self.powers.of_tip()
+    }
+
+    /// Another number of layers: new ones hold nothing.
+    pub(super) fn resize(&mut self, groups: usize) {
+        let mut states = vec![[0.0; LANES]; 2 * self.terms() * groups];
+        let kept = groups.min(self.groups);
+        if kept > 0 {
+            let old = self.states.chunks_exact(self.groups);
+            states.chunks_exact_mut(groups).zip(old).for_each(|(new, old)| {
+                new[..kept].copy_from_slice(&old[..kept]);
+            });
+        }
+        (self.states, self.groups) = (states, groups);
+    }
+
+    /// The center moves by so many widths.
+    pub(super) fn recenter(&mut self, distance: f64) {
+        layers::recenter(distance, &mut self.states, self.groups);
+    }
+
+    /// All that is remembered times a factor.
+    pub(super) fn fade(&mut self, factor: f64) {
+        self.states.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
+    }
+
+    /// Remembers a steady past on a line, of which these are the layers.
+    pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
+        for (term, states) in
+            self.fit.terms().iter().zip(self.states.chunks_exact_mut(2 * phi.len()))
+        {
+            let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
+            let state = -past.weight / fading * complex_exp(term.exponent * past.distance);
+            let (re, im) = states.split_at_mut(phi.len());
+            add(re, phi, state.re);
+            add(im, phi, state.im);
+        }
+        self.farthest = self.farthest.max(-past.distance);
+    }
+
+    /// Remembers visits, displacements from the tip, which then stands at the last of them: of each the layers times what it
+    /// weighs.
+    pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
+        let Some(moved) = position.last() else { return };
+        self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
+        carry(&mut self.states, &self.exponents, position, (weighted, self.groups));
+    }
+
+    /// Derivatives of the integrals of each layer at the tip, from the 0th on, times a factor: `count` of them, one after the
+    /// other.
+    pub(super) fn derivatives(&self, count: usize, factor: f64, told: &mut [Lanes]) {
+        derivatives(self.powers.rows(), &self.states, (count, factor), told);
+    }
+
+    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
+    pub(super) fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+        jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
+        let exponentials = self.exponents.iter().flat_map(|exponents| {
+            let (re, im) = of_lanes(*exponents, displacement);
+            (0..TERMS).map(move |i| Complex::new(re[i], im[i]))
+        });
+        let states = self.states.chunks_exact(2 * self.groups);
+        for ((term, e), state) in self.fit.terms().iter().zip(exponentials).zip(states) {
+            let (re, im) = state.split_at(self.groups);
+            let mut factor = term.weight * e / term.exponent;
+            for told in jet.iter_mut() {
+                add(told, re, factor.re);
+                add(told, im, -factor.im);
+                factor *= term.exponent;
+            }
+        }
+    }
+}
+
+/// Adds a vector of layers times a factor.
+#[inline(always)]
+fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
+    for (sum, layers) in sum.iter_mut().zip(layers) {
+        for i in 0..LANES {
+            sum[i] += factor * layers[i];
+        }
+    }
+}
+
+/// `z_jm ← e^{s_j Δ} z_jm + Σ_k weighted_km e^{s_j (Δ - position_k)}`
+///
+/// Compiled for wider vectors too: lanes and the order of sums are the same.
+#[multiversion(targets("x86_64+avx2"))]
+fn carry(
+    states: &mut [Lanes],
+    exponents: &[Terms],
+    position: &[f64],
+    (weighted, groups): (&[Lanes], usize),
+) {
+    let moved = position[position.len() - 1];
+    for (states, exponents) in states.chunks_mut(2 * TERMS * groups).zip(exponents) {
+        let (re, im) = of_lanes(*exponents, moved);
+        for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
+            let (real, imaginary) = state.split_at_mut(groups);
+            for (a, b) in real.iter_mut().zip(imaginary) {
+                for m in 0..LANES {
+                    (a[m], b[m]) = (re[i] * a[m] - im[i] * b[m], re[i] * b[m] + im[i] * a[m]);
+                }
+            }
+        }
+        for (position, weighted) in position.iter().zip(weighted.chunks_exact(groups)) {
+            let (re, im) = of_lanes(*exponents, moved - position);
+            for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
+                let (real, imaginary) = state.split_at_mut(groups);
+                add(real, weighted, re[i]);
+                add(imaginary, weighted, im[i]);
+            }
+        }
+    }
+}
+
+/// Row times state, in the order of the terms: the same bits on every machine.
+#[multiversion(targets("x86_64+avx2"))]
+fn derivatives<const ROOM: usize>(
+    rows: &[[f64; ROOM]],
+    states: &[Lanes],
+    (count, factor): (usize, f64),
+    told: &mut [Lanes],
+) {
+    let groups = states.len() / rows.len();
+    for (n, told) in told.chunks_exact_mut(groups).take(count).enumerate() {
+        for (g, told) in told.iter_mut().enumerate() {
+            let mut sum = [0.0; LANES];
+            for (row, state) in rows.iter().zip(states[g..].iter().step_by(groups)) {
+                for i in 0..LANES {
+                    sum[i] += row[n] * state[i];
+                }
+            }
+            *told = sum.map(|sum| factor * sum);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::TipFunction;
+
+    fn modes() -> (TipFunction, Modes) {
+        let tip = TipFunction::default();
+        let mut modes =
+            Modes::new(Fit::cached(&tip, 1e-11, crate::memory::Retreat::Small).unwrap());
+        modes.resize(2);
+        (tip, modes)
+    }
+
+    /// Visits by themselves are the oracle: f and its derivatives at distances along, layers at distances across.
+    #[test]
+    fn states_are_sums_over_visits() {
+        let (tip, mut modes) = modes();
+        let mut visits: Vec<(f64, f64, f64)> = vec![];
+        for n in 0..40 {
+            let part = |k: usize| (k + 1) as f64 / 5.0;
+            let positions: [f64; 5] = std::array::from_fn(|k| 0.7 * part(k) * (0.3 + part(k)));
+            let moved = positions[4];
+            visits.iter_mut().for_each(|visit| visit.0 -= moved);
+            let mut weighted = vec![[0.0; LANES]; 10];
+            for (k, weighted) in weighted.chunks_exact_mut(2).enumerate() {
+                let (eta, weight) = (0.6 * (0.9 * (n as f64 + part(k))).sin(), 0.2 + 0.1 * part(k));
+                visits.push((positions[k] - moved, eta, weight));
+                layers::values(eta, weighted);
+                weighted.as_flattened_mut().iter_mut().for_each(|phi| *phi *= weight);
+            }
+            modes.remember(&positions, &weighted);
+        }
+        let mut told = vec![[0.0; LANES]; 3 * 2];
+        for (d, eta) in [(0.0, 0.0), (0.4, -0.5), (-0.3, 0.6)] {
+            let [value, slope, curvature] = told.get_disjoint_mut([0..2, 2..4, 4..6]).unwrap();
+            modes.at(d, &mut [value, slope, curvature]);
+            let mut phi = vec![[0.0; LANES]; 2];
+            layers::values(eta, &mut phi);
+            for (n, told) in told.chunks_exact(2).enumerate() {
+                let of = |xi: f64| match n {
+                    0 => tip.value(xi),
+                    1 => tip.slope(xi),
+                    _ => tip.slope_and_curvature(xi).1,
+                };
+                let exact: f64 = visits
+                    .iter()
+                    .map(|(x, y, w)| w * of(d - x) * (-0.5 * (eta - y) * (eta - y)).exp())
+                    .sum();
+                let sum: f64 =
+                    phi.as_flattened().iter().zip(told.as_flattened()).map(|(a, b)| a * b).sum();
+                assert!((sum - exact).abs() < 1e-8, "{d} {n}: {sum} {exact}");
+            }
+        }
+        let mut derivatives = vec![[0.0; LANES]; 6];
+        modes.at(0.0, &mut told.get_disjoint_mut([0..2, 2..4, 4..6]).unwrap());
+        modes.derivatives(3, 1.0, &mut derivatives);
+        for (a, b) in derivatives.as_flattened().iter().zip(told.as_flattened()) {
+            assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
+        }
+    }
+
+    /// The fit is one of g'; what it misses of g is the integral of what it misses of g', and at most its area.
+    #[test]
+    fn heights_are_as_near_as_the_area_of_the_error_of_slopes() {
+        for wanted in [1e-5, 1e-8, 1e-11] {
+            let tip = TipFunction::default();
+            let fit = Fit::new(&tip, wanted).unwrap();
+            for i in 0..3000 {
+                let xi = 0.005 * f64::from(i) - fit.retreat();
+                let term = |term: &crate::memory::Term| {
+                    (term.weight / term.exponent * (term.exponent * xi).exp()).re
+                };
+                let error = (fit.terms().iter().map(term).sum::<f64>() - tip.value(xi)).abs();
+                let area = fit.certificate().area;
+                assert!(error <= area + 1e-14, "{xi}: {error:e} {area:e}");
+            }
+        }
+    }
+}

@@ -89,13 +89,18 @@ fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
 }
 
 /// e^{(re + i im) x}, in parts.
-#[inline]
+#[inline(always)]
 pub(crate) fn of_lanes<const N: usize>(
     (re, im): ([f64; N], [f64; N]),
     x: f64,
 ) -> ([f64; N], [f64; N]) {
-    let size = exp(re.map(|re| re * x));
-    let (mut sin, mut cos) = sin_cos(im.map(|im| im * x));
+    // Loops: what maps arrays is a function of its own, not compiled for wider vectors.
+    let (mut a, mut b) = (re, im);
+    for i in 0..N {
+        (a[i], b[i]) = (re[i] * x, im[i] * x);
+    }
+    let size = exp(a);
+    let (mut sin, mut cos) = sin_cos(b);
     for i in 0..N {
         (sin[i], cos[i]) = (size[i] * sin[i], size[i] * cos[i]);
     }

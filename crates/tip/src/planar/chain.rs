@@ -46,15 +46,16 @@ pub(super) struct Chain {
     groups: usize,
     /// Row k: coefficients of t^k of A, n after n, each of all layers.
     rows: Vec<Lanes>,
-    /// Row k: of φ, and of ψ.
-    phi: Vec<Lanes>,
-    psi: Vec<Lanes>,
+    /// Of ψ, then of φ, as they are to be multiplied by `A_m0` and `A_m1`; the highest power first, so that each product of two
+    /// series is a sum along both.
+    layers: Vec<Lanes>,
     /// α g⁽ⁿ⁾(0)
     sources: [f64; MOST_ORDER + 1],
     /// Of the forces along and across.
     pub(super) force: [[f64; MOST_ORDER]; 2],
-    /// Of x0' and y0'.
-    velocity: [[f64; MOST_ORDER]; 2],
+    /// Of x0', likewise the highest first, and of y0'.
+    along: [f64; MOST_ORDER],
+    across: [f64; MOST_ORDER],
     /// Of x0 and y0 less their values at the start.
     displacement: [Series; 2],
 }
@@ -65,11 +66,11 @@ impl Chain {
             order,
             groups: 0,
             rows: vec![],
-            phi: vec![],
-            psi: vec![],
+            layers: vec![],
             sources: [0.0; MOST_ORDER + 1],
             force: [[0.0; MOST_ORDER]; 2],
-            velocity: [[0.0; MOST_ORDER]; 2],
+            along: [0.0; MOST_ORDER],
+            across: [0.0; MOST_ORDER],
             displacement: [Series::zero(order), Series::zero(order)],
         }
     }
@@ -88,13 +89,17 @@ impl Chain {
         (self.order + 1) * self.groups
     }
 
+    /// Where the layers at the start are.
+    fn first_layers(&self) -> usize {
+        (self.order - 1) * 2 * self.groups
+    }
+
     /// Room for what a series of so many groups of layers begins with: A, n after n, from 0 to the order.
     pub(super) fn start(&mut self, groups: usize, alpha: f64, of_tip: &[f64]) -> &mut [Lanes] {
         if groups != self.groups {
             self.groups = groups;
             self.rows = vec![[0.0; LANES]; self.order * self.stride()];
-            self.phi = vec![[0.0; LANES]; self.order * groups];
-            self.psi = self.phi.clone();
+            self.layers = vec![[0.0; LANES]; self.order * 2 * groups];
         }
         self.sources.iter_mut().zip(of_tip).for_each(|(source, of_tip)| *source = alpha * of_tip);
         let stride = self.stride();
@@ -103,52 +108,56 @@ impl Chain {
 
     /// The series, from what was put into the room that [`start`](Self::start) gave, and from the forces.
     pub(super) fn run(&mut self, acting: &Acting) {
-        values(acting.eta, &mut self.phi[..self.groups]);
-        slopes(acting.eta, &self.phi[..self.groups], &mut self.psi[..self.groups]);
+        let first = self.first_layers();
+        let (psi, phi) = self.layers[first..].split_at_mut(self.groups);
+        values(acting.eta, 1.0, phi);
+        slopes(acting.eta, phi, psi);
         run(self, acting);
     }
 
-    /// Of the surface of the past, at the start.
-    pub(super) fn curvatures(&self, eta: f64, width: f64) -> Curvatures {
+    /// Of the surface of the past, at the start; `room` is for as many groups of layers.
+    pub(super) fn curvatures(&self, eta: f64, width: f64, room: &mut Vec<Lanes>) -> Curvatures {
         let groups = self.groups;
-        let (phi, psi) = (&self.phi[..groups], &self.psi[..groups]);
-        let mut bend = psi.to_vec();
-        slopes(eta, psi, &mut bend);
-        bend.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
+        let (psi, phi) = self.layers[self.first_layers()..].split_at(groups);
+        room.resize(groups, [0.0; LANES]);
+        slopes(eta, psi, room);
+        room.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
         let of = |n: usize, layers: &[Lanes]| dot(layers, &self.rows[n * groups..][..groups]);
-        [-of(2, phi), -of(1, psi) / width, -of(0, &bend) / (width * width)]
+        [-of(2, phi), -of(1, psi) / width, -of(0, room) / (width * width)]
     }
 
+    /// For so many groups: where the compiler knows how many, loops over them are none.
     #[inline(always)]
-    fn coefficients(&mut self, acting: &Acting) {
+    fn coefficients(&mut self, groups: usize, acting: &Acting) {
         if let Some((_, velocity)) = acting.inertia {
-            self.velocity[0][0] = velocity;
+            self.along[MOST_ORDER - 1] = velocity;
         }
         for k in 0..self.order {
-            let along = self.reading::<1>(k);
-            let across = self.reading::<0>(k) / acting.width;
-            self.advance(k, [along, across], acting);
+            let [across, along] = self.reading(groups, k);
+            self.advance(k, [along, across / acting.width], acting);
             if k + 1 < self.order {
-                self.next_layers(k, acting);
-                self.next_row(k, acting);
+                self.next_layers(groups, k, acting);
+                self.next_row(groups, k, acting);
             }
         }
     }
 
-    /// Coefficient k of `Σ_m φ_m A_m1`, or of `Σ_m ψ_m A_m0`.
+    /// Coefficients k of `Σ_m ψ_m A_m0` and `Σ_m φ_m A_m1`.
     #[inline(always)]
-    fn reading<const N: usize>(&self, k: usize) -> f64 {
-        let (groups, stride) = (self.groups, self.stride());
-        let layers = if N == 1 { &self.phi } else { &self.psi };
-        let mut sums = [[0.0; LANES]; 2];
-        for (i, layers) in layers[..(k + 1) * groups].chunks_exact(groups).enumerate() {
-            let row = &self.rows[(k - i) * stride + N * groups..][..groups];
-            let sum = &mut sums[i % 2];
-            for (a, b) in layers.iter().zip(row) {
-                (0..LANES).for_each(|i| sum[i] += a[i] * b[i]);
+    fn reading(&self, groups: usize, k: usize) -> [f64; 2] {
+        let (both, stride) = (2 * groups, (self.order + 1) * groups);
+        let layers = self.layers[(self.order - 1 - k) * both..].chunks_exact(both);
+        let (mut across, mut along) = ([0.0; LANES], [0.0; LANES]);
+        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
+            let ((psi, phi), (value, slope)) = (layers.split_at(groups), row.split_at(groups));
+            for (psi, value) in psi.iter().zip(value) {
+                add_product(&mut across, psi, value);
+            }
+            for (phi, slope) in phi.iter().zip(slope) {
+                add_product(&mut along, phi, slope);
             }
         }
-        total(&std::array::from_fn(|i| sums[0][i] + sums[1][i]))
+        [total(&across), total(&along)]
     }
 
     /// The next coefficients of velocities and displacements, from those of what the groove pushes with.
@@ -161,39 +170,42 @@ impl Chain {
             1 => (acting.support - x.at(1), y.at(1)),
             _ => (-x.at(k), y.at(k)),
         };
-        let pull = groove[0] + (extension + self.force[0][k]);
+        let (pull, at) = (groove[0] + (extension + self.force[0][k]), MOST_ORDER - 1 - k);
         match acting.inertia {
-            None => self.velocity[0][k] = pull,
+            None => self.along[at] = pull,
             Some((mass, _)) if k + 1 < self.order => {
-                self.velocity[0][k + 1] = (pull - self.velocity[0][k]) * next / mass;
+                self.along[at - 1] = (pull - self.along[at]) * next / mass;
             }
             Some(_) => {}
         }
-        self.velocity[1][k] = groove[1] + (self.force[1][k] - acting.stiffness * y_now);
-        x.set(k + 1, self.velocity[0][k] * next);
-        y.set(k + 1, self.velocity[1][k] * next);
+        self.across[k] = groove[1] + (self.force[1][k] - acting.stiffness * y_now);
+        x.set(k + 1, self.along[at] * next);
+        y.set(k + 1, self.across[k] * next);
     }
 
     /// φ by `φ' = ψ y0'/v`, and ψ of its neighbours; of the last layer by `ψ = √m φ_{m-1} - η φ_m`.
     #[inline(always)]
-    fn next_layers(&mut self, k: usize, acting: &Acting) {
-        let groups = self.groups;
-        let scale = INVERSE[k + 1] / acting.width;
-        let phi = &mut self.phi[(k + 1) * groups..][..groups];
-        phi.fill([0.0; LANES]);
-        for (i, psi) in self.psi[..(k + 1) * groups].chunks_exact(groups).enumerate() {
-            let factor = scale * self.velocity[1][k - i];
-            for (phi, psi) in phi.iter_mut().zip(psi) {
-                (0..LANES).for_each(|i| phi[i] += factor * psi[i]);
+    fn next_layers(&mut self, groups: usize, k: usize, acting: &Acting) {
+        let both = 2 * groups;
+        let (scale, y) = (INVERSE[k + 1] / acting.width, &self.displacement[1]);
+        let known = (self.order - 1 - k) * both;
+        let (new, before) = self.layers[known - both..].split_at_mut(both);
+        let (psi, phi) = new.split_at_mut(groups);
+        let before = before.chunks_exact(both);
+        for (g, phi) in phi.iter_mut().enumerate() {
+            let mut sum = [0.0; LANES];
+            for (psi, across) in before.clone().zip(&self.across[..=k]) {
+                add(&mut sum, &psi[g], *across);
             }
+            *phi = times(&sum, scale);
         }
-        let last = |row: usize| self.phi[row * groups..].as_flattened()[groups * LANES - 1];
-        let y = &self.displacement[1];
-        let eta = (1..=k + 1).map(|i| y.at(i) * last(k + 1 - i)).sum::<f64>() / acting.width;
-        let top = acting.eta * last(k + 1) + eta;
-        let phi = self.phi[(k + 1) * groups..][..groups].as_flattened();
-        let psi = self.psi[(k + 1) * groups..][..groups].as_flattened_mut();
-        let highest = psi.len() - 1;
+        let mut top = 0.0;
+        for (phi, y) in before.zip(&y.coefficients()[1..]) {
+            top += y * phi[both - 1][LANES - 1];
+        }
+        let top = acting.eta * phi[groups - 1][LANES - 1] + top / acting.width;
+        let (psi, phi) = (psi.as_flattened_mut(), phi.as_flattened());
+        let highest = groups * LANES - 1;
         psi[0] = -phi[1];
         for m in 1..highest {
             psi[m] = ROOTS[m] * phi[m - 1] - ROOTS[m + 1] * phi[m + 1];
@@ -203,73 +215,120 @@ impl Chain {
 
     /// Row k + 1 of A, by `Σ_i x0'_i A_{n+1,k-i}`.
     #[inline(always)]
-    fn next_row(&mut self, k: usize, acting: &Acting) {
-        let (groups, stride) = (self.groups, self.stride());
-        let length = (self.order - k) * groups;
+    fn next_row(&mut self, groups: usize, k: usize, acting: &Acting) {
+        let stride = (self.order + 1) * groups;
         let (before, after) = self.rows.split_at_mut((k + 1) * stride);
-        let factors = &self.velocity[0][..=k];
-        let row = &mut after[..length];
-        let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
-        let done = blocks.len() * BLOCK;
-        for (b, block) in blocks.iter_mut().enumerate() {
-            *block = products(before, (stride, groups + b * BLOCK), factors);
-        }
-        for (b, entry) in rest.iter_mut().enumerate() {
-            [*entry] = products(before, (stride, groups + done + b), factors);
-        }
-        let (next, old) = (INVERSE[k + 1], &before[k * stride..][..length]);
-        let phi = &self.phi[k * groups..][..groups];
-        let sources = row.chunks_exact_mut(groups).zip(old.chunks_exact(groups)).zip(&self.sources);
-        for ((new, old), source) in sources {
-            for ((new, old), phi) in new.iter_mut().zip(old).zip(phi) {
-                for i in 0..LANES {
-                    new[i] = next * (new[i] + source * phi[i] - acting.healing * old[i]);
-                }
+        let row = &mut after[..(self.order - k) * groups];
+        let phi = &self.layers[(self.order - 1 - k) * 2 * groups + groups..][..groups];
+        for (new, source) in row.chunks_exact_mut(groups).zip(&self.sources) {
+            for (new, phi) in new.iter_mut().zip(phi) {
+                *new = times(phi, *source);
             }
+        }
+        if acting.healing > 0.0 {
+            for (new, old) in row.iter_mut().zip(&before[k * stride..]) {
+                add(new, old, -acting.healing);
+            }
+        }
+        let factors = &self.along[MOST_ORDER - 1 - k..];
+        let sums = Sums { rows: before, stride, factors, scale: INVERSE[k + 1] };
+        let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
+        let done = groups + blocks.len() * BLOCK;
+        let (fours, rest_of_fours) = rest.as_chunks_mut::<4>();
+        let done_fours = done + fours.len() * 4;
+        let (twos, ones) = rest_of_fours.as_chunks_mut::<2>();
+        let done_twos = done_fours + twos.len() * 2;
+        for (b, block) in blocks.iter_mut().enumerate() {
+            sums.add(groups + b * BLOCK, block);
+        }
+        for block in fours {
+            sums.add(done, block);
+        }
+        for block in twos {
+            sums.add(done_fours, block);
+        }
+        for entry in ones {
+            sums.add(done_twos, std::array::from_mut(entry));
         }
     }
 }
 
 /// Entries of a row that are summed side by side.
-const BLOCK: usize = 4;
+const BLOCK: usize = 8;
 
-/// `Σ_i factor_i` row_{k-i} of so many entries, in this order on every machine.
-#[inline(always)]
-fn products<const N: usize>(
-    rows: &[Lanes],
-    (stride, from): (usize, usize),
-    factors: &[f64],
-) -> [Lanes; N] {
-    let mut sums = [[0.0; LANES]; N];
-    let mut at = (factors.len() - 1) * stride + from;
-    for factor in factors {
-        let row: &[Lanes; N] =
-            rows[at..].first_chunk().unwrap_or_else(|| unreachable!("a row is longer"));
-        for (sum, row) in sums.iter_mut().zip(row) {
-            (0..LANES).for_each(|i| sum[i] += factor * row[i]);
+/// Rows one after the other, with factors of them and one of their sum.
+struct Sums<'a> {
+    rows: &'a [Lanes],
+    stride: usize,
+    factors: &'a [f64],
+    scale: f64,
+}
+
+impl Sums<'_> {
+    /// Adds the sum of the rows times their factors, from an entry on; in this order on every machine.
+    #[inline(always)]
+    fn add<const N: usize>(&self, from: usize, to: &mut [Lanes; N]) {
+        let mut sums = *to;
+        for (row, factor) in self.rows.chunks_exact(self.stride).zip(self.factors) {
+            let Some((row, _)) = row[from..].split_first_chunk::<N>() else { return };
+            for (sum, row) in sums.iter_mut().zip(row) {
+                add(sum, row, *factor);
+            }
         }
-        at = at.wrapping_sub(stride);
+        for (to, sum) in to.iter_mut().zip(&sums) {
+            *to = times(sum, self.scale);
+        }
     }
-    sums
 }
 
 /// Compiled for wider vectors too: no products are fused with sums, and each lane is a sum of its own, so that the bits are
 /// the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
-    chain.coefficients(acting);
+    match chain.groups {
+        2 => chain.coefficients(2, acting),
+        3 => chain.coefficients(3, acting),
+        4 => chain.coefficients(4, acting),
+        groups => chain.coefficients(groups, acting),
+    }
 }
 
 /// Σ_m of products.
 pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
     let mut sums = [0.0; LANES];
     for (a, b) in a.iter().zip(b) {
-        (0..LANES).for_each(|i| sums[i] += a[i] * b[i]);
+        add_product(&mut sums, a, b);
     }
     total(&sums)
 }
 
+// Loops throughout: closures that iterators call are not compiled for wider vectors.
+
+#[inline(always)]
+fn add(sum: &mut Lanes, row: &Lanes, factor: f64) {
+    for i in 0..LANES {
+        sum[i] += factor * row[i];
+    }
+}
+
+#[inline(always)]
+fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
+    for i in 0..LANES {
+        sum[i] += a[i] * b[i];
+    }
+}
+
+#[inline(always)]
+fn times(row: &Lanes, factor: f64) -> Lanes {
+    let mut product = [0.0; LANES];
+    for i in 0..LANES {
+        product[i] = factor * row[i];
+    }
+    product
+}
+
 #[inline(always)]
 fn total(sums: &Lanes) -> f64 {
-    ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]))
+    // One after the other: sums in pairs would be made in pairs from the start.
+    ((sums[0] + sums[1]) + sums[2]) + sums[3]
 }

@@ -36,25 +36,25 @@ impl Extent {
         self.bins.len()
     }
 
-    /// A visit at (x, y).
-    pub(super) fn add(&mut self, x: f64, y: f64) {
+    /// Visits up to x, between these y.
+    pub(super) fn add(&mut self, x: f64, (low, high): (f64, f64)) {
         let length = self.reach / BINS;
         match self.bins.back_mut() {
             Some(bin) if x <= bin.first + length => {
                 bin.last = bin.last.max(x);
-                (bin.low, bin.high) = (bin.low.min(y), bin.high.max(y));
+                (bin.low, bin.high) = (bin.low.min(low), bin.high.max(high));
             }
-            _ => self.bins.push_back(Bin { first: x, last: x, low: y, high: y }),
+            _ => self.bins.push_back(Bin { first: x, last: x, low, high }),
         }
     }
 
-    /// Of a tip at (x, y) and all visits within its reach; the others are forgotten.
-    pub(super) fn about(&mut self, x: f64, y: f64) -> (f64, f64) {
+    /// Of all visits within the reach of a tip at x, if there are any; the others are forgotten.
+    pub(super) fn about(&mut self, x: f64) -> Option<(f64, f64)> {
         while self.bins.front().is_some_and(|bin| bin.last < x - self.reach) {
             self.bins.pop_front();
         }
-        let widest = |(low, high): (f64, f64), bin: &Bin| (low.min(bin.low), high.max(bin.high));
-        self.bins.iter().fold((y, y), widest)
+        let ranges = self.bins.iter().map(|bin| (bin.low, bin.high));
+        ranges.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
     }
 }
 
@@ -68,8 +68,8 @@ mod tests {
         let visit = |i: u32| (0.1 * f64::from(i), (0.05 * f64::from(i)).sin());
         for i in 0..2000 {
             let (x, y) = visit(i);
-            extent.add(x, y);
-            let (low, high) = extent.about(x, y);
+            extent.add(x, (y, y));
+            let (low, high) = extent.about(x).unwrap();
             // Bins end no sooner than their visits, and no later than by one bin.
             let within = |reach: f64| (0..=i).map(visit).filter(move |v| v.0 >= x - reach);
             assert!(within(reach).all(|(_, y)| low <= y && y <= high));

@@ -1,7 +1,7 @@
 //! Which layers are in use: their center, and how many there are.
 
 use super::extent::Extent;
-use super::layers::{self, LANES};
+use super::layers::{self, LANES, Radii};
 use super::modes::Modes;
 use super::scenario::PlanarError;
 use std::collections::VecDeque;
@@ -17,17 +17,17 @@ pub struct Layers {
     pub error: f64,
 }
 
-/// The center follows the middle of all that can be felt, visits and tip; layers are as many as hold for tip and visits within
-/// the radius. A step that leads beyond it is cut short there.
+/// The center follows the middle of all that can be felt, visits and tip; layers are as many as hold for them. A step that
+/// leads beyond is cut short.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
     width: f64,
     /// Largest error of the layers.
     allowed: f64,
     center: f64,
-    radius: f64,
-    /// Up to which radius so many groups of layers hold: as many as have been asked for.
-    radii: Vec<f64>,
+    radii: Radii,
+    /// Of one group of layers, of two, as many as have been asked for.
+    known: Vec<Radii>,
     extent: Extent,
     /// Of those before, as long as there are visits left of them.
     cuts: VecDeque<Cut>,
@@ -39,18 +39,14 @@ pub(super) struct Frame {
 struct Cut {
     /// Where the tip was.
     x: f64,
-    center: f64,
-    count: usize,
-    /// The farthest visit before it from the center, and the farthest after it, in widths.
-    visits: f64,
-    tip: f64,
+    /// What was cut off, wherever the tip goes.
+    error: f64,
 }
 
-/// Beyond the half-range the radius is to leave this room, in widths, and this part of the half-range: the tip moves on, and
-/// visits are felt from farther away than they were made.
+/// Beyond visits and tip there is to be this room for a step, in widths, and this part of their distance.
 const LEAST_ROOM: (f64, f64) = (0.15, 0.35);
-/// So much more of it, where layers are chosen anew or given up.
-const SPARE_ROOM: f64 = 0.15;
+/// So much more of it, where layers are chosen anew; twice that, where they are given up.
+const SPARE_ROOM: f64 = 0.1;
 
 impl Frame {
     /// For a Gaussian of this width across, and a footprint of this reach along.
@@ -59,11 +55,11 @@ impl Frame {
             width,
             allowed,
             center: 0.0,
-            radius: 0.0,
-            radii: vec![],
+            radii: Radii { tip: 0.0, visits: 0.0 },
+            known: vec![],
             extent: Extent::new(reach),
             cuts: VecDeque::new(),
-            layers: Layers { most: 0, changes: 0, error: 0.0 },
+            layers: Layers { most: 0, changes: 0, error: allowed },
         }
     }
 
@@ -79,82 +75,76 @@ impl Frame {
 
     /// How far the tip may be from the center, in widths.
     pub(super) fn radius(&self) -> f64 {
-        self.radius
+        self.radii.tip
     }
 
     pub(super) fn layers(&self) -> Layers {
-        Layers { error: self.error(), ..self.layers }
+        self.layers
     }
 
     /// Numbers that range and cuts consist of.
     pub(super) fn size(&self) -> usize {
-        4 * (self.extent.bins() + self.cuts.len())
+        4 * self.extent.bins() + 2 * self.cuts.len()
     }
 
-    /// The tip was there.
-    pub(super) fn visit(&mut self, x: f64, y: f64) {
-        self.extent.add(x, y);
-        for cut in &mut self.cuts {
-            cut.tip = cut.tip.max((y - cut.center).abs() / self.width);
-        }
-    }
-
-    /// Chooses the layers for a tip that is there, if those in use no longer do or are too many.
-    pub(super) fn follow(
+    /// Chooses the layers for visits up to `x.0` and between `low` and `high`, and for a tip that goes on from `x.1` within them,
+    /// if those in use do not suit them or are too many. To be told before the visits are remembered.
+    pub(super) fn visit(
         &mut self,
         modes: &mut Modes,
         t: f64,
-        (x, y): (f64, f64),
+        x: (f64, f64),
+        (low, high): (f64, f64),
     ) -> Result<(), PlanarError> {
-        let (low, high) = self.extent.about(x, y);
+        let farthest =
+            |frame: &Self, (low, high): (f64, f64)| frame.eta(low).abs().max(frame.eta(high).abs());
+        let before = self.extent.about(x.1);
+        self.extent.add(x.0, (low, high));
+        let (low, high) = before.map_or((low, high), |(a, b)| (low.min(a), high.max(b)));
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) / self.width);
         let groups = modes.groups();
-        let wanted = half + LEAST_ROOM.0 + LEAST_ROOM.1 * half;
-        let farthest = self.eta(low).abs().max(self.eta(high).abs());
-        let holds = farthest + wanted - half <= self.radius;
-        let is_lean = groups <= 1 || wanted + 2.0 * SPARE_ROOM > self.radii[groups - 2];
-        if holds && is_lean {
+        let is_lean = groups <= 1 || !suits(&self.known[groups - 2], half + 2.0 * SPARE_ROOM);
+        if suits(&self.radii, farthest(self, (low, high))) && is_lean {
             return Ok(());
         }
         let range = 2.0 * half;
-        let needed = self.groups(wanted + SPARE_ROOM).ok_or(PlanarError::Range { t, range })?;
-        if groups > 0 {
-            self.certify(x);
-            let (count, tip) = (LANES * groups, self.eta(y).abs());
-            self.cuts.push_back(Cut { x, center: self.center, count, visits: farthest, tip });
-            self.layers.changes += 1;
+        let needed = self.groups(half + SPARE_ROOM).ok_or(PlanarError::Range { t, range })?;
+        if let Some(before) = before {
+            let error = layers::error_of_visits(farthest(self, before), LANES * groups);
+            self.cut(x.1, error);
         }
         // The more layers, the less is cut off.
         modes.resize(needed.max(groups));
         modes.recenter((middle - self.center) / self.width);
         modes.resize(needed);
-        (self.center, self.radius) = (middle, self.radii[needed - 1]);
+        (self.center, self.radii) = (middle, self.known[needed - 1]);
         self.layers.most = self.layers.most.max(LANES * needed);
         Ok(())
     }
 
-    /// The groups of layers that hold up to this radius.
-    fn groups(&mut self, radius: f64) -> Option<usize> {
-        while self.radii.last().is_none_or(|last| *last < radius) {
-            let count = LANES * (self.radii.len() + 1);
-            self.radii.push(layers::radius(count, self.allowed)?);
+    /// The fewest groups of layers that suit visits and a tip at this distance.
+    fn groups(&mut self, distance: f64) -> Option<usize> {
+        while self.known.last().is_none_or(|last| !suits(last, distance)) {
+            let count = LANES * (self.known.len() + 1);
+            self.known.push(Radii::of(count, self.allowed)?);
         }
-        Some(1 + self.radii.partition_point(|held| *held < radius))
+        Some(1 + self.known.partition_point(|radii| !suits(radii, distance)))
     }
 
-    /// What the layers left out up to here; cuts before which there are no visits left are forgotten.
-    fn certify(&mut self, x: f64) {
-        self.layers.error = self.error();
+    /// Layers are cut off; cuts of which there are no visits left are forgotten.
+    fn cut(&mut self, x: f64, error: f64) {
         let reach = self.extent.reach();
         while self.cuts.front().is_some_and(|cut| cut.x < x - reach) {
             self.cuts.pop_front();
         }
+        self.cuts.push_back(Cut { x, error });
+        let before: f64 = self.cuts.iter().map(|cut| cut.error).sum();
+        self.layers.error = self.layers.error.max(self.allowed + before);
+        self.layers.changes += 1;
     }
+}
 
-    /// What the layers in use leave out, and of what was cut off before; the largest so far.
-    fn error(&self) -> f64 {
-        let of_cut = |cut: &Cut| layers::error(cut.visits, cut.tip, cut.count);
-        let before: f64 = self.cuts.iter().map(of_cut).sum();
-        self.layers.error.max(self.allowed + before)
-    }
+/// Whether layers of these radii hold for visits at this distance, and for a tip that moves on from there.
+fn suits(radii: &Radii, distance: f64) -> bool {
+    distance <= radii.visits && distance + LEAST_ROOM.0 + LEAST_ROOM.1 * distance <= radii.tip
 }

@@ -32,6 +32,8 @@ pub(super) struct Modes {
     states: Vec<Lanes>,
     /// The farthest-forward position, as a displacement from the tip.
     farthest: f64,
+    /// For exponentials.
+    room: Vec<Terms>,
 }
 
 /// Of each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
@@ -47,7 +49,8 @@ impl Modes {
         };
         let exponents: Vec<Terms> = terms.chunks(TERMS).map(lanes).collect();
         let powers = Powers::new(terms);
-        Self { fit, powers, exponents, groups: 0, states: vec![], farthest: f64::NEG_INFINITY }
+        let farthest = f64::NEG_INFINITY;
+        Self { fit, powers, exponents, groups: 0, states: vec![], farthest, room: vec![] }
     }
 
     /// Exponentials, of which a conjugate pair is one.
@@ -127,13 +130,14 @@ impl Modes {
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
-        carry(&mut self.states, &self.exponents, position, (weighted, self.groups));
+        let weighted = (weighted, self.groups);
+        carry(&mut self.states, &self.exponents, position, weighted, &mut self.room);
     }
 
-    /// Derivatives of the integrals of each layer at the tip, from the 0th on, times a factor: `count` of them, one after the
-    /// other.
-    pub(super) fn derivatives(&self, count: usize, factor: f64, told: &mut [Lanes]) {
-        derivatives(self.powers.rows(), &self.states, (count, factor), told);
+    /// Derivatives of the integrals of each layer at the tip, from the 0th on, times a factor: one after the other, as many
+    /// as there is room for.
+    pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
+        derivatives(self.powers.rows(), &self.states, factor, told);
     }
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
@@ -166,7 +170,7 @@ fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
     }
 }
 
-/// `z_jm ← e^{s_j Δ} z_jm + Σ_k weighted_km e^{s_j (Δ - position_k)}`
+/// `z_jm ← e^{s_j Δ} z_jm + Σ_k weighted_km e^{s_j (Δ - position_k)}`; `room` is for the exponentials of a group of terms.
 ///
 /// Compiled for wider vectors too: lanes and the order of sums are the same.
 #[multiversion(targets("x86_64+avx2"))]
@@ -175,47 +179,63 @@ fn carry(
     exponents: &[Terms],
     position: &[f64],
     (weighted, groups): (&[Lanes], usize),
+    room: &mut Vec<Terms>,
 ) {
     let moved = position[position.len() - 1];
     for (states, exponents) in states.chunks_mut(2 * TERMS * groups).zip(exponents) {
         let (re, im) = of_lanes(*exponents, moved);
+        room.clear();
+        for position in position {
+            room.push(of_lanes(*exponents, moved - position));
+        }
         for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
             let (real, imaginary) = state.split_at_mut(groups);
-            for (a, b) in real.iter_mut().zip(imaginary) {
+            for (g, (a, b)) in real.iter_mut().zip(imaginary).enumerate() {
+                let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
                 for m in 0..LANES {
-                    (a[m], b[m]) = (re[i] * a[m] - im[i] * b[m], re[i] * b[m] + im[i] * a[m]);
+                    (x[m], y[m]) = (re[i] * a[m] - im[i] * b[m], re[i] * b[m] + im[i] * a[m]);
                 }
-            }
-        }
-        for (position, weighted) in position.iter().zip(weighted.chunks_exact(groups)) {
-            let (re, im) = of_lanes(*exponents, moved - position);
-            for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
-                let (real, imaginary) = state.split_at_mut(groups);
-                add(real, weighted, re[i]);
-                add(imaginary, weighted, im[i]);
+                for (weighted, (re, im)) in weighted.chunks_exact(groups).zip(&*room) {
+                    for m in 0..LANES {
+                        x[m] += re[i] * weighted[g][m];
+                        y[m] += im[i] * weighted[g][m];
+                    }
+                }
+                (*a, *b) = (x, y);
             }
         }
     }
 }
 
-/// Row times state, in the order of the terms: the same bits on every machine.
+/// Derivatives that are summed side by side.
+const BLOCK: usize = 6;
+
+/// Rows times states, in the order of the terms: the same bits on every machine. What is told are `groups` of lanes for each
+/// derivative; some more of them, as many as fill the last block.
 #[multiversion(targets("x86_64+avx2"))]
 fn derivatives<const ROOM: usize>(
     rows: &[[f64; ROOM]],
     states: &[Lanes],
-    (count, factor): (usize, f64),
+    factor: f64,
     told: &mut [Lanes],
 ) {
     let groups = states.len() / rows.len();
-    for (n, told) in told.chunks_exact_mut(groups).take(count).enumerate() {
-        for (g, told) in told.iter_mut().enumerate() {
-            let mut sum = [0.0; LANES];
-            for (row, state) in rows.iter().zip(states[g..].iter().step_by(groups)) {
-                for i in 0..LANES {
-                    sum[i] += row[n] * state[i];
+    for (block, told) in told.chunks_mut(BLOCK * groups).enumerate() {
+        for g in 0..groups {
+            let mut sums = [[0.0; LANES]; BLOCK];
+            for (row, state) in rows.iter().zip(states.chunks_exact(groups)) {
+                let Some(powers) = row[BLOCK * block..].first_chunk::<BLOCK>() else { break };
+                for (sum, power) in sums.iter_mut().zip(powers) {
+                    for i in 0..LANES {
+                        sum[i] += power * state[g][i];
+                    }
                 }
             }
-            *told = sum.map(|sum| factor * sum);
+            for (told, sum) in told.chunks_exact_mut(groups).zip(&sums) {
+                for i in 0..LANES {
+                    told[g][i] = factor * sum[i];
+                }
+            }
         }
     }
 }
@@ -229,7 +249,7 @@ mod tests {
         let tip = TipFunction::default();
         let mut modes =
             Modes::new(Fit::cached(&tip, 1e-11, crate::memory::Retreat::Small).unwrap());
-        modes.resize(2);
+        modes.resize(4);
         (tip, modes)
     }
 
@@ -243,22 +263,21 @@ mod tests {
             let positions: [f64; 5] = std::array::from_fn(|k| 0.7 * part(k) * (0.3 + part(k)));
             let moved = positions[4];
             visits.iter_mut().for_each(|visit| visit.0 -= moved);
-            let mut weighted = vec![[0.0; LANES]; 10];
-            for (k, weighted) in weighted.chunks_exact_mut(2).enumerate() {
+            let mut weighted = vec![[0.0; LANES]; 20];
+            for (k, weighted) in weighted.chunks_exact_mut(4).enumerate() {
                 let (eta, weight) = (0.6 * (0.9 * (n as f64 + part(k))).sin(), 0.2 + 0.1 * part(k));
                 visits.push((positions[k] - moved, eta, weight));
-                layers::values(eta, weighted);
-                weighted.as_flattened_mut().iter_mut().for_each(|phi| *phi *= weight);
+                layers::values(eta, weight, weighted);
             }
             modes.remember(&positions, &weighted);
         }
-        let mut told = vec![[0.0; LANES]; 3 * 2];
+        let mut told = vec![[0.0; LANES]; 3 * 4];
         for (d, eta) in [(0.0, 0.0), (0.4, -0.5), (-0.3, 0.6)] {
-            let [value, slope, curvature] = told.get_disjoint_mut([0..2, 2..4, 4..6]).unwrap();
+            let [value, slope, curvature] = told.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap();
             modes.at(d, &mut [value, slope, curvature]);
-            let mut phi = vec![[0.0; LANES]; 2];
-            layers::values(eta, &mut phi);
-            for (n, told) in told.chunks_exact(2).enumerate() {
+            let mut phi = vec![[0.0; LANES]; 4];
+            layers::values(eta, 1.0, &mut phi);
+            for (n, told) in told.chunks_exact(4).enumerate() {
                 let of = |xi: f64| match n {
                     0 => tip.value(xi),
                     1 => tip.slope(xi),
@@ -273,9 +292,9 @@ mod tests {
                 assert!((sum - exact).abs() < 1e-8, "{d} {n}: {sum} {exact}");
             }
         }
-        let mut derivatives = vec![[0.0; LANES]; 6];
-        modes.at(0.0, &mut told.get_disjoint_mut([0..2, 2..4, 4..6]).unwrap());
-        modes.derivatives(3, 1.0, &mut derivatives);
+        let mut derivatives = vec![[0.0; LANES]; 12];
+        modes.at(0.0, &mut told.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap());
+        modes.derivatives(1.0, &mut derivatives);
         for (a, b) in derivatives.as_flattened().iter().zip(told.as_flattened()) {
             assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
         }

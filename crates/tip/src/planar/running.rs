@@ -37,6 +37,13 @@ impl<'a> PlanarRunning<'a> {
         Ok(Self { until: scenario.along.until, integrator: Integrator::new(scenario)? })
     }
 
+    /// Steps of this length only, by collocation and without error control: for observing the order of convergence.
+    #[must_use]
+    pub fn with_fixed_step(mut self, h: f64) -> Self {
+        self.integrator.fix_step(h);
+        self
+    }
+
     /// Makes the next step; `None` once the end of the scenario is reached.
     ///
     /// # Errors

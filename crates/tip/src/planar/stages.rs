@@ -198,7 +198,7 @@ impl Room {
         let [phi, slope, bend] = in_three(of_place, self.groups);
         let [value, first, second] = in_three(of_past, self.groups);
         let eta = begin.eta + e / begin.width;
-        values(eta, phi);
+        values(eta, 1.0, phi);
         slopes(eta, phi, slope);
         slopes(eta, slope, bend);
         bend.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
@@ -228,10 +228,10 @@ mod tests {
     fn the_jacobian_is_that_of_the_equations() {
         let tip = TipFunction::default();
         let mut modes = Modes::new(Fit::cached(&tip, 1e-10, Retreat::Small).unwrap());
-        modes.resize(2);
-        let mut weighted = vec![[0.0; LANES]; 6];
-        for (k, weighted) in weighted.chunks_exact_mut(2).enumerate() {
-            values(0.4 * k as f64 - 0.5, weighted);
+        modes.resize(4);
+        let mut weighted = vec![[0.0; LANES]; 12];
+        for (k, weighted) in weighted.chunks_exact_mut(4).enumerate() {
+            values(0.4 * k as f64 - 0.5, 1.0, weighted);
         }
         modes.remember(&[0.3, 0.9, 1.1], &weighted);
         let inertia = Inertia::new(0.4, 0.6, 0.7);

@@ -4,5 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod convergence;
-mod motion;
+mod limits;
+mod lines;
 mod reference;
+mod theory;

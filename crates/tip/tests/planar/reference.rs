@@ -84,8 +84,8 @@ impl Footprint {
     }
 }
 
-/// A rule on the unit interval.
-fn gauss(n: usize) -> Vec<(f64, f64)> {
+/// Gauss's rule on the unit interval.
+pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
     let rule = GaussLegendre::new(NonZeroUsize::new(n).unwrap());
     let pair = |(x, w): &(f64, f64)| (0.5 * (1.0 + x), 0.5 * w);
     let mut rule: Vec<_> = rule.as_node_weight_pairs().iter().map(pair).collect();

@@ -7,15 +7,15 @@
 use super::chain::INVERSE;
 use super::series::MOST_ORDER;
 
-/// The order for an error ε of a step.
-pub(crate) fn order(error: f64) -> usize {
+/// The order for an error ε of a step, by how much higher it is to be for an e-th of the error.
+pub(crate) fn order(error: f64, per_digit: f64) -> usize {
     let digits = -libm::log(error);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let order = (ORDER_PER_DIGIT * digits).round().max(0.0) as usize;
+    let order = (per_digit * digits).round().max(0.0) as usize;
     order.clamp(LEAST_ORDER, MOST_ORDER)
 }
 
-const ORDER_PER_DIGIT: f64 = 1.0;
+pub(crate) const ORDER_PER_DIGIT: f64 = 1.0;
 const LEAST_ORDER: usize = 10;
 
 /// So many of the last coefficients are looked at: of an even function every other one vanishes, and where poles come in

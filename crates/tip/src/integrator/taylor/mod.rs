@@ -67,7 +67,7 @@ pub(crate) const MOST_SHORTENINGS: usize = 8;
 impl Taylor {
     pub(super) fn new(model: &Model, target: f64) -> Self {
         Self {
-            order: length::order(SHARE_OF_SERIES * target),
+            order: length::order(SHARE_OF_SERIES * target, length::ORDER_PER_DIGIT),
             steady_weight: model.steady_weight(),
             told: Derivatives::nothing(),
             chain: Chain::new(),

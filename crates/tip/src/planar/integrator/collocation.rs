@@ -1,5 +1,6 @@
 //! Steps by collocation, with their error control.
 
+use super::super::scenario::PlanarError;
 use super::super::stages::{Solution, StageEquations};
 use super::Integrator;
 use crate::collocation::{RADAU, STAGES, Stages};
@@ -14,7 +15,7 @@ const WEIGHT_OF_DEFECT: f64 = 1.5;
 
 impl Integrator<'_> {
     /// Makes a step that ends at `until` at the latest.
-    pub(super) fn step_by_collocation(&mut self, until: f64) -> Result<(), IntegrationError> {
+    pub(super) fn step_by_collocation(&mut self, until: f64) -> Result<(), PlanarError> {
         let now = self.forces_now();
         if self.wider().inertia.is_none() {
             self.velocity[0] = now[0];
@@ -26,7 +27,7 @@ impl Integrator<'_> {
             let (t, tolerance) = (self.t, self.control.tolerance());
             h = landing(t, h, end).ok_or(IntegrationError::StepTooSmall { t, h, tolerance })?;
             match self.attempt(h) {
-                Ok(()) => return Ok(()),
+                Ok((solution, spent)) => return self.accept_stages(&solution, h, &spent),
                 Err(shorter) => {
                     self.work.rejected += 1;
                     h = shorter;
@@ -45,8 +46,8 @@ impl Integrator<'_> {
         step::longest_displacement(self.model.tip().band())
     }
 
-    /// Makes a step of length h, or says which shorter length to try instead.
-    fn attempt(&mut self, h: f64) -> Result<(), f64> {
+    /// A step of length h, with what is left of each node at its end, or which shorter length to try instead.
+    fn attempt(&mut self, h: f64) -> Result<(Solution, Stages), f64> {
         let longest = self.longest_displacement();
         let mass = self.wider().inertia;
         let inertia = mass.map(|mass| Inertia::new(mass, h, self.velocity[0]));
@@ -56,13 +57,13 @@ impl Integrator<'_> {
         let room = (self.frame.radius() - self.frame.eta(self.y).abs()) * self.frame.width();
         let equations = self.equations(h, inertia.as_ref());
         let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
-        let carving = equations.carving;
+        let spent = equations.carving[STAGES - 1];
         self.work.newton_iterations += solved.iterations;
         let Some(solution) = solved.solution else { return Err(0.3 * h) };
         let [along, across] = &solution.displacement;
         let moves = along.iter().zip(across).map(|(d, e)| self.effective([*d, *e]));
         let moved = moves.fold(0.0, f64::max);
-        if moved > OVERSHOOT * longest {
+        if moved > OVERSHOOT * longest && !self.control.is_fixed() {
             return Err(h * (0.8 * OVERSHOOT * longest / moved).max(0.1));
         }
         let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
@@ -71,8 +72,7 @@ impl Integrator<'_> {
             return Err(0.5 * h);
         }
         self.judge(&solution, h)?;
-        self.accept_stages(&solution, h, &carving[STAGES - 1]);
-        Ok(())
+        Ok((solution, spent))
     }
 
     fn equations<'b>(&'b self, h: f64, inertia: Option<&'b Inertia>) -> StageEquations<'b> {
@@ -133,12 +133,18 @@ impl Integrator<'_> {
         self.control.judge(signs, h, (1.0 + along + mixed.abs()).max(0.0), beside)
     }
 
-    fn accept_stages(&mut self, solution: &Solution, h: f64, spent: &Stages) {
+    fn accept_stages(
+        &mut self,
+        solution: &Solution,
+        h: f64,
+        spent: &Stages,
+    ) -> Result<(), PlanarError> {
         let [d, e] = solution.displacement;
         let step = self.step_to(h, [d, e]);
-        self.remember(&d, &e, spent, h);
+        self.remember((&d, &e), spent, h)?;
         self.velocity = [d, e].map(|d| step::velocity_at_end(&d, h));
         self.switch.made(h * self.fastest(solution.curvatures), self.chain.order());
         self.accept(step);
+        Ok(())
     }
 }

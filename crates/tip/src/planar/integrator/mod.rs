@@ -47,7 +47,15 @@ pub(super) struct Integrator<'a> {
     last: Option<Step>,
     made: VecDeque<Step>,
     work: Work,
+    /// For layers.
+    room: Vec<Lanes>,
 }
+
+/// Exponentials that are to hold as far back as for a tip that swings do not fit better: of use below a tolerance of 1e-11.
+const FINEST: f64 = 5e-14;
+
+/// A series costs as much as the third power of its order.
+const ORDER_PER_DIGIT: f64 = 0.7;
 
 /// Kicks and swings back lead behind the farthest point: with either, exponentials are to hold farther back.
 fn retreat(scenario: &PlanarScenario) -> Retreat {
@@ -60,14 +68,14 @@ impl<'a> Integrator<'a> {
     pub(super) fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         let (along, footprint) = (&scenario.along, scenario.footprint()?);
         let model = &along.model;
-        let accuracy = accuracy_needed(model, along.tolerance);
+        let accuracy = accuracy_needed(model, along.tolerance).max(FINEST);
         let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(scenario))?);
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();
         let mut integrator = Self {
             frame: Frame::new(footprint.1.width, reach, accuracy),
-            chain: Chain::new(length::order(SHARE_OF_SERIES * target)),
+            chain: Chain::new(length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT)),
             visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
             switch: Switch::new(model.wider().inertia.is_some()),
             model,
@@ -84,17 +92,19 @@ impl<'a> Integrator<'a> {
             last: None,
             made: VecDeque::new(),
             work: Work::default(),
+            room: vec![],
         };
+        let (x, y) = (integrator.position(), integrator.y);
+        let range = (y.min(0.0), y.max(0.0));
+        integrator.frame.visit(&mut integrator.modes, integrator.t, (x, x), range)?;
         if along.start == Start::Steady {
-            integrator.remember_steady(along.start_position, along.kick)?;
+            integrator.remember_steady(along.kick);
         }
         Ok(integrator)
     }
 
-    /// A tip that moved along the line to here for ever.
-    fn remember_steady(&mut self, x: f64, kick: f64) -> Result<(), PlanarError> {
-        self.frame.visit(x, 0.0);
-        self.follow()?;
+    /// A tip that moved along the line for ever, to where it was kicked from.
+    fn remember_steady(&mut self, kick: f64) {
         let past = SteadyPast {
             distance: -kick,
             velocity: self.model.r(),
@@ -102,9 +112,13 @@ impl<'a> Integrator<'a> {
             weight: self.model.steady_weight(),
         };
         let mut phi = vec![[0.0; LANES]; self.modes.groups()];
-        values(self.frame.eta(0.0), &mut phi);
+        values(self.frame.eta(0.0), 1.0, &mut phi);
         self.modes.remember_steady(&past, &phi);
-        Ok(())
+    }
+
+    /// Steps of this length by collocation, without error control.
+    pub(super) fn fix_step(&mut self, h: f64) {
+        self.control.fix(h);
     }
 
     pub(super) fn work(&self) -> Work {
@@ -122,21 +136,14 @@ impl<'a> Integrator<'a> {
     /// The next step; `None` where the tip is at the end.
     pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
         if self.made.is_empty() && self.t < until {
-            self.follow()?;
             self.check_retreat()?;
-            if !self.step_by_series(until) {
+            if !self.step_by_series(until)? {
                 self.step_by_collocation(until)?;
             }
         }
         let step = self.made.pop_front();
         self.work.steps += u64::from(step.is_some());
         Ok(step)
-    }
-
-    /// The layers that hold where the tip is.
-    fn follow(&mut self) -> Result<(), PlanarError> {
-        let place = (self.position(), self.y);
-        self.frame.follow(&mut self.modes, self.t, place)
     }
 
     fn check_retreat(&self) -> Result<(), PlanarError> {
@@ -189,20 +196,31 @@ impl<'a> Integrator<'a> {
         along.max(across) + mixed.abs()
     }
 
-    /// Tells the memory of visits of these displacements from the tip and of this weight, after which it stands at the last.
-    fn remember(&mut self, along: &[f64], across: &[f64], weights: &[f64], h: f64) {
+    /// Tells the memory of visits of these displacements from the tip and of this weight, in a step of length h, after which it
+    /// stands at the last. Layers are those that hold for them.
+    fn remember(
+        &mut self,
+        (along, across): (&[f64], &[f64]),
+        weights: &[f64],
+        h: f64,
+    ) -> Result<(), PlanarError> {
+        let (x, y) = (self.position(), self.y);
+        let range = |moved: &[f64]| {
+            moved.iter().fold((0.0, 0.0), |(a, b): (f64, f64), d| (a.min(*d), b.max(*d)))
+        };
+        let ((_, farthest), (low, high)) = (range(along), range(across));
+        let places = (x + farthest, x + along[along.len() - 1]);
+        self.frame.visit(&mut self.modes, self.t, places, (y + low, y + high))?;
         let groups = self.modes.groups();
-        let mut weighted = vec![[0.0; LANES]; groups * along.len()];
-        let visits = weighted.chunks_exact_mut(groups).zip(along.iter().zip(across)).zip(weights);
-        for ((layers, (d, e)), weight) in visits {
-            values(self.frame.eta(self.y + e), layers);
-            layers.as_flattened_mut().iter_mut().for_each(|layer| *layer *= weight);
-            self.frame.visit(self.position() + d, self.y + e);
+        self.room.resize(groups * along.len(), [0.0; LANES]);
+        for ((layers, e), weight) in self.room.chunks_exact_mut(groups).zip(across).zip(weights) {
+            values(self.frame.eta(y + e), *weight, layers);
         }
         if let Some(time) = self.wider().healing_time {
             self.modes.fade(crate::elementary::exp(-h / time));
         }
-        self.modes.remember(along, &weighted);
+        self.modes.remember(along, &self.room);
+        Ok(())
     }
 
     /// Forces on the tip where it is, along and across, after what may jump there.
@@ -211,11 +229,11 @@ impl<'a> Integrator<'a> {
         let mut room: [Vec<Lanes>; 4] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
         let [phi, psi, value, first] = &mut room;
         let mut groove = vec![[0.0; LANES]; 2 * groups];
-        self.modes.derivatives(2, alpha, &mut groove);
+        self.modes.derivatives(alpha, &mut groove);
         value.copy_from_slice(&groove[..groups]);
         first.copy_from_slice(&groove[groups..]);
         let eta = self.frame.eta(self.y);
-        values(eta, phi);
+        values(eta, 1.0, phi);
         slopes(eta, phi, psi);
         let force = self.force.map(|force| force.value(self.t.next_up()));
         let across = super::chain::dot(psi, value) / self.frame.width();

@@ -1,6 +1,7 @@
 //! Steps by Taylor series: long ones, handed out in pieces.
 
 use super::super::chain::Acting;
+use super::super::scenario::PlanarError;
 use super::Integrator;
 use crate::collocation::STAGES;
 use crate::integrator::landing::landing;
@@ -23,27 +24,27 @@ struct Plan {
 
 impl Integrator<'_> {
     /// Makes a step: its pieces wait, the memory knows of all of it. False where collocation is to make it.
-    pub(super) fn step_by_series(&mut self, until: f64) -> bool {
-        if !self.switch.is_to_series() {
-            return false;
+    pub(super) fn step_by_series(&mut self, until: f64) -> Result<bool, PlanarError> {
+        if self.control.is_fixed() || !self.switch.is_to_series() {
+            return Ok(false);
         }
         let end = self.next_end(until);
-        let made = self.look_ahead() && self.plan(end).is_some_and(|plan| self.make(&plan, end));
+        let plan = if self.look_ahead() { self.plan(end) } else { None };
+        let made = plan.map_or(Ok(false), |plan| self.make(&plan, end))?;
         if !made && self.switch.left_series() {
             self.work.switches += 1;
             if let Some(last) = &self.last {
                 self.control.resume(last.along.h);
             }
         }
-        made
+        Ok(made)
     }
 
     /// The series from here on; false where there is none.
     fn look_ahead(&mut self) -> bool {
-        let order = self.chain.order();
-        let alpha = self.model.alpha();
+        let (order, alpha) = (self.chain.order(), self.model.alpha());
         let room = self.chain.start(self.modes.groups(), alpha, self.modes.of_tip());
-        self.modes.derivatives(order + 1, alpha, room);
+        self.modes.derivatives(alpha, room);
         for (force, series) in self.force.iter().zip(&mut self.chain.force) {
             if !force.series(self.t, &mut series[..order]) {
                 return false;
@@ -99,7 +100,8 @@ impl Integrator<'_> {
         let length = over.min(MOST_PIECES as f64 * piece);
         let fastest = self.effective([ahead[0].fastest, ahead[1].fastest]) / over;
         let (eta, width) = (self.frame.eta(self.y), self.frame.width());
-        let fades = self.fastest(self.chain.curvatures(eta, width));
+        let curvatures = self.chain.curvatures(eta, width, &mut self.room);
+        let fades = self.fastest(curvatures);
         // A step of collocation leads no farther either.
         let most = limited / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
         let order = self.chain.order();
@@ -133,26 +135,26 @@ impl Integrator<'_> {
     }
 
     /// The pieces of a step, shortened to where exponentials and layers hold.
-    fn make(&mut self, plan: &Plan, end: f64) -> bool {
+    fn make(&mut self, plan: &Plan, end: f64) -> Result<bool, PlanarError> {
         let Plan { mut length, mut pieces, fastest } = *plan;
         for _ in 0..MOST_SHORTENINGS {
-            let Some(total) = landing(self.t, length, end) else { return false };
+            let Some(total) = landing(self.t, length, end) else { return Ok(false) };
             let nodes = pieces::nodes(pieces);
             let [x, y] = self.chain.displacement();
             let (mut room_x, mut room_y) = (pieces::ROOM_FOR_NODES, pieces::ROOM_FOR_NODES);
             let along = nodes.table.sums(&x.over(total), &mut room_x);
             let across = nodes.table.sums(&y.over(total), &mut room_y);
             let Some(shorter) = self.broken(&nodes.parts, (along, across)) else {
-                self.remember_series(fastest, total);
+                self.remember_series(fastest, total)?;
                 self.accept_series((along, across), total);
-                return true;
+                return Ok(true);
             };
             let shorter = shorter * total;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             let fewer = (pieces as f64 * shorter / length).ceil() as usize;
             (pieces, length) = (fewer.clamp(1, pieces), shorter);
         }
-        false
+        Ok(false)
     }
 
     /// A part of a step that goes too far back for the exponentials, or too far across for the layers.
@@ -187,7 +189,7 @@ impl Integrator<'_> {
     }
 
     /// Tells the memory of the whole step, which begins where the tip is.
-    fn remember_series(&mut self, fastest: f64, total: f64) {
+    fn remember_series(&mut self, fastest: f64, total: f64) -> Result<(), PlanarError> {
         let healing = total * self.healing();
         let rule = self.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
         let [x, y] = self.chain.displacement().each_ref().map(|series| series.over(total));
@@ -200,6 +202,6 @@ impl Integrator<'_> {
         if healing > 0.0 {
             visits::fade(&rule.nodes, healing, weights);
         }
-        self.remember(along, across, weights, total);
+        self.remember((along, across), weights, total)
     }
 }

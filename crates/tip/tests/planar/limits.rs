@@ -1,0 +1,178 @@
+//! What a run in two coordinates has in common with one in a single coordinate, what it costs, and what is refused.
+
+use super::lines::{line, tip};
+use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Trajectory, run};
+use stickslip_tip::{
+    Footprint, Gaussian2d, MemoryChoice, Model, Noise, Start, TipFunction, Wider, Work,
+};
+
+fn plain() -> Wider {
+    Wider::default()
+}
+
+/// Largest difference of x0 from the solver of one coordinate.
+fn beside_one_coordinate(scenario: &PlanarScenario, planar: &Trajectory) -> f64 {
+    let line = stickslip_tip::run(&scenario.along).unwrap().trajectory;
+    let t = |i: i32| line.start() + (line.end() - line.start()) * f64::from(i) / 2000.0;
+    (0..=2000).map(|i| (planar.x0(t(i)) - line.x0(t(i))).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn on_its_line_the_tip_moves_as_in_one_coordinate() {
+    for (alpha, start) in [(1.2, Start::Steady), (1.62, Start::Steady), (1.3, Start::Flat)] {
+        let mut scenario = line((tip(1.0, 1.0), plain()), alpha, 0.7, [0.05, 0.0], 50.0);
+        scenario.along.start = start;
+        let run = run(&scenario).unwrap();
+        let error = beside_one_coordinate(&scenario, &run.trajectory);
+        println!("{alpha} {start:?}: {error:.1e}");
+        assert!(error < 5e-9, "{error:e}");
+        assert!((0..500).all(|i| run.trajectory.y0(0.1 * f64::from(i)).abs() < 1e-300));
+    }
+}
+
+/// What a kick across leaves before the spring has pulled the tip back takes a time of 1/κ_y.
+#[test]
+fn as_the_spring_across_stiffens_the_motion_becomes_that_of_one_coordinate() {
+    let difference = |stiffness: f64| {
+        let scenario = line((tip(1.0, 1.0), plain()), 1.2, stiffness, [0.1, 0.4], 36.0);
+        beside_one_coordinate(&scenario, &run(&scenario).unwrap().trajectory)
+    };
+    let differences = [100.0, 200.0, 400.0, 800.0, 1600.0].map(difference);
+    println!("{differences:?}");
+    for (i, pair) in differences.windows(2).enumerate() {
+        let order = (pair[0] / pair[1]).log2();
+        println!("{order:.3}");
+        assert!((order - 1.0).abs() < 0.1 / f64::from(1 << i), "{order}");
+    }
+}
+
+/// Order 2s - 1 = 11 at the ends of steps of s stages.
+#[test]
+fn collocation_converges_at_its_order() {
+    let scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.5, [0.1, 0.3], 24.0);
+    let start = scenario.along.start_time();
+    let end = |steps: u32| {
+        let h = (24.0 - start) / f64::from(steps);
+        let mut running = PlanarRunning::new(&scenario).unwrap().with_fixed_step(h);
+        let last = std::iter::from_fn(|| running.step().unwrap()).last().unwrap();
+        let t = last.end();
+        [last.along.position(&scenario.along.support(), t), last.y0(t)]
+    };
+    let fine = end(40);
+    let error = |steps: u32| {
+        let [x, y] = end(steps);
+        (x - fine[0]).hypot(y - fine[1])
+    };
+    for steps in [5, 6] {
+        let errors = [error(steps), error(2 * steps)];
+        let order = (errors[0] / errors[1]).log2();
+        println!("{errors:?}: {order:.2}");
+        assert!((10.0..12.5).contains(&order), "{order}");
+    }
+}
+
+/// Bits are the same everywhere, and so are counts.
+#[test]
+fn work_is_what_it_was() {
+    for (alpha, stiffness, tolerance, until, work, layers) in [
+        (1.2, 0.25, 1e-7, 60.0, [57, 0, 0, 54, 0], (24, 7)),
+        (1.62, 1.0, 1e-9, 60.0, [202, 0, 0, 97, 0], (16, 2)),
+        (4.0, 0.5, 1e-9, 200.0, [67, 0, 54, 23, 1], (28, 5)),
+    ] {
+        let mut scenario = line((tip(1.0, 1.0), plain()), alpha, stiffness, [0.05, 0.1], until);
+        scenario.along.tolerance = tolerance;
+        let run = run(&scenario).unwrap();
+        let [steps, rejected, newton_iterations, series, switches] = work;
+        assert_eq!(run.work, Work { steps, rejected, newton_iterations, series, switches });
+        assert_eq!((run.layers.most, run.layers.changes), layers);
+    }
+}
+
+/// Snaking and stick-slip for 20,000 units of time: what is kept is the same as after 100.
+#[test]
+fn memory_is_flat() {
+    let mut scenario = line((tip(1.0, 1.0), plain()), 1.4, 0.25, [0.05, 0.1], 20_000.0);
+    scenario.along.tolerance = 1e-5;
+    let mut running = PlanarRunning::new(&scenario).unwrap();
+    let (mut early, mut late) = (0, 0);
+    while let Some(step) = running.step().unwrap() {
+        let most = if step.end() < 200.0 { &mut early } else { &mut late };
+        *most = running.memory_size().max(*most);
+    }
+    println!("{early} {late} {:?} {:?}", running.work(), running.layers());
+    assert!(late <= early + early / 4 && late < 4000, "{early} {late}");
+}
+
+fn refused(change: impl Fn(&mut PlanarScenario)) -> PlanarError {
+    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.5, [0.05, 0.1], 40.0);
+    change(&mut scenario);
+    run(&scenario).unwrap_err()
+}
+
+/// The scenario with this footprint instead.
+fn with_tip(scenario: &mut PlanarScenario, tip: TipFunction) {
+    let model = &scenario.along.model;
+    scenario.along.model = Model::under(*model.wider(), tip, model.alpha(), model.r()).unwrap();
+}
+
+fn with_law(scenario: &mut PlanarScenario, wider: Wider, r: f64) {
+    let tip = scenario.along.model.tip().clone();
+    scenario.along.model = Model::under(wider, tip, 1.2, r).unwrap();
+    scenario.along.start = Start::Flat;
+}
+
+#[test]
+fn what_is_not_there_is_refused_by_name() {
+    for stiffness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = refused(|scenario| scenario.stiffness_across = stiffness);
+        assert!(matches!(error, PlanarError::Stiffness(_)), "{error}");
+    }
+    let error = refused(|scenario| scenario.kick_across = f64::NAN);
+    assert!(matches!(error, PlanarError::Kick(_)), "{error}");
+    let error = refused(|scenario| with_tip(scenario, TipFunction::default()));
+    assert_eq!(error, PlanarError::NoFootprint);
+    let lobes = refused(|scenario| {
+        let term = |amplitude, center_y| Gaussian2d {
+            amplitude,
+            center: 0.0,
+            width: 1.0,
+            center_y,
+            width_y: 1.0,
+        };
+        let terms = [term(1.0, 0.0), term(0.2, 2.0), term(0.2, -2.0)];
+        with_tip(scenario, TipFunction::of_footprint(Footprint::gaussian_sum(&terms).unwrap()));
+    });
+    assert_eq!(lobes, PlanarError::Footprint { layers: 2, lobes: true });
+    let unavailable = [
+        (
+            "a depth limit",
+            refused(|s| with_law(s, Wider { depth_limit: Some(3.0), ..plain() }, 1.0)),
+        ),
+        (
+            "a tip without a spring",
+            refused(|s| with_law(s, Wider { spring: false, ..plain() }, 0.0)),
+        ),
+        ("the memory direct", refused(|s| s.along.memory = MemoryChoice::Direct)),
+        ("the memory fft", refused(|s| s.along.memory = MemoryChoice::Fft)),
+        (
+            "noise on the initial surface",
+            refused(|s| {
+                s.along.noise = Some(Noise { amplitude: 0.1, spacing: 0.3, seed: 1 });
+            }),
+        ),
+        (
+            "an initial surface",
+            refused(|s| {
+                s.along.profile = Some((vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.0]));
+            }),
+        ),
+    ];
+    for (what, error) in unavailable {
+        assert_eq!(error, PlanarError::Unavailable(what));
+        assert!(error.to_string().starts_with(what), "{error}");
+    }
+    let retreat = refused(|scenario| scenario.along.kick = 3.0);
+    assert!(matches!(retreat, PlanarError::Retreat { behind, .. } if behind > 2.9), "{retreat}");
+    let late = refused(|scenario| scenario.along.until = 1.0);
+    assert!(matches!(late, PlanarError::Along(_)), "{late}");
+}

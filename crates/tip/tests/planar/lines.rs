@@ -1,0 +1,174 @@
+//! Runs against the reference.
+
+use super::reference::{Footprint, Motion, Problem};
+use stickslip_tip::planar::{PlanarRun, PlanarScenario, run};
+use stickslip_tip::{Force, Model, Pulse, Scenario, SupportPath, TipFunction, Wider};
+
+/// (48) with these side lobes times a Gaussian across of the width v.
+pub(crate) fn tip(beta: f64, width: f64) -> TipFunction {
+    let along = TipFunction::triple_gaussian(beta, 1.0).unwrap();
+    TipFunction::of_footprint(stickslip_tip::Footprint::separable(along, width).unwrap())
+}
+
+/// A line at r = 1 until t, kicked.
+pub(crate) fn line(
+    (tip, wider): (TipFunction, Wider),
+    alpha: f64,
+    stiffness: f64,
+    kicks: [f64; 2],
+    until: f64,
+) -> PlanarScenario {
+    let model = Model::under(wider, tip, alpha, 1.0).unwrap();
+    let along = Scenario { kick: kicks[0], ..Scenario::new(model, until) };
+    PlanarScenario { kick_across: kicks[1], ..PlanarScenario::new(along, stiffness) }
+}
+
+/// The problem of the reference that is this scenario, with the side lobes and width of its footprint.
+pub(crate) fn problem(scenario: &PlanarScenario, (beta, width): (f64, f64)) -> Problem {
+    let (along, model) = (&scenario.along, &scenario.along.model);
+    Problem {
+        footprint: Footprint::triple(beta, width),
+        alpha: model.alpha(),
+        r: model.r(),
+        stiffness: scenario.stiffness_across,
+        inertia: model.wider().inertia,
+        healing: model.wider().healing_time,
+        support: |problem, t| problem.r * t,
+        force: |_| [0.0; 2],
+        start: along.start_time(),
+        position: [along.start_position - along.kick, scenario.kick_across],
+        velocity: model.r(),
+        steady_past: Some(along.start_position),
+    }
+}
+
+/// Largest differences of x0 and y0 at the steps of the reference.
+fn differences(run: &PlanarRun, motion: &Motion) -> [f64; 2] {
+    let mut worst = [0.0; 2];
+    for (t, [x, y]) in motion.t.iter().zip(&motion.position) {
+        worst[0] = f64::max(worst[0], (run.trajectory.x0(*t) - x).abs());
+        worst[1] = f64::max(worst[1], (run.trajectory.y0(*t) - y).abs());
+    }
+    worst
+}
+
+/// Runs to 1e-9, the default, within 5e-9 of the reference in so many steps; with velocities, which are those of interpolants.
+fn holds(name: &str, scenario: &PlanarScenario, problem: &Problem, steps: usize) -> PlanarRun {
+    let run = run(scenario).unwrap();
+    let motion = problem.motion(scenario.along.until, steps);
+    let [x, y] = differences(&run, &motion);
+    let mut v = 0.0;
+    for (t, velocity) in motion.t.iter().zip(&motion.velocity).skip(1) {
+        let told = run.trajectory.velocity(*t);
+        v = (0..2).map(|j| (told[j] - velocity[j]).abs()).fold(v, f64::max);
+    }
+    let (work, layers) = (run.work, run.layers);
+    println!("{name}: {x:.1e} {y:.1e}, velocities {v:.1e}, {work:?} {layers:?}");
+    assert!(x < 5e-9 && y < 5e-9 && v < 2e-7, "{name}: {x:e} {y:e} {v:e}");
+    run
+}
+
+fn plain() -> Wider {
+    Wider::default()
+}
+
+#[test]
+fn lines_are_those_of_the_reference() {
+    for (name, beta, width, alpha, stiffness, kicks) in [
+        ("snaking", 1.0, 1.0, 1.2, 0.25, [0.1, 0.3]),
+        ("wider across", 1.0, 1.4, 1.3, 0.5, [0.0, 0.2]),
+        ("Gaussian", 0.0, 1.0, 2.2, 0.3, [0.2, 0.4]),
+        ("stick-slip", 1.0, 0.8, 1.62, 1.0, [0.05, 0.1]),
+    ] {
+        let scenario = line((tip(beta, width), plain()), alpha, stiffness, kicks, 36.0);
+        holds(name, &scenario, &problem(&scenario, (beta, width)), 300);
+    }
+}
+
+#[test]
+fn lines_under_the_wider_law_are_those_of_the_reference() {
+    for (name, inertia, healing_time, alpha) in [
+        ("inertia", Some(0.4), None, 1.3),
+        ("healing", None, Some(5.0), 2.0),
+        ("both", Some(2.0), Some(8.0), 1.6),
+    ] {
+        let wider = Wider { inertia, healing_time, ..plain() };
+        let scenario = line((tip(1.0, 1.0), wider), alpha, 0.5, [0.05, 0.2], 36.0);
+        holds(name, &scenario, &problem(&scenario, (1.0, 1.0)), 300);
+    }
+}
+
+/// Pulses along and across; the latter carry the tip off its line by several widths, to both sides.
+#[test]
+fn a_tip_that_wanders_is_followed() {
+    let pulse = |amplitude, time, width| Pulse { amplitude, time, width };
+    let force = |pulses| Force::new(pulses, None).unwrap();
+    let mut scenario = line((tip(1.0, 0.8), plain()), 1.1, 0.6, [0.0, 0.0], 44.0);
+    scenario.along.force = force(vec![pulse(0.4, 28.0, 1.1)]);
+    scenario.force_across =
+        force(vec![pulse(2.4, 23.0, 1.2), pulse(-3.2, 31.0, 1.5), pulse(1.6, 38.0, 0.9)]);
+    let problem = Problem {
+        force: |t| {
+            let pulse = |a: f64, time: f64, w: f64| a * (-0.5 * ((t - time) / w).powi(2)).exp();
+            let across = pulse(2.4, 23.0, 1.2) + pulse(-3.2, 31.0, 1.5) + pulse(1.6, 38.0, 0.9);
+            [pulse(0.4, 28.0, 1.1), across]
+        },
+        ..problem(&scenario, (1.0, 0.8))
+    };
+    let run = holds("wandering", &scenario, &problem, 450);
+    let y: Vec<f64> = (170..440).map(|i| run.trajectory.y0(0.1 * f64::from(i))).collect();
+    let (low, high) = y.iter().fold((0.0, 0.0), |(a, b): (f64, f64), y| (a.min(*y), b.max(*y)));
+    println!("from {low:.2} to {high:.2}");
+    assert!(low < -2.0 && high > 1.5 && run.layers.changes >= 6, "{low} {high}");
+    assert!(run.layers.error < 1e-9, "{:?}", run.layers);
+}
+
+/// A support that goes faster, waits, and goes on.
+#[test]
+fn a_support_on_a_path_is_followed() {
+    const KNOTS: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 9.0), (10.0, 9.5), (18.0, 18.0)];
+    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 18.0);
+    let (t, displacement) = KNOTS.into_iter().unzip();
+    scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
+    let problem = Problem {
+        support: |problem, t| {
+            let piece = KNOTS.windows(2).find(|ends| t <= ends[1].0 || ends[1].0 > 17.0).unwrap();
+            let [from, to] = [piece[0], piece[1]];
+            let part = (t - from.0) / (to.0 - from.0);
+            // X and the steady lag r + α f(0)/r.
+            let apex = 1.0 - (-2.0_f64).exp();
+            14.0 + problem.r + problem.alpha * apex / problem.r + from.1 + part * (to.1 - from.1)
+        },
+        ..problem(&scenario, (1.0, 1.0))
+    };
+    holds("path", &scenario, &problem, 360);
+}
+
+/// (name, β, α, κ_y, end, steps of the reference): snaking, stick-slip, tips that are stuck, a stiff spring across.
+const LADDER: [(&str, f64, f64, f64, f64, usize); 5] = [
+    ("snaking", 1.0, 1.2, 0.25, 36.0, 360),
+    ("stick-slip", 1.0, 1.62, 1.0, 36.0, 420),
+    ("stuck", 0.0, 3.0, 0.5, 38.0, 360),
+    ("stuck fast", 1.0, 4.0, 0.5, 31.0, 360),
+    ("stiff spring", 1.0, 1.2, 30.0, 24.0, 400),
+];
+
+/// The errors of steps add up, and the motions amplify them: the same slack as in one coordinate.
+const SLACK: f64 = 10.0;
+
+#[test]
+fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_10() {
+    for (name, beta, alpha, stiffness, until, steps) in LADDER {
+        let mut scenario = line((tip(beta, 1.0), plain()), alpha, stiffness, [0.05, 0.1], until);
+        let motion = problem(&scenario, (beta, 1.0)).motion(until, steps);
+        for digits in 4..=10 {
+            let tolerance = 10.0_f64.powi(-digits);
+            scenario.along.tolerance = tolerance;
+            let run = run(&scenario).unwrap();
+            let [x, y] = differences(&run, &motion);
+            println!("{name} {tolerance:e}: {x:.1e} {y:.1e} {:?} {:?}", run.work, run.layers);
+            assert!(x < SLACK * tolerance && y < SLACK * tolerance, "{name} {tolerance:e}");
+            assert!(run.layers.error < 0.02 * tolerance, "{name} {tolerance:e}");
+        }
+    }
+}

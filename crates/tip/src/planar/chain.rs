@@ -220,18 +220,19 @@ impl Chain {
         let (before, after) = self.rows.split_at_mut((k + 1) * stride);
         let row = &mut after[..(self.order - k) * groups];
         let phi = &self.layers[(self.order - 1 - k) * 2 * groups + groups..][..groups];
+        let scale = INVERSE[k + 1];
         for (new, source) in row.chunks_exact_mut(groups).zip(&self.sources) {
             for (new, phi) in new.iter_mut().zip(phi) {
-                *new = times(phi, *source);
+                *new = times(phi, scale * source);
             }
         }
         if acting.healing > 0.0 {
             for (new, old) in row.iter_mut().zip(&before[k * stride..]) {
-                add(new, old, -acting.healing);
+                add(new, old, -scale * acting.healing);
             }
         }
         let factors = &self.along[MOST_ORDER - 1 - k..];
-        let sums = Sums { rows: before, stride, factors, scale: INVERSE[k + 1] };
+        let sums = Sums { rows: before, stride, factors, scale };
         let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
         let done = groups + blocks.len() * BLOCK;
         let (fours, rest_of_fours) = rest.as_chunks_mut::<4>();
@@ -268,7 +269,7 @@ impl Sums<'_> {
     /// Adds the sum of the rows times their factors, from an entry on; in this order on every machine.
     #[inline(always)]
     fn add<const N: usize>(&self, from: usize, to: &mut [Lanes; N]) {
-        let mut sums = *to;
+        let mut sums = [[0.0; LANES]; N];
         for (row, factor) in self.rows.chunks_exact(self.stride).zip(self.factors) {
             let Some((row, _)) = row[from..].split_first_chunk::<N>() else { return };
             for (sum, row) in sums.iter_mut().zip(row) {
@@ -276,7 +277,7 @@ impl Sums<'_> {
             }
         }
         for (to, sum) in to.iter_mut().zip(&sums) {
-            *to = times(sum, self.scale);
+            add(to, sum, self.scale);
         }
     }
 }

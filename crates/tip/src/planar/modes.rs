@@ -208,7 +208,7 @@ fn carry(
 }
 
 /// Derivatives that are summed side by side.
-const BLOCK: usize = 6;
+const BLOCK: usize = 8;
 
 /// Rows times states, in the order of the terms: the same bits on every machine. What is told are `groups` of lanes for each
 /// derivative; some more of them, as many as fill the last block.

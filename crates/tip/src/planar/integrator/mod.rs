@@ -18,7 +18,7 @@ use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
 use crate::memory::{Fit, FitError, Retreat, SteadyPast, accuracy_needed};
 use crate::tip_function::{BAND_OF_A_GAUSSIAN, TipFunction};
-use crate::{Force, Model, Start, Support, Wider};
+use crate::{Force, Model, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
 
 /// The state of a tip under way, and all that acts on it.
@@ -57,10 +57,12 @@ const FINEST: f64 = 5e-14;
 /// A series costs as much as the third power of its order.
 const ORDER_PER_DIGIT: f64 = 0.7;
 
-/// Kicks and swings back lead behind the farthest point: with either, exponentials are to hold farther back.
-fn retreat(scenario: &PlanarScenario) -> Retreat {
-    let swings = scenario.along.model.wider().inertia.is_some();
-    if swings || scenario.along.kick.abs() > 0.0 { Retreat::Swing } else { Retreat::Small }
+/// Kicks of so many widths and swings lead farther behind the farthest point than friction lets a tip go.
+const LARGE_KICK: f64 = 0.2;
+
+fn retreat(along: &Scenario) -> Retreat {
+    let is_kicked = along.kick.abs() > along.model.tip().widths(LARGE_KICK);
+    if is_kicked || along.model.wider().inertia.is_some() { Retreat::Swing } else { Retreat::Small }
 }
 
 impl<'a> Integrator<'a> {
@@ -69,7 +71,7 @@ impl<'a> Integrator<'a> {
         let (along, footprint) = (&scenario.along, scenario.footprint()?);
         let model = &along.model;
         let accuracy = accuracy_needed(model, along.tolerance).max(FINEST);
-        let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(scenario))?);
+        let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(along))?);
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();

@@ -12,7 +12,7 @@ mod lanes;
 mod past;
 mod plan;
 
-use super::length::order;
+use super::length::{ORDER_PER_DIGIT, order};
 use super::pieces::MOST_PIECES;
 use super::plan::{FARTHEST, REACH_OF_PIECE, SHARE_OF_INTERPOLATION, count, to_end};
 use super::switch::Switch;
@@ -137,7 +137,7 @@ impl SideBySide {
             between_steps: fit.retreat_between_steps(),
             most_steps,
             rules,
-            order: order(error),
+            order: order(error, ORDER_PER_DIGIT),
         };
         let zero = Lanes::ZERO;
         let numbers = Numbers {

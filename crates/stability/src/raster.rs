@@ -32,10 +32,15 @@
 //!     [irq + κ_y + (α/r)(S(iq) - S(0) - E'')] C_n = -(α/r) Σ_j Σ_l ĝ_l(q) [iq h_l'(jd) A_{n-j} + h_l''(jd) C_{n-j}]
 //! ```
 //!
-//! S the transform of `f_yy(x,0)` over x > 0, E'' = Σ_j Σ_l h_l''(jd) ĝ_l(0); `plane.rs` has all of the wider law. At small q
-//! lines fall into the grooves of those before them (bunch) where κ_y r/α is below the real part of Σ_j Σ_l ĝ_l(0) h_l''(jd)
-//! (1 - z^{-j}); at q = 0 itself only a real sum does, which is that of z = -1, of pairs of lines, or on a zigzag another. The
-//! threshold lies at a small q, therefore, close to what the largest real part says.
+//! S the transform of `f_yy(x,0)` over x > 0, E'' = Σ_j Σ_l h_l''(jd) ĝ_l(0); `plane.rs` has all of the wider law. On a soft
+//! spring lines fall into the grooves of those before them, and bunch: with X(z) = Σ_j Σ_l h_l''(jd) ĝ_l(0) (1 - z^{-j}) and
+//! small q, (κ_y + irq) r/α = X, so that for κ_y → 0
+//!
+//! ```text
+//!     α = κ_y r/max_z Re X,      q = (κ_y/r) Im X/Re X
+//! ```
+//!
+//! Lines that bunch in pairs, z = -1, have q = 0 and this α at any κ_y.
 
 mod bands;
 mod count;

@@ -117,7 +117,8 @@ impl Snaking {
 
     /// The smallest α at which the line snakes; `None` where it never does, however large α.
     ///
-    /// J0 never does: Im φ(p) < 0 and 0 < φ(p) < φ(s) where its argument says so, on all of Re p ≥ s.
+    /// J0 never does: with v of its h(y), λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with Re λ ≥ 0, as φ(p) =
+    /// 1/√(p²+1) has Im φ < 0 where both parts of p are positive, and falls with a real p.
     ///
     /// # Errors
     /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`], and

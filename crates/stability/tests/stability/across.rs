@@ -64,6 +64,33 @@ fn thresholds_are_those_of_the_prototypes() {
     }
 }
 
+/// κ_y → 0: α = κ_y r/(ĝ(0) max Re Σ h''(jd)(1 - z^{-j})), q = (κ_y/r) Im/Re of that sum; the difference falls with κ_y².
+#[test]
+fn a_soft_spring_tends_to_its_limit() {
+    for (r, pitch) in [(1.0, 0.5), (0.7, 1.0)] {
+        let sum = |theta: f64| -> Complex64 {
+            let term = |j: i32| {
+                let y = pitch * f64::from(j);
+                let turn = Complex64::from_polar(1.0, -theta * f64::from(j));
+                (1.0 - turn) * ((y * y - 1.0) * (-0.5 * y * y).exp() * (2.0 * PI).sqrt())
+            };
+            (1..30).map(term).sum()
+        };
+        let phases = (0..400_000).map(|i| PI * f64::from(i) / 4e5);
+        let best = phases.map(sum).max_by(|a, b| a.re.total_cmp(&b.re)).unwrap();
+        let off = |stiffness: f64| {
+            let raster = Slow::triple(0.0, 1.0, (r, pitch), stiffness).raster();
+            let found = raster.critical(RasterPath::OneWay).unwrap();
+            let slope = (found.q * r / stiffness).abs() / (best.im / best.re).abs() - 1.0;
+            assert!(slope.abs() < stiffness + 1e-3, "{found:?} {slope}");
+            found.alpha * best.re / (stiffness * r) - 1.0
+        };
+        let [coarse, fine] = [off(0.02), off(0.01)];
+        assert!((coarse / fine - 4.0).abs() < 0.1, "{coarse:e} {fine:e}");
+        assert!(off(1e-4).abs() < 1e-10);
+    }
+}
+
 /// κ_y → ∞: the threshold of a tip held on its line, at first order in 1/κ_y.
 #[test]
 fn a_stiff_spring_tends_to_a_tip_held_on_its_line() {

@@ -306,6 +306,23 @@ fn footprints_that_never_snake_are_told() {
     assert!((flat.leading_roots(3.0, 1).unwrap().roots[0] + 0.5).norm() < 1e-13);
 }
 
+/// A measured footprint: rows of a table in place of the Gaussians themselves.
+#[test]
+fn a_table_snakes_where_what_it_tabulates_does() {
+    let line = Line::triple(1.0, 1.0, 1.0, 0.5);
+    let [x, y] = [0.2, 0.3].map(|step| (0..36).map(|i| step * f64::from(i)).collect::<Vec<f64>>());
+    let (xs, ys): (Vec<f64>, Vec<f64>) =
+        y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y))).unzip();
+    let f: Vec<f64> =
+        xs.iter().zip(&ys).map(|(x, y)| line.height(*x) * (-0.5 * y * y).exp()).collect();
+    let table = Footprint::table(&xs, &ys, &f).unwrap();
+    let snaking = Snaking::new(&table, Wider::default(), (1.0, 0.5)).unwrap();
+    let [found, wanted] =
+        [snaking, line.snaking()].map(|snaking| snaking.critical().unwrap().unwrap());
+    assert!((found.alpha / wanted.alpha - 1.0).abs() < 1e-6, "{found:?} {wanted:?}");
+    assert_eq!((found.certificate.growing_below, found.certificate.growing_above), (0, 2));
+}
+
 /// The leading pair against the equation in time, whose error falls with the square of its step.
 #[test]
 fn deviations_grow_as_the_leading_roots_say() {

@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::layers::{self, LANES, Radii};
-use super::modes::Modes;
+use super::past::Past;
 use super::scenario::PlanarError;
 use std::collections::VecDeque;
 
@@ -91,7 +91,7 @@ impl Frame {
     /// if those in use do not suit them or are too many. To be told before the visits are remembered.
     pub(super) fn visit(
         &mut self,
-        modes: &mut Modes,
+        past: &mut Past,
         t: f64,
         x: (f64, f64),
         (low, high): (f64, f64),
@@ -102,7 +102,7 @@ impl Frame {
         self.extent.add(x.0, (low, high));
         let (low, high) = before.map_or((low, high), |(a, b)| (low.min(a), high.max(b)));
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) / self.width);
-        let groups = modes.groups();
+        let groups = past.groups();
         let is_lean = groups <= 1 || !suits(&self.known[groups - 2], half + 2.0 * SPARE_ROOM);
         if suits(&self.radii, farthest(self, (low, high))) && is_lean {
             return Ok(());
@@ -114,9 +114,9 @@ impl Frame {
             self.cut(x.1, error);
         }
         // The more layers, the less is cut off.
-        modes.resize(needed.max(groups));
-        modes.recenter((middle - self.center) / self.width);
-        modes.resize(needed);
+        past.resize(needed.max(groups));
+        past.recenter((middle - self.center) / self.width);
+        past.resize(needed);
         (self.center, self.radii) = (middle, self.known[needed - 1]);
         self.layers.most = self.layers.most.max(LANES * needed);
         Ok(())

@@ -9,16 +9,19 @@
 //!
 //! where primed coordinates are those of the tip at t'. For f(x,y) = g(x) h(y) with a Gaussian h the surface is a few grooves
 //! in one dimension, carved by the same visits with other weights (`layers`): with exponentials for g the past is one
-//! complex number for each of them and each layer (`modes`), and all is a polynomial system (`chain`). As κ_y → ∞ the motion
-//! becomes that of [`run`](crate::run).
+//! complex number for each of them and each layer (`modes`), and all is a polynomial system (`chain`). A tip that goes back
+//! farther than exponentials hold, as heavy ones do after a slip, or where its support turns, asks Gaussians on a lattice
+//! (`lattice`). As κ_y → ∞ the motion becomes that of [`run`](crate::run()).
 
 mod chain;
 mod extent;
 mod frame;
 mod history;
 mod integrator;
+mod lattice;
 mod layers;
 mod modes;
+mod past;
 mod running;
 mod scenario;
 mod stages;

@@ -45,9 +45,9 @@ pub enum PlanarError {
     /// What works in one coordinate only.
     #[error("{0} is not available in two coordinates")]
     Unavailable(&'static str),
-    /// The tip came back farther than the exponentials hold.
+    /// The tip came back farther than the memory reaches.
     #[error(
-        "at t = {t}: the tip is {behind} behind the farthest point that it has been to, and the exponentials hold up to {allowed}: no other memory is available in two coordinates"
+        "at t = {t}: the tip is {behind} behind the farthest point that it has been to, and the memory reaches back {allowed}"
     )]
     Retreat {
         /// Time reached.

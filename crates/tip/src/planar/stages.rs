@@ -9,7 +9,7 @@
 
 use super::chain::{Curvatures, dot};
 use super::layers::{LANES, Lanes, slopes, values};
-use super::modes::Modes;
+use super::past::Past;
 use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::footprint::Across;
@@ -22,7 +22,7 @@ pub(super) struct StageEquations<'a> {
     pub(super) alpha: f64,
     /// κ_y
     pub(super) stiffness: f64,
-    pub(super) modes: &'a Modes,
+    pub(super) past: &'a Past,
     /// η of the tip at the start, and v.
     pub(super) eta: f64,
     pub(super) width: f64,
@@ -136,7 +136,7 @@ impl StageEquations<'_> {
     fn forces(&self, displacement: &[Stages; 2]) -> Forces {
         let zero = [[0.0; STAGES]; STAGES];
         let mut forces = Forces { value: self.pull, slope: [[zero; 2]; 2], curvatures: [0.0; 3] };
-        let mut room = Room::new(self.modes.groups());
+        let mut room = Room::new(self.past.groups());
         let [along, across] = displacement;
         for (i, (&d, &e)) in along.iter().zip(across).enumerate() {
             let (push, bend) = room.past(self, d, e);
@@ -202,7 +202,7 @@ impl Room {
         slopes(eta, phi, slope);
         slopes(eta, slope, bend);
         bend.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
-        begin.modes.at(d, &mut [&mut *value, &mut *first, &mut *second]);
+        begin.past.at(d, &mut [&mut *value, &mut *first, &mut *second]);
         let v = begin.width;
         (
             [dot(phi, first), dot(slope, value) / v],
@@ -219,6 +219,7 @@ fn in_three(all: &mut [Lanes], groups: usize) -> [&mut [Lanes]; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::modes::Modes;
     use super::*;
     use crate::memory::{Fit, Retreat};
     use crate::step::healing;
@@ -227,20 +228,21 @@ mod tests {
     #[test]
     fn the_jacobian_is_that_of_the_equations() {
         let tip = TipFunction::default();
-        let mut modes = Modes::new(Fit::cached(&tip, 1e-10, Retreat::Small).unwrap());
-        modes.resize(4);
+        let fit = Fit::cached(&tip, 1e-10, Retreat::Small).unwrap();
+        let mut past = Past::new(Modes::new(fit), None);
+        past.resize(4);
         let mut weighted = vec![[0.0; LANES]; 12];
         for (k, weighted) in weighted.chunks_exact_mut(4).enumerate() {
             values(0.4 * k as f64 - 0.5, 1.0, weighted);
         }
-        modes.remember(&[0.3, 0.9, 1.1], &weighted);
+        past.remember(&[0.3, 0.9, 1.1], &weighted);
         let inertia = Inertia::new(0.4, 0.6, 0.7);
         for inertia in [None, Some(&inertia)] {
             let equations = StageEquations {
                 footprint: (&tip, Across::central(1.3)),
                 alpha: 1.4,
                 stiffness: 0.7,
-                modes: &modes,
+                past: &past,
                 eta: 0.2,
                 width: 1.3,
                 h: 0.6,

@@ -172,8 +172,8 @@ fn what_is_not_there_is_refused_by_name() {
         assert_eq!(error, PlanarError::Unavailable(what));
         assert!(error.to_string().starts_with(what), "{error}");
     }
-    let retreat = refused(|scenario| scenario.along.kick = 3.0);
-    assert!(matches!(retreat, PlanarError::Retreat { behind, .. } if behind > 2.9), "{retreat}");
+    let retreat = refused(|scenario| scenario.along.kick = 300.0);
+    assert!(matches!(retreat, PlanarError::Retreat { behind, .. } if behind > 299.0), "{retreat}");
     let late = refused(|scenario| scenario.along.until = 1.0);
     assert!(matches!(late, PlanarError::Along(_)), "{late}");
 }

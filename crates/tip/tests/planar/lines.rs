@@ -2,7 +2,7 @@
 
 use super::reference::{Footprint, Motion, Problem};
 use stickslip_tip::planar::{PlanarRun, PlanarScenario, run};
-use stickslip_tip::{Force, Model, Pulse, Scenario, SupportPath, TipFunction, Wider};
+use stickslip_tip::{Force, Model, Pulse, Scenario, Start, SupportPath, TipFunction, Wider};
 
 /// (48) with these side lobes times a Gaussian across of the width v.
 pub(crate) fn tip(beta: f64, width: f64) -> TipFunction {
@@ -123,25 +123,66 @@ fn a_tip_that_wanders_is_followed() {
     assert!(run.layers.error < 1e-9, "{:?}", run.layers);
 }
 
+/// A support on a path through these knots, from where steady motion has it.
+fn on_a_path(path: &[(f64, f64)], inertia: Option<f64>) -> PlanarScenario {
+    let wider = Wider { inertia, ..plain() };
+    let (t, displacement): (Vec<f64>, _) = path.iter().copied().unzip();
+    let mut scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], t[t.len() - 1]);
+    scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
+    scenario
+}
+
+/// R(t) of the reference likewise: X and the steady lag r + α f(0)/r, and the displacement.
+fn support_on(path: &[(f64, f64)], problem: &Problem, t: f64) -> f64 {
+    let last = path[path.len() - 2].0;
+    let piece = path.windows(2).find(|ends| t <= ends[1].0 || ends[0].0 >= last).unwrap();
+    let [from, to] = [piece[0], piece[1]];
+    let part = (t - from.0) / (to.0 - from.0);
+    let lag = problem.r + problem.alpha * (1.0 - (-2.0_f64).exp()) / problem.r;
+    14.0 + lag + from.1 + part * (to.1 - from.1)
+}
+
 /// A support that goes faster, waits, and goes on.
 #[test]
 fn a_support_on_a_path_is_followed() {
-    const KNOTS: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 9.0), (10.0, 9.5), (18.0, 18.0)];
-    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 18.0);
-    let (t, displacement) = KNOTS.into_iter().unzip();
-    scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
-    let problem = Problem {
-        support: |problem, t| {
-            let piece = KNOTS.windows(2).find(|ends| t <= ends[1].0 || ends[1].0 > 17.0).unwrap();
-            let [from, to] = [piece[0], piece[1]];
-            let part = (t - from.0) / (to.0 - from.0);
-            // X and the steady lag r + α f(0)/r.
-            let apex = 1.0 - (-2.0_f64).exp();
-            14.0 + problem.r + problem.alpha * apex / problem.r + from.1 + part * (to.1 - from.1)
-        },
-        ..problem(&scenario, (1.0, 1.0))
-    };
-    holds("path", &scenario, &problem, 360);
+    const PATH: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 9.0), (10.0, 9.5), (18.0, 18.0)];
+    let scenario = on_a_path(&PATH, None);
+    let support = |problem: &Problem, t| support_on(&PATH, problem, t);
+    holds("path", &scenario, &Problem { support, ..problem(&scenario, (1.0, 1.0)) }, 360);
+}
+
+/// A line forth, back over its own groove, and forth again.
+#[test]
+fn a_tip_that_is_drawn_back_is_followed() {
+    const PATH: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 6.0), (16.0, -4.0), (24.0, 5.0)];
+    for inertia in [None, Some(0.5)] {
+        let scenario = on_a_path(&PATH, inertia);
+        let support = |problem: &Problem, t| support_on(&PATH, problem, t);
+        let problem = Problem { support, ..problem(&scenario, (1.0, 1.0)) };
+        let run = holds("trace and retrace", &scenario, &problem, 480);
+        assert!(run.work.switches > 0, "{:?}", run.work);
+    }
+}
+
+/// A heavy tip swings back after each slip, farther than exponentials hold, and a kick may put it there at once.
+#[test]
+fn a_tip_that_swings_back_is_followed() {
+    let heavy = Wider { inertia: Some(2.0), ..plain() };
+    let mut scenario = line((tip(1.0, 1.0), heavy), 1.6, 1.0, [0.1, 0.2], 54.0);
+    scenario.along.start = Start::Flat;
+    let of_flat = Problem { velocity: 0.0, steady_past: None, ..problem(&scenario, (1.0, 1.0)) };
+    let run = holds("swing", &scenario, &of_flat, 950);
+    let x = |i: i32| run.trajectory.x0(14.0 + 0.01 * f64::from(i));
+    let farthest_back = (0..4000)
+        .scan(f64::NEG_INFINITY, |farthest, i| {
+            *farthest = f64::max(*farthest, x(i));
+            Some(*farthest - x(i))
+        })
+        .fold(0.0, f64::max);
+    println!("{farthest_back}");
+    assert!(farthest_back > 1.0, "{farthest_back}");
+    let scenario = line((tip(1.0, 1.0), plain()), 1.1, 0.3, [3.0, 0.2], 36.0);
+    holds("kicked far back", &scenario, &problem(&scenario, (1.0, 1.0)), 300);
 }
 
 /// (name, β, α, κ_y, end, steps of the reference): snaking, stick-slip, tips that are stuck, a stiff spring across.

@@ -68,7 +68,7 @@ impl Integrator<'_> {
         }
         let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
         let lowest = along.iter().copied().fold(0.0, f64::min);
-        if farthest > room || lowest < self.modes.behind() - self.modes.retreat() {
+        if farthest > room || lowest < self.past.lowest(self.past.behind()) {
             return Err(0.5 * h);
         }
         self.judge(&solution, h)?;
@@ -87,7 +87,7 @@ impl Integrator<'_> {
             footprint: self.footprint,
             alpha: self.model.alpha(),
             stiffness: self.stiffness,
-            modes: &self.modes,
+            past: &self.past,
             eta: self.frame.eta(self.y),
             width: self.frame.width(),
             h,

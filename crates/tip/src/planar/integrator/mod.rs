@@ -6,8 +6,10 @@ mod series;
 use super::chain::{Chain, Curvatures};
 use super::frame::{Frame, Layers};
 use super::history::Step;
+use super::lattice::Lattice;
 use super::layers::{LANES, Lanes, slopes, values};
 use super::modes::Modes;
+use super::past::{Past, TooFar};
 use super::scenario::{PlanarError, PlanarScenario};
 use crate::collocation::Stages;
 use crate::footprint::Across;
@@ -31,7 +33,7 @@ pub(super) struct Integrator<'a> {
     /// Along and across.
     force: [&'a Force; 2],
     support: Support,
-    modes: Modes,
+    past: Past,
     frame: Frame,
     control: Control,
     chain: Chain,
@@ -65,6 +67,12 @@ fn retreat(along: &Scenario) -> Retreat {
     if is_kicked || along.model.wider().inertia.is_some() { Retreat::Swing } else { Retreat::Small }
 }
 
+/// Whether anything but its own groove may drive the tip back.
+fn may_go_back(PlanarScenario { along, force_across, .. }: &PlanarScenario) -> bool {
+    let is_pushed = [&along.force, force_across].iter().any(|force| force.begins() < f64::INFINITY);
+    is_pushed || along.path.is_some() || retreat(along) == Retreat::Swing
+}
+
 impl<'a> Integrator<'a> {
     /// At the start of a scenario, which is valid.
     pub(super) fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
@@ -72,6 +80,7 @@ impl<'a> Integrator<'a> {
         let model = &along.model;
         let accuracy = accuracy_needed(model, along.tolerance).max(FINEST);
         let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(along))?);
+        let lattice = if may_go_back(scenario) { Lattice::new(footprint.0) } else { None };
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();
@@ -85,7 +94,7 @@ impl<'a> Integrator<'a> {
             stiffness: scenario.stiffness_across,
             force: [&along.force, &scenario.force_across],
             support: along.support(),
-            modes,
+            past: Past::new(modes, lattice),
             control,
             t: along.start_time(),
             extension: along.start_extension() + along.kick,
@@ -98,7 +107,7 @@ impl<'a> Integrator<'a> {
         };
         let (x, y) = (integrator.position(), integrator.y);
         let range = (y.min(0.0), y.max(0.0));
-        integrator.frame.visit(&mut integrator.modes, integrator.t, (x, x), range)?;
+        integrator.frame.visit(&mut integrator.past, integrator.t, (x, x), range)?;
         if along.start == Start::Steady {
             integrator.remember_steady(along.kick);
         }
@@ -113,9 +122,9 @@ impl<'a> Integrator<'a> {
             healing: self.healing(),
             weight: self.model.steady_weight(),
         };
-        let mut phi = vec![[0.0; LANES]; self.modes.groups()];
+        let mut phi = vec![[0.0; LANES]; self.past.groups()];
         values(self.frame.eta(0.0), 1.0, &mut phi);
-        self.modes.remember_steady(&past, &phi);
+        self.past.remember_steady(&past, &phi);
     }
 
     /// Steps of this length by collocation, without error control.
@@ -132,13 +141,15 @@ impl<'a> Integrator<'a> {
     }
 
     pub(super) fn memory_size(&self) -> usize {
-        self.modes.size() + self.frame.size()
+        self.past.size() + self.frame.size()
     }
 
     /// The next step; `None` where the tip is at the end.
     pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
         if self.made.is_empty() && self.t < until {
-            self.check_retreat()?;
+            let t = self.t;
+            let too_far = |TooFar { behind, allowed }| PlanarError::Retreat { t, behind, allowed };
+            self.past.begin().map_err(too_far)?;
             if !self.step_by_series(until)? {
                 self.step_by_collocation(until)?;
             }
@@ -146,12 +157,6 @@ impl<'a> Integrator<'a> {
         let step = self.made.pop_front();
         self.work.steps += u64::from(step.is_some());
         Ok(step)
-    }
-
-    fn check_retreat(&self) -> Result<(), PlanarError> {
-        let (behind, allowed) = (self.modes.behind(), self.modes.retreat_between_steps());
-        let t = self.t;
-        if behind > allowed { Err(PlanarError::Retreat { t, behind, allowed }) } else { Ok(()) }
     }
 
     /// x0
@@ -212,35 +217,32 @@ impl<'a> Integrator<'a> {
         };
         let ((_, farthest), (low, high)) = (range(along), range(across));
         let places = (x + farthest, x + along[along.len() - 1]);
-        self.frame.visit(&mut self.modes, self.t, places, (y + low, y + high))?;
-        let groups = self.modes.groups();
+        self.frame.visit(&mut self.past, self.t, places, (y + low, y + high))?;
+        let groups = self.past.groups();
         self.room.resize(groups * along.len(), [0.0; LANES]);
         for ((layers, e), weight) in self.room.chunks_exact_mut(groups).zip(across).zip(weights) {
             values(self.frame.eta(y + e), *weight, layers);
         }
         if let Some(time) = self.wider().healing_time {
-            self.modes.fade(crate::elementary::exp(-h / time));
+            self.past.fade(crate::elementary::exp(-h / time));
         }
-        self.modes.remember(along, &self.room);
+        self.past.remember(along, &self.room);
         Ok(())
     }
 
     /// Forces on the tip where it is, along and across, after what may jump there.
     fn forces_now(&self) -> [f64; 2] {
-        let (groups, alpha) = (self.modes.groups(), self.model.alpha());
-        let mut room: [Vec<Lanes>; 4] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
-        let [phi, psi, value, first] = &mut room;
-        let mut groove = vec![[0.0; LANES]; 2 * groups];
-        self.modes.derivatives(alpha, &mut groove);
-        value.copy_from_slice(&groove[..groups]);
-        first.copy_from_slice(&groove[groups..]);
+        let (groups, alpha) = (self.past.groups(), self.model.alpha());
+        let mut room: [Vec<Lanes>; 5] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
+        let [phi, psi, value, slope, curvature] = &mut room;
+        self.past.at(0.0, &mut [&mut *value, &mut *slope, curvature]);
         let eta = self.frame.eta(self.y);
-        values(eta, 1.0, phi);
+        values(eta, alpha, phi);
         slopes(eta, phi, psi);
         let force = self.force.map(|force| force.value(self.t.next_up()));
         let across = super::chain::dot(psi, value) / self.frame.width();
         [
-            super::chain::dot(phi, first) + self.extension + force[0],
+            super::chain::dot(phi, slope) + self.extension + force[0],
             across - self.stiffness * self.y + force[1],
         ]
     }

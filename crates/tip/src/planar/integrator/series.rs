@@ -42,9 +42,12 @@ impl Integrator<'_> {
 
     /// The series from here on; false where there is none.
     fn look_ahead(&mut self) -> bool {
+        if !self.past.knows_series() {
+            return false;
+        }
         let (order, alpha) = (self.chain.order(), self.model.alpha());
-        let room = self.chain.start(self.modes.groups(), alpha, self.modes.of_tip());
-        self.modes.derivatives(alpha, room);
+        let room = self.chain.start(self.past.groups(), alpha, self.past.of_tip());
+        self.past.derivatives(alpha, room);
         for (force, series) in self.force.iter().zip(&mut self.chain.force) {
             if !force.series(self.t, &mut series[..order]) {
                 return false;
@@ -159,11 +162,11 @@ impl Integrator<'_> {
 
     /// A part of a step that goes too far back for the exponentials, or too far across for the layers.
     fn broken(&self, parts: &[f64], (along, across): (&[f64], &[f64])) -> Option<f64> {
-        let mut farthest = self.modes.behind();
+        let mut farthest = self.past.behind();
         for ((part, x), y) in parts.iter().zip(along).zip(across) {
             farthest = farthest.max(*x);
             let is_held = self.frame.eta(self.y + y).abs() <= self.frame.radius();
-            if *x < farthest - self.modes.retreat() || !is_held {
+            if *x < self.past.lowest(farthest) || !is_held {
                 return Some(0.7 * part);
             }
         }

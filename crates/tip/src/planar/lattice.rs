@@ -1,0 +1,275 @@
+//! The past of a tip that goes back: Gaussians on a lattice along the scan, for each layer across.
+//!
+//! A Gaussian of variance w² is one of variance s² convolved with one of w² - s², and the integral of that convolution a sum
+//! over a lattice, but for round-off if its spacing is small enough:
+//!
+//! ```text
+//!     e^{-(x-x')²/2w²} = (w h/(√(2π) s q)) Σ_j e^{-(x-x_j)²/2q²} e^{-(x_j-x')²/2s²}        q² = w² - s², x_j = jh
+//! ```
+//!
+//! So what each visit leaves at the nodes near it is all of the past, whichever way the tip goes. It costs more than
+//! exponentials, which hold on one side only, and knows no series.
+
+use super::layers::{LANES, Lanes, recenter};
+use super::modes::Jet;
+use crate::elementary::exp;
+use crate::memory::SteadyPast;
+use crate::{Gaussian, TipFunction};
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// Spacing in the smallest width w of f: the sum errs by 6e-16 of a Gaussian.
+const SPACING: f64 = 0.36;
+/// e^{-z²/2} is nothing for larger z.
+const NOTHING: f64 = 8.7;
+/// Nodes are kept so far behind the farthest point, in the smallest width and in reaches of f: some 700 for (48).
+const KEPT: (f64, f64) = (250.0, 4.0);
+
+/// Nodes that have been near the tip, in their order along the scan.
+#[derive(Debug, Clone)]
+pub(super) struct Lattice {
+    /// h and s
+    spacing: f64,
+    spread: f64,
+    /// The Gaussian that visits leave.
+    left: TipFunction,
+    /// Of each Gaussian of f its amplitude times w h/(√(2π) s q), its center and q.
+    terms: Vec<[f64; 3]>,
+    /// Beyond it nodes are not felt; how far behind the farthest point they are kept.
+    reach: f64,
+    kept: f64,
+    groups: usize,
+    /// Layers of node after node.
+    nodes: Vec<Lanes>,
+    /// The first node, as a displacement from the tip.
+    first: f64,
+    farthest: f64,
+}
+
+impl Lattice {
+    /// For this footprint along the scan; `None` if it is no sum of Gaussians.
+    pub(super) fn new(tip: &TipFunction) -> Option<Self> {
+        let TipFunction::Gaussians(sum) = tip else { return None };
+        let smallest = sum.terms().iter().map(|g| g.width).fold(f64::INFINITY, f64::min);
+        let (spacing, spread) = (SPACING * smallest, FRAC_1_SQRT_2 * smallest);
+        let term = |g: &Gaussian| {
+            let q = (g.width * g.width - spread * spread).sqrt();
+            let scale = g.width * spacing / ((2.0 * PI).sqrt() * spread * q);
+            [scale * g.amplitude, g.center, q]
+        };
+        let terms: Vec<_> = sum.terms().iter().map(term).collect();
+        let reach = terms.iter().map(|[_, c, q]| c.abs() + NOTHING * q).fold(0.0, f64::max);
+        Some(Self {
+            left: TipFunction::gaussian(spread).ok()?,
+            kept: (KEPT.0 * smallest).max(KEPT.1 * reach),
+            spacing,
+            spread,
+            terms,
+            reach,
+            groups: 0,
+            nodes: vec![],
+            first: 0.0,
+            farthest: f64::NEG_INFINITY,
+        })
+    }
+
+    /// How far behind the farthest point the tip may go.
+    pub(super) fn retreat(&self) -> f64 {
+        self.kept - self.reach
+    }
+
+    /// Numbers that it consists of.
+    pub(super) fn size(&self) -> usize {
+        self.nodes.len() * LANES
+    }
+
+    /// Another number of layers: new ones hold nothing.
+    pub(super) fn resize(&mut self, groups: usize) {
+        let kept = groups.min(self.groups);
+        let mut nodes = vec![[0.0; LANES]; self.count() * groups];
+        if kept > 0 {
+            let old = self.nodes.chunks_exact(self.groups);
+            for (new, old) in nodes.chunks_exact_mut(groups).zip(old) {
+                new[..kept].copy_from_slice(&old[..kept]);
+            }
+        }
+        (self.nodes, self.groups) = (nodes, groups);
+    }
+
+    /// The center of the layers moves by so many widths.
+    pub(super) fn recenter(&mut self, distance: f64) {
+        recenter(distance, &mut self.nodes, self.groups);
+    }
+
+    /// All that is remembered times a factor.
+    pub(super) fn fade(&mut self, factor: f64) {
+        self.nodes.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
+    }
+
+    /// Remembers a steady past on a line, of which these are the layers.
+    pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
+        let end = -past.distance;
+        self.hold(end - self.kept, end + NOTHING * self.spread);
+        for (j, node) in self.nodes.chunks_exact_mut(self.groups).enumerate() {
+            let x = self.first + j as f64 * self.spacing;
+            let left = self.left.fading_tail(x - end, past.healing / past.velocity);
+            let weight = past.weight * left / past.velocity;
+            add(node, phi, weight);
+        }
+        self.farthest = self.farthest.max(end);
+    }
+
+    /// Remembers visits, displacements from the tip, which then stands at the last of them: of each the layers times what it
+    /// weighs.
+    pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
+        let Some(moved) = position.last() else { return };
+        let near = NOTHING * self.spread;
+        for (position, weighted) in position.iter().zip(weighted.chunks_exact(self.groups)) {
+            self.hold(position - near, position + near);
+            let from = index((position - near - self.first) / self.spacing);
+            let nodes = self.nodes.chunks_exact_mut(self.groups).enumerate().skip(from);
+            for (j, node) in nodes.take(index(2.0 * near / self.spacing) + 2) {
+                let z = (self.first + j as f64 * self.spacing - position) / self.spread;
+                add(node, weighted, exp(-0.5 * z * z));
+            }
+            self.farthest = self.farthest.max(*position);
+        }
+        self.first -= moved;
+        self.farthest -= moved;
+        self.forget();
+    }
+
+    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
+    pub(super) fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+        jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
+        let from = index((displacement - self.reach - self.first) / self.spacing);
+        let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);
+        for (j, node) in nodes.take(index(2.0 * self.reach / self.spacing) + 2) {
+            let distance = displacement - (self.first + j as f64 * self.spacing);
+            let mut sums = [0.0; 3];
+            for [amplitude, center, q] in &self.terms {
+                let z = (distance - center) / q;
+                let value = amplitude * exp(-0.5 * z * z);
+                sums[0] += value;
+                sums[1] -= z / q * value;
+                sums[2] += (z * z - 1.0) / (q * q) * value;
+            }
+            for (told, sum) in jet.iter_mut().zip(sums) {
+                add(told, node, sum);
+            }
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.nodes.len().checked_div(self.groups).unwrap_or(0)
+    }
+
+    /// Makes room for nodes between these displacements.
+    fn hold(&mut self, low: f64, high: f64) {
+        let (groups, spacing) = (self.groups, self.spacing);
+        if self.nodes.is_empty() {
+            self.first = low;
+        }
+        let before = index((self.first - low) / spacing + 1.0);
+        if self.first > low {
+            let nodes = vec![[0.0; LANES]; before * groups];
+            self.nodes.splice(0..0, nodes);
+            self.first -= before as f64 * spacing;
+        }
+        let needed = index((high - self.first) / spacing) + 2;
+        if needed > self.count() {
+            self.nodes.resize(needed * groups, [0.0; LANES]);
+        }
+    }
+
+    /// Drops nodes that are too far behind, many at a time.
+    fn forget(&mut self) {
+        let behind = (self.farthest - self.first) / self.spacing;
+        let kept = self.kept / self.spacing;
+        if behind > 1.1 * kept {
+            let dropped = index(behind - kept).min(self.count());
+            self.nodes.drain(..dropped * self.groups);
+            self.first += dropped as f64 * self.spacing;
+        }
+    }
+}
+
+/// A count: 0 for what is below it.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held above 0")]
+fn index(x: f64) -> usize {
+    x.max(0.0) as usize
+}
+
+/// Adds layers times a factor.
+fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
+    for (sum, layers) in sum.iter_mut().zip(layers) {
+        for i in 0..LANES {
+            sum[i] += factor * layers[i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layers::values;
+    use super::*;
+
+    /// Visits by themselves are the oracle, on a way forth and back; of a steady past a fine sum of them.
+    #[test]
+    fn nodes_stand_for_all_visits() {
+        let widths = [(1.0, 0.0, 1.0), (-0.4, 2.0, 0.7), (-0.4, -2.0, 0.7)];
+        let terms = widths.map(|(amplitude, center, width)| Gaussian { amplitude, center, width });
+        let tip = TipFunction::gaussian_sum(terms.to_vec()).unwrap();
+        let mut lattice = Lattice::new(&tip).unwrap();
+        lattice.resize(4);
+        let mut phi = vec![[0.0; LANES]; 4];
+        let (healing, velocity) = (0.2, 0.8);
+        values(0.3, 1.0, &mut phi);
+        let past = SteadyPast { distance: -0.4, velocity, healing, weight: 0.9 };
+        lattice.remember_steady(&past, &phi);
+        let dt = 1e-3;
+        let steady = (0..60_000).map(|i| {
+            let ago = dt * (f64::from(i) + 0.5);
+            (0.4 - velocity * ago, 0.3, 0.9 * dt * (-healing * ago).exp())
+        });
+        let mut visits: Vec<(f64, f64, f64)> = steady.collect();
+        for n in 0..30 {
+            let way = |part: f64| part * if n < 20 { 0.8 } else { -1.3 };
+            let positions = [0.25, 0.6, 1.0].map(way);
+            let mut weighted = vec![[0.0; LANES]; 12];
+            for (k, weighted) in weighted.chunks_exact_mut(4).enumerate() {
+                let (eta, weight) = (0.5 * (0.7 * (3 * n + k) as f64).sin(), 0.3);
+                values(eta, weight, weighted);
+                visits.push((positions[k], eta, weight));
+            }
+            lattice.remember(&positions, &weighted);
+            visits.iter_mut().for_each(|visit| visit.0 -= positions[2]);
+        }
+        let mut told = vec![[0.0; LANES]; 12];
+        for (d, eta) in [(0.0, 0.1), (0.7, -0.5), (-2.3, 0.6)] {
+            lattice.at(d, &mut told.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap());
+            values(eta, 1.0, &mut phi);
+            for (n, told) in told.chunks_exact(4).enumerate() {
+                let of = |xi: f64| [tip.value(xi), tip.slope(xi), tip.slope_and_curvature(xi).1][n];
+                let h = |y: f64| (-0.5 * (eta - y) * (eta - y)).exp();
+                let exact: f64 = visits.iter().map(|(x, y, w)| w * of(d - x) * h(*y)).sum();
+                let pairs = phi.as_flattened().iter().zip(told.as_flattened());
+                let sum: f64 = pairs.map(|(a, b)| a * b).sum();
+                // The steady past is summed by the midpoint rule, and cut at its end.
+                assert!((sum - exact).abs() < 3e-7, "{d} {n}: {sum} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn nodes_far_behind_are_forgotten() {
+        let mut lattice = Lattice::new(&TipFunction::default()).unwrap();
+        lattice.resize(2);
+        let weighted = vec![[1.0; LANES]; 2];
+        let mut most = 0;
+        for _ in 0..2000 {
+            lattice.remember(&[1.0], &weighted);
+            most = most.max(lattice.count());
+        }
+        assert!((680..820).contains(&most), "{most}");
+    }
+}

@@ -1,5 +1,6 @@
 //! The range across the scan of all visits that can still be felt.
 
+use crate::state::{Damaged, Reader, State};
 use std::collections::VecDeque;
 
 /// Visits are taken together within this part of the reach.
@@ -29,6 +30,28 @@ impl Extent {
 
     pub(super) fn reach(&self) -> f64 {
         self.reach
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        let numbers = self.bins.iter().flat_map(|bin| [bin.first, bin.last, bin.low, bin.high]);
+        let numbers: Vec<f64> = numbers.collect();
+        state.numbers(numbers.into_iter());
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        let numbers = state.numbers()?;
+        let (bins, rest) = numbers.as_chunks::<4>();
+        if !rest.is_empty() {
+            return Err(Damaged::OutOfRange);
+        }
+        let bin = |[first, last, low, high]: &[f64; 4]| Bin {
+            first: *first,
+            last: *last,
+            low: *low,
+            high: *high,
+        };
+        self.bins = bins.iter().map(bin).collect();
+        Ok(())
     }
 
     /// How many are kept.

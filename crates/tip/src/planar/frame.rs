@@ -4,6 +4,7 @@ use super::extent::Extent;
 use super::layers::{self, LANES, Radii};
 use super::past::Past;
 use super::scenario::PlanarError;
+use crate::state::{Damaged, Reader, State};
 use std::collections::VecDeque;
 
 /// How many layers a run used, and what they left out.
@@ -80,6 +81,34 @@ impl Frame {
 
     pub(super) fn layers(&self) -> Layers {
         self.layers
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        state.number(self.center);
+        self.extent.save(state);
+        let cuts: Vec<(f64, f64)> = self.cuts.iter().map(|cut| (cut.x, cut.error)).collect();
+        state.pairs(cuts.iter());
+        state.count(self.layers.most as u64);
+        state.count(self.layers.changes);
+        state.number(self.layers.error);
+    }
+
+    /// That of so many groups of layers.
+    pub(super) fn restore(&mut self, state: &mut Reader, groups: usize) -> Result<(), Damaged> {
+        self.center = state.finite()?;
+        self.extent.restore(state)?;
+        self.cuts = state.pairs()?.into_iter().map(|(x, error)| Cut { x, error }).collect();
+        self.layers = Layers {
+            most: usize::try_from(state.count()?).map_err(|_| Damaged::OutOfRange)?,
+            changes: state.count()?.min(u64::MAX / 2),
+            error: state.finite()?,
+        };
+        while self.known.len() < groups {
+            let count = LANES * (self.known.len() + 1);
+            self.known.push(Radii::of(count, self.allowed).ok_or(Damaged::OutOfRange)?);
+        }
+        self.radii = self.known[groups - 1];
+        Ok(())
     }
 
     /// Numbers that range and cuts consist of.

@@ -14,6 +14,7 @@ use super::layers::{LANES, Lanes, recenter};
 use super::modes::Jet;
 use crate::elementary::exp;
 use crate::memory::SteadyPast;
+use crate::state::{Damaged, Reader, State};
 use crate::{Gaussian, TipFunction};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -80,6 +81,25 @@ impl Lattice {
     /// Numbers that it consists of.
     pub(super) fn size(&self) -> usize {
         self.nodes.len() * LANES
+    }
+
+    /// The nodes.
+    pub(super) fn save(&self, state: &mut State) {
+        state.number(self.first);
+        state.number(self.farthest);
+        state.numbers(self.nodes.as_flattened().iter().copied());
+    }
+
+    /// Nodes of so many groups of layers.
+    pub(super) fn restore(&mut self, state: &mut Reader, groups: usize) -> Result<(), Damaged> {
+        (self.first, self.farthest) = (state.finite()?, state.number()?);
+        let nodes = state.numbers()?;
+        if !nodes.len().is_multiple_of(groups * LANES) {
+            return Err(Damaged::OutOfRange);
+        }
+        self.nodes = nodes.as_chunks::<LANES>().0.to_vec();
+        self.groups = groups;
+        Ok(())
     }
 
     /// Another number of layers: new ones hold nothing.

@@ -12,6 +12,7 @@ use super::layers::{self, LANES, Lanes};
 use crate::elementary::complex_exp;
 use crate::exponential::of_lanes;
 use crate::memory::{Fit, Powers, SteadyPast};
+use crate::state::{Damaged, Reader, State};
 use multiversion::multiversion;
 use num_complex::Complex;
 use std::sync::Arc;
@@ -132,6 +133,36 @@ impl Modes {
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
         let weighted = (weighted, self.groups);
         carry(&mut self.states, &self.exponents, position, weighted, &mut self.room);
+    }
+
+    /// The state, and the exponents that it belongs to.
+    pub(super) fn save(&self, state: &mut State) {
+        let exponents: Vec<f64> = self.terms_in_parts().collect();
+        state.numbers(exponents.into_iter());
+        state.numbers(self.states.as_flattened().iter().copied());
+        state.count(self.groups as u64);
+        state.number(self.farthest);
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        // A fit made on another machine may differ by a rounding: not to the last bit the same run.
+        let saved = state.numbers()?.into_iter().map(f64::to_bits);
+        if !saved.eq(self.terms_in_parts().map(f64::to_bits)) {
+            return Err(Damaged::Other("fit of f' by exponentials"));
+        }
+        let states = state.numbers()?;
+        let groups = usize::try_from(state.count()?).map_err(|_| Damaged::OutOfRange)?;
+        if groups == 0 || groups.checked_mul(2 * self.terms() * LANES) != Some(states.len()) {
+            return Err(Damaged::OutOfRange);
+        }
+        self.groups = groups;
+        self.states = states.as_chunks::<LANES>().0.to_vec();
+        self.farthest = state.number()?;
+        Ok(())
+    }
+
+    fn terms_in_parts(&self) -> impl Iterator<Item = f64> {
+        self.fit.terms().iter().flat_map(|term| [term.exponent.re, term.exponent.im])
     }
 
     /// Derivatives of the integrals of each layer at the tip, from the 0th on, times a factor: one after the other, as many

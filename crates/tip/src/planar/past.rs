@@ -4,6 +4,7 @@ use super::lattice::Lattice;
 use super::layers::Lanes;
 use super::modes::{Jet, Modes};
 use crate::memory::SteadyPast;
+use crate::state::{Damaged, Reader, State};
 
 /// Both remember the same, where there is a lattice.
 #[derive(Debug, Clone)]
@@ -103,6 +104,19 @@ impl Past {
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         self.modes.remember(position, weighted);
         self.lattice.iter_mut().for_each(|lattice| lattice.remember(position, weighted));
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        self.modes.save(state);
+        self.lattice.iter().for_each(|lattice| lattice.save(state));
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.modes.restore(state)?;
+        match &mut self.lattice {
+            Some(lattice) => lattice.restore(state, self.modes.groups()),
+            None => Ok(()),
+        }
     }
 
     /// Numbers that it consists of.

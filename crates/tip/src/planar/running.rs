@@ -6,6 +6,7 @@ use super::integrator::Integrator;
 use super::scenario::{PlanarError, PlanarScenario};
 use crate::integrator::Work;
 use crate::run::{MOST_STEPS, RunError};
+use crate::state::{Damaged, Reader, Saved, State};
 use crate::stop;
 
 /// A finished run.
@@ -35,6 +36,30 @@ impl<'a> PlanarRunning<'a> {
     pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         scenario.validate()?;
         Ok(Self { until: scenario.along.until, integrator: Integrator::new(scenario)? })
+    }
+
+    /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as without the interruption.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a state that is not one of this scenario.
+    pub fn resumed(scenario: &'a PlanarScenario, state: &mut Reader) -> Result<Self, PlanarError> {
+        let mut running = Self::new(scenario)?;
+        running.integrator.restore(state).map_err(RunError::from)?;
+        if !(scenario.along.start_time()..=scenario.along.until).contains(&running.t()) {
+            return Err(RunError::from(Damaged::OutOfRange).into());
+        }
+        Ok(running)
+    }
+
+    /// All that the rest of the run depends on, beside the scenario.
+    pub fn save(&self, state: &mut State) {
+        self.integrator.save(state);
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.integrator.t()
     }
 
     /// Steps of this length only, by collocation and without error control: for observing the order of convergence.

@@ -2,8 +2,9 @@
 
 use super::lines::{line, tip};
 use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Trajectory, run};
+use stickslip_tip::state::State;
 use stickslip_tip::{
-    Footprint, Gaussian2d, MemoryChoice, Model, Noise, Start, TipFunction, Wider, Work,
+    Footprint, Gaussian2d, MemoryChoice, Model, Noise, Start, SupportPath, TipFunction, Wider, Work,
 };
 
 fn plain() -> Wider {
@@ -102,6 +103,54 @@ fn memory_is_flat() {
     }
     println!("{early} {late} {:?} {:?}", running.work(), running.layers());
     assert!(late <= early + early / 4 && late < 4000, "{early} {late}");
+}
+
+/// Of a line forth and back, by exponentials and by the lattice: wherever it is interrupted, the rest has the same bits.
+#[test]
+fn a_run_taken_up_again_is_the_same() {
+    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 24.0);
+    let (t, displacement) = (vec![0.0, 6.0, 16.0, 24.0], vec![0.0, 6.0, -4.0, 5.0]);
+    scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
+    let whole = run(&scenario).unwrap().trajectory;
+    for interrupted in [0, 1, 7, 20, 40, 60] {
+        let mut running = PlanarRunning::new(&scenario).unwrap();
+        for _ in 0..interrupted {
+            running.step().unwrap();
+        }
+        let mut state = State::default();
+        running.save(&mut state);
+        let mut reader = state.reader();
+        let mut resumed = PlanarRunning::resumed(&scenario, &mut reader).unwrap();
+        reader.finish().unwrap();
+        assert_eq!(resumed.work(), running.work());
+        let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
+        assert_eq!(rest, whole.steps()[interrupted..], "{interrupted}");
+    }
+}
+
+/// Words that are missing, and words that are no state, are errors or another motion, and never a panic.
+#[test]
+fn a_damaged_state_is_refused() {
+    let scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 30.0);
+    let mut running = PlanarRunning::new(&scenario).unwrap();
+    for _ in 0..9 {
+        running.step().unwrap();
+    }
+    let mut state = State::default();
+    running.save(&mut state);
+    for n in 0..state.words().len() {
+        let short = State::from_words(state.words()[..n].to_vec());
+        assert!(PlanarRunning::resumed(&scenario, &mut short.reader()).is_err(), "{n}");
+        for word in [u64::MAX, 1 << 40, 0, f64::NAN.to_bits()] {
+            let mut words = state.words().to_vec();
+            words[n] = word;
+            let state = State::from_words(words);
+            if let Ok(mut resumed) = PlanarRunning::resumed(&scenario, &mut state.reader()) {
+                // It may not get anywhere.
+                let _ = (0..3).try_for_each(|_| resumed.step().map(|_| ()));
+            }
+        }
+    }
 }
 
 fn refused(change: impl Fn(&mut PlanarScenario)) -> PlanarError {

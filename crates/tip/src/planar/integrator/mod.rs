@@ -1,6 +1,7 @@
 //! Steps in two coordinates: by Taylor series, and by collocation where the groove or the spring across is stiff.
 
 mod collocation;
+mod saved;
 mod series;
 
 use super::chain::{Chain, Curvatures};
@@ -130,6 +131,11 @@ impl<'a> Integrator<'a> {
     /// Steps of this length by collocation, without error control.
     pub(super) fn fix_step(&mut self, h: f64) {
         self.control.fix(h);
+    }
+
+    /// Start of the next step.
+    pub(super) fn t(&self) -> f64 {
+        self.made.front().map_or(self.t, |step| step.along.t)
     }
 
     pub(super) fn work(&self) -> Work {

@@ -1,0 +1,71 @@
+//! The integrator between two steps, written down and taken up again.
+
+use super::super::history::Step;
+use super::Integrator;
+use crate::collocation::Stages;
+use crate::integrator::Work;
+use crate::state::{Damaged, Reader, Saved, State};
+
+/// All that the next steps depend on, beside what [`Integrator::new`] is given.
+impl Saved for Integrator<'_> {
+    fn save(&self, state: &mut State) {
+        let [along, across] = self.velocity;
+        for number in [self.t, self.extension, self.y, along, across] {
+            state.number(number);
+        }
+        save_steps(self.last.iter(), state);
+        save_steps(self.made.iter(), state);
+        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
+        for count in [steps, rejected, newton_iterations, series, switches] {
+            state.count(count);
+        }
+        self.control.save(state);
+        self.switch.save(state);
+        self.past.save(state);
+        self.frame.save(state);
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        (self.t, self.extension, self.y) = (state.finite()?, state.finite()?, state.finite()?);
+        self.velocity = [state.finite()?, state.finite()?];
+        self.last = restored_steps(state)?.pop();
+        self.made = restored_steps(state)?.into();
+        self.work = Work {
+            steps: restored_count(state)?,
+            rejected: restored_count(state)?,
+            newton_iterations: restored_count(state)?,
+            series: restored_count(state)?,
+            switches: restored_count(state)?,
+        };
+        self.control.restore(state)?;
+        self.switch.restore(state)?;
+        self.past.restore(state)?;
+        self.frame.restore(state, self.past.groups())
+    }
+}
+
+/// One that can still be counted on.
+fn restored_count(state: &mut Reader) -> Result<u64, Damaged> {
+    state.count().and_then(|n| if n < u64::MAX / 2 { Ok(n) } else { Err(Damaged::OutOfRange) })
+}
+
+fn save_steps<'a>(steps: impl ExactSizeIterator<Item = &'a Step>, state: &mut State) {
+    state.count(steps.len() as u64);
+    for Step { along, y, across } in steps {
+        state.step(along);
+        state.number(*y);
+        across.iter().for_each(|across| state.number(*across));
+    }
+}
+
+fn restored_steps(state: &mut Reader) -> Result<Vec<Step>, Damaged> {
+    let step = |state: &mut Reader| {
+        let (along, y) = (state.step()?, state.finite()?);
+        let mut across: Stages = [0.0; _];
+        for across in &mut across {
+            *across = state.finite()?;
+        }
+        Ok(Step { along, y, across })
+    };
+    (0..state.length(1)?).map(|_| step(state)).collect()
+}

@@ -1,7 +1,11 @@
 //! The history of a tip in two coordinates: its accepted steps, each a polynomial along and one across.
 
-use crate::Support;
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::step::healing;
+use crate::{Support, Wider};
+use gauss_quad::legendre::GaussLegendre;
+use std::num::NonZeroUsize;
+use std::sync::LazyLock;
 
 /// One accepted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +53,24 @@ impl Step {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     support: Support,
+    wider: Wider,
     steps: Vec<Step>,
 }
+
+/// What the tip left while it was there: a node of the history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visit {
+    /// x0
+    pub x: f64,
+    /// y0
+    pub y: f64,
+    /// Time spent there, times what is left of it.
+    pub weight: f64,
+}
+
+/// Points of the Gauss rule on the part of a step up to a given time, as in one coordinate.
+static GAUSS: LazyLock<GaussLegendre> =
+    LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(16).unwrap() }));
 
 impl Trajectory {
     /// From steps that follow each other without a gap.
@@ -58,9 +78,44 @@ impl Trajectory {
     /// # Panics
     /// Without any step.
     #[must_use]
-    pub fn new(support: Support, steps: Vec<Step>) -> Self {
+    pub fn new(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
-        Self { support, steps }
+        Self { support, wider, steps }
+    }
+
+    /// Where the tip was until t, and for how long: `∫_{start}^t e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight q(x, y). The
+    /// surface is its initial state less α times the sum for q = f(x - x0, y - y0).
+    #[must_use]
+    pub fn residence(&self, t: f64) -> Vec<Visit> {
+        let mut visits = vec![];
+        for step in self.steps.iter().take_while(|step| step.along.t < t) {
+            let h = step.along.h;
+            let origin = self.support.position(step.along.t) - step.along.extension;
+            if step.end() <= t {
+                let since = self.wider.left_after(t - step.end());
+                let left = match self.wider.healing_time {
+                    None => RADAU.b().map(|b| b * h),
+                    Some(time) => healing(h, time)[STAGES - 1],
+                };
+                let nodes = step.along.displacement.iter().zip(&step.across).zip(left);
+                visits.extend(nodes.map(|((d, e), left)| Visit {
+                    x: origin + d,
+                    y: step.y + e,
+                    weight: left * since,
+                }));
+                continue;
+            }
+            let part = (t - step.along.t) / h;
+            visits.extend(GAUSS.as_node_weight_pairs().iter().map(|(node, weight)| {
+                let tau = 0.5 * part * (1.0 + node);
+                Visit {
+                    x: origin + RADAU.value(&step.along.displacement, tau),
+                    y: step.y + RADAU.value(&step.across, tau),
+                    weight: 0.5 * part * h * weight * self.wider.left_after((part - tau) * h),
+                }
+            }));
+        }
+        visits
     }
 
     /// The steps, in order.

@@ -27,6 +27,6 @@ mod scenario;
 mod stages;
 
 pub use frame::Layers;
-pub use history::{Step, Trajectory};
+pub use history::{Step, Trajectory, Visit};
 pub use running::{PlanarRun, PlanarRunning, run};
 pub use scenario::{PlanarError, PlanarScenario};

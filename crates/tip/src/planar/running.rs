@@ -112,6 +112,7 @@ pub fn run(scenario: &PlanarScenario) -> Result<PlanarRun, PlanarError> {
         interrupted = stop::is_asked();
     }
     let (work, layers) = (running.work(), running.layers());
-    let trajectory = Trajectory::new(scenario.along.support(), steps);
+    let along = &scenario.along;
+    let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
     Ok(PlanarRun { trajectory, work, layers, interrupted })
 }

@@ -31,6 +31,32 @@ fn on_its_line_the_tip_moves_as_in_one_coordinate() {
     }
 }
 
+/// From a flat surface the groove that visits stand for is all that pushes the tip, beside its springs.
+#[test]
+fn visits_carve_the_groove_that_the_tip_is_in() {
+    for healing_time in [None, Some(4.0)] {
+        let wider = Wider { healing_time, ..plain() };
+        let mut scenario = line((tip(1.0, 1.3), wider), 1.4, 0.4, [0.0, 0.3], 40.0);
+        scenario.along.start = Start::Flat;
+        let trajectory = run(&scenario).unwrap().trajectory;
+        let along = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        for t in [14.7, 20.0, 26.3, 33.1, 39.9] {
+            let (x, y) = (trajectory.x0(t), trajectory.y0(t));
+            let mut force = [t - x, -0.4 * y];
+            for visit in trajectory.residence(t) {
+                let (d, e) = (x - visit.x, (y - visit.y) / 1.3);
+                let strength = 1.4 * visit.weight * (-0.5 * e * e).exp();
+                force[0] += strength * along.slope(d);
+                force[1] -= strength * along.value(d) * e / 1.3;
+            }
+            let velocity = trajectory.velocity(t);
+            let miss = [0, 1].map(|j: usize| f64::abs(force[j] - velocity[j]));
+            println!("{healing_time:?} {t}: {miss:?}");
+            assert!(miss[0] < 5e-9 && miss[1] < 5e-9, "{miss:?}");
+        }
+    }
+}
+
 /// What a kick across leaves before the spring has pulled the tip back takes a time of 1/κ_y.
 #[test]
 fn as_the_spring_across_stiffens_the_motion_becomes_that_of_one_coordinate() {

@@ -98,7 +98,7 @@ fn a_small_kick_across_grows_as_linear_theory_says() {
         let by_series = run(&scenario).unwrap();
         let mut running = PlanarRunning::new(&scenario).unwrap().with_fixed_step(0.25);
         let steps = std::iter::from_fn(|| running.step().unwrap()).collect();
-        let by_collocation = Trajectory::new(scenario.along.support(), steps);
+        let by_collocation = Trajectory::new(Wider::default(), scenario.along.support(), steps);
         for (name, trajectory) in
             [("series", &by_series.trajectory), ("collocation", &by_collocation)]
         {

@@ -35,6 +35,7 @@ mod refusals;
 mod resume;
 #[cfg(unix)]
 mod slurm_scripts;
+mod snaking_runs;
 mod stability_commands;
 mod supply_chain;
 mod sweep;

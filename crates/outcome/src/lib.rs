@@ -19,6 +19,7 @@ mod reference;
 mod remark;
 mod rest;
 mod sequence;
+mod snaking;
 mod thinned;
 mod watched;
 
@@ -28,6 +29,7 @@ pub use motion::{Motion, motion};
 pub use observer::Observer;
 pub use oscillation::Oscillation;
 pub use remark::Remark;
+pub use snaking::{Snaking, largest_across, snaking};
 pub use watched::{Watched, judge_trajectory, run_and_judge};
 
 /// The kinds of motion.

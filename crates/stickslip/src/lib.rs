@@ -99,8 +99,8 @@ pub use documents::measured_tip::{
     MeasuredTipFound, MeasuredTipParameters,
 };
 pub use documents::outcome::{
-    CreepDocument, DriftDocument, OscillationDocument, RegimeName, TransientDocument, digits,
-    to_its_digits,
+    CreepDocument, DriftDocument, OscillationDocument, RegimeName, SwingDocument,
+    TransientDocument, digits, to_its_digits,
 };
 pub use documents::physical::{
     InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units,

@@ -1,5 +1,6 @@
 //! `stickslip run`.
 
+mod across;
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
 mod integration;
@@ -34,6 +35,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
+    if order.parameters.stiffness_across.is_some() {
+        return across::run(&order, arguments);
+    }
     let scenario = order.parameters.prepared()?;
     let refused = |error: RunError| {
         refusal(order.parameters.refused(&error), &arguments.options.tip, &order::files(arguments))

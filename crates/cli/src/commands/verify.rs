@@ -48,6 +48,10 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         Failure::input(named, format!("damaged: {message}"))
     };
     let unusable = |error: Unusable| damaged(error.to_string());
+    if run.parameters.stiffness_across.is_some() {
+        let message = "the tip gives way across the scan: such runs cannot be verified; run it again with another --tolerance";
+        return Err(Failure::input(format!("RUN {}", arguments.run.display()), message));
+    }
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
     let trajectory =

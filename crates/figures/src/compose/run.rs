@@ -29,6 +29,11 @@ impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
         let mut figure = FigureDocument::new("run", &title(self), vec![model]);
+        if self.parameters.stiffness_across.is_some() {
+            figure.panels = sampled(self);
+            figure.panels.extend(across(self));
+            return Ok(figure);
+        }
         if self.history.is_none() {
             figure
                 .remarks
@@ -116,7 +121,12 @@ fn title(run: &RunDocument) -> String {
         let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
         format!(", T = {period}")
     });
-    format!("{name}: {}{motion}", run.regime)
+    let swing = run.snaking.as_ref().map_or(String::new(), |swing| {
+        format!(", T = {}", to_its_digits(swing.period, swing.period_error))
+    });
+    let stiffness = run.parameters.stiffness_across;
+    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+    format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
 }
 
 /// A constant, and its name.
@@ -165,6 +175,15 @@ pub(super) fn against(
         panel.curves.push(CurveDocument::new(StyleName::Dashed, name, &ends, &level));
     }
     panel
+}
+
+/// y0 against time, and the path of the tip along and across the scan.
+fn across(run: &RunDocument) -> Vec<PanelDocument> {
+    let (samples, Some(y0)) = (&run.samples, &run.samples.y0) else { return vec![] };
+    let swing = CurveDocument::new(StyleName::Line, "y₀(t), samples", &samples.t, y0);
+    let mut path = PanelDocument::new("", ("x₀ (σ)", "y₀ (σ)"));
+    path.curves = vec![CurveDocument::new(StyleName::Line, "path of the tip", &samples.x0, y0)];
+    vec![against((L.0, "y₀ (σ)"), swing, None), path]
 }
 
 /// l and the velocity at the samples.

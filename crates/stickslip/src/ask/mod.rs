@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod across;
 pub(crate) mod boundary;
 pub(crate) mod context;
 pub(crate) mod continuation;

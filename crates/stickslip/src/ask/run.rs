@@ -1,5 +1,7 @@
 //! The question `run`: the motion of the tip from a start, and what becomes of it.
 
+use super::across;
+use super::lines::footprint;
 use super::run_found::{RunFound, became, sampled};
 use crate::parameter::option;
 use crate::{
@@ -9,9 +11,10 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::Watched;
+use stickslip_tip::planar::{PlanarError, PlanarScenario};
 use stickslip_tip::{
     Force, ForceError, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Support,
-    SupportPath, Trajectory,
+    SupportPath, TipFunction, Trajectory,
 };
 
 /// Everything that defines a run.
@@ -74,6 +77,19 @@ pub struct Run {
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
     pub memory: MemoryName,
+    /// κ_y, the spring across the scan in units of that along it; above 0. Without it the tip is held on its line.
+    #[schemars(extend("x-option" = option("K", "Across the scan", 30)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
+    /// How far off its line the tip starts, in σ, where it gives way across the scan; without it 0.
+    #[schemars(extend("x-option" = option("D", "Across the scan", 31)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kick_across: Option<f64>,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that gives way across the scan and has no f(x,y) of its own; without it
+    /// the width of the tip's Gaussians.
+    #[schemars(extend("x-option" = option("V", "Across the scan", 32)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_y: Option<f64>,
     /// When samples are taken.
     #[serde(flatten)]
     pub sampling: Sampling,
@@ -93,6 +109,10 @@ impl Document<Run> {
     /// # Errors
     /// The history was left out, or damaged.
     pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
+        if self.parameters.stiffness_across.is_some() {
+            let why = "the tip gives way across the scan: what is read off a motion along a line alone is not available of it";
+            return Err(Unusable::new(why));
+        }
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
         let history = self.history.as_ref().ok_or_else(missing)?;
         let parameters = &self.parameters;
@@ -232,6 +252,9 @@ impl Run {
             until,
             tolerance: default_tolerance(),
             memory: MemoryName::Auto,
+            stiffness_across: None,
+            kick_across: None,
+            width_y: None,
             sampling: Sampling::default(),
         }
     }
@@ -364,6 +387,46 @@ impl Run {
         self.prepared().map_err(unusable)
     }
 
+    /// The same where the tip gives way across the scan, whose model has f(x,y); `None` where it is held on its line.
+    ///
+    /// # Errors
+    /// As [`prepared`](Self::prepared); what is not available in two coordinates.
+    pub fn prepared_across(&self) -> Result<Option<PlanarScenario>, Failure> {
+        let Some(stiffness) = self.stiffness_across else {
+            let given = [("kick_across", self.kick_across), ("width_y", self.width_y)];
+            let stray = given.into_iter().find_map(|(name, value)| Some((name, value?)));
+            return stray.map_or(Ok(None), |(name, value)| {
+                let why = "is of a tip that gives way across the scan: give {stiffness_across} too";
+                Err(Refused::number(name, value, why).into())
+            });
+        };
+        let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        let (alpha, r) = (self.indentation.alpha.unwrap_or(f64::NAN), self.velocity()?);
+        let tip = TipFunction::of_footprint(footprint);
+        let model = Model::under(self.law.into(), tip, alpha, r).map_err(Refused::from)?;
+        let along = Scenario { model, ..self.prepared()? };
+        let kick_across = self.kick_across.unwrap_or_default();
+        let scenario = PlanarScenario { kick_across, ..PlanarScenario::new(along, stiffness) };
+        scenario.validate().map_err(|error| self.refused_across(error))?;
+        Ok(Some(scenario))
+    }
+
+    /// What a run in two coordinates was refused for, by its parameter; or what failed.
+    fn refused_across(&self, error: PlanarError) -> Failure {
+        let stiffness = self.stiffness_across.unwrap_or_default();
+        let number = |name: &'static str, value: f64| Refused::number(name, value, &error).into();
+        match error {
+            PlanarError::Along(error) => self.refused(&error),
+            PlanarError::Stiffness(_) | PlanarError::Unavailable(_) => {
+                number("stiffness_across", stiffness)
+            }
+            PlanarError::Kick(kick) => number("kick_across", kick),
+            PlanarError::NoFootprint => Refused::whole("width_y", error).into(),
+            PlanarError::Footprint { .. } => Refused::whole("tip", error).into(),
+            error => Failure::Failed(error.to_string()),
+        }
+    }
+
     /// Refuses what no run can do justice to, for want of digits.
     fn judge_distances(&self, scenario: &Scenario) -> Result<(), Refused> {
         let model = &scenario.model;
@@ -476,11 +539,19 @@ impl Ask for Run {
         let question = question.started(&model);
         question.judge_distances(&question.assembled()?)?;
         question.prepared()?;
+        question.prepared_across()?;
         Ok(question)
     }
 
     /// With its dense history.
     fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
+        if let Some(scenario) = self.prepared_across()? {
+            let span = (scenario.along.start_time(), scenario.along.until);
+            let times = self.sampling.times(span, "the run", true)?;
+            let found = across::found(&scenario, &times, context);
+            let found = found.map_err(|error| self.refused_across(error))?;
+            return found.ok_or(Failure::Cancelled);
+        }
         let scenario = self.prepared()?;
         let refused = |error: RunError| self.refused(&error);
         let span = (scenario.start_time(), scenario.until);

@@ -3,7 +3,7 @@
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{
     CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
-    Times, TransientDocument, VerificationDocument, WorkDocument,
+    SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,9 @@ pub struct RunFound {
     pub regime: RegimeName,
     /// Period and amplitudes, where the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// Period and amplitudes, where the regime is snaking.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub snaking: Option<SwingDocument>,
     /// The closed loops of a support on a path, and the work done in each; where the run keeps its history.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loops: Option<Vec<LoopDocument>>,
@@ -61,6 +64,7 @@ impl RunFound {
             history,
             regime: end.regime,
             oscillation: end.oscillation,
+            snaking: None,
             loops: None,
             creep: end.creep,
             drifting: end.drifting,
@@ -133,6 +137,12 @@ pub struct SampleLine {
     /// w, the rate of indentation relative to α, where there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
+    /// y0, the position of the tip across the scan, in σ, where it gives way there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<f64>,
+    /// y0', in kσ/Γ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_y: Option<f64>,
 }
 
 impl SampleLine {
@@ -150,6 +160,8 @@ impl SampleLine {
             velocity: step.velocity(t),
             height,
             weight: height.map(|height| wider.weight(height)),
+            y0: None,
+            velocity_y: None,
         }
     }
 }
@@ -243,6 +255,12 @@ pub struct Samples {
     /// w, the rate of indentation relative to α, where there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<Vec<f64>>,
+    /// y0, the position of the tip across the scan, in σ, where it gives way there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<f64>>,
+    /// y0', in kσ/Γ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_y: Option<Vec<f64>>,
 }
 
 impl Samples {
@@ -259,12 +277,15 @@ impl Samples {
             velocity: self.velocity[i],
             height: at(&self.height, i),
             weight: at(&self.weight, i),
+            y0: at(&self.y0, i),
+            velocity_y: at(&self.velocity_y, i),
         })
     }
 
     /// Whether all columns that are there have an entry for each time.
     pub fn are_even(&self) -> bool {
-        let optional = [&self.l, &self.lag, &self.height, &self.weight].into_iter().flatten();
+        let optional = [&self.l, &self.lag, &self.height, &self.weight, &self.y0, &self.velocity_y];
+        let optional = optional.into_iter().flatten();
         let mut columns = [&self.x0, &self.velocity].into_iter().chain(optional);
         columns.all(|column| column.len() == self.t.len())
     }
@@ -282,13 +303,15 @@ impl From<&[SampleLine]> for Samples {
             velocity: column(|s| s.velocity),
             height: some(|s| s.height).filter(|height: &Vec<f64>| !height.is_empty()),
             weight: some(|s| s.weight).filter(|weight: &Vec<f64>| !weight.is_empty()),
+            y0: some(|s| s.y0).filter(|y0: &Vec<f64>| !y0.is_empty()),
+            velocity_y: some(|s| s.velocity_y).filter(|v: &Vec<f64>| !v.is_empty()),
         }
     }
 }
 
 impl Tabular for RunFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        let Samples { t, l, lag, x0, velocity, height, weight } = &self.samples;
+        let Samples { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = &self.samples;
         let columns = [
             ("t", Some(t)),
             ("l", l.as_ref()),
@@ -297,6 +320,8 @@ impl Tabular for RunFound {
             ("lag", lag.as_ref()),
             ("height", height.as_ref()),
             ("weight", weight.as_ref()),
+            ("y0", y0.as_ref()),
+            ("velocity_y", velocity_y.as_ref()),
         ];
         let there = columns.into_iter();
         there.filter_map(|(name, column)| Some((name, Column::of(column?)))).collect()

@@ -35,6 +35,9 @@ pub struct History {
     /// depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<Vec<f64>>>,
+    /// y0 at the start of each step and at its nodes, in σ, where the tip gives way across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<Vec<f64>>>,
 }
 
 impl From<&Trajectory> for History {
@@ -48,6 +51,7 @@ impl From<&Trajectory> for History {
             extension: steps.iter().map(|s| s.extension).collect(),
             displacement: steps.iter().map(|s| s.displacement.to_vec()).collect(),
             height: steps.iter().map(|s| s.height.map(row)).collect(),
+            y0: None,
         }
     }
 }
@@ -111,7 +115,7 @@ impl History {
     }
 
     fn steps(&self) -> Result<Vec<Step>, Unusable> {
-        let Self { nodes, weights, t, extension, displacement, height } = self;
+        let Self { nodes, weights, t, extension, displacement, height, .. } = self;
         let same = |a: &[f64], b: &[f64]| {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
         };
@@ -166,6 +170,8 @@ impl History {
             ("history_displacement", Array::matrix(&self.displacement)),
         ];
         arrays.extend(height);
+        let across = self.y0.iter().map(|y0| ("history_y0", Array::matrix(y0)));
+        arrays.extend(across);
         arrays
     }
 }

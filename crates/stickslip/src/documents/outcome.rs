@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime};
+use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime, Snaking};
 use stickslip_surface::Ripple;
 
 /// Kinds of motion.
@@ -17,6 +17,8 @@ pub enum RegimeName {
     Trapped,
     /// A tip without a spring moves on at one velocity.
     Drifting,
+    /// The tip swings periodically across the scan, and so along it.
+    Snaking,
     /// None of these yet.
     Transient,
 }
@@ -40,6 +42,7 @@ impl std::fmt::Display for RegimeName {
             Self::StickSlip => "stick-slip",
             Self::Trapped => "trapped",
             Self::Drifting => "drifting",
+            Self::Snaking => "snaking",
             Self::Transient => "transient",
         })
     }
@@ -126,6 +129,45 @@ pub struct DriftDocument {
 impl From<Drift> for DriftDocument {
     fn from(Drift { velocity, velocity_error }: Drift) -> Self {
         Self { velocity, velocity_error }
+    }
+}
+
+/// The periodic motion of a tip that swings across the scan. Amplitudes are half peak-to-peak. What the motion goes to lies
+/// within the error of each figure, as far as its changes from period to period fade geometrically.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SwingDocument {
+    /// Of y0, in Γ/k; along the scan the tip swings twice in it.
+    pub period: f64,
+    /// Error of the period, in Γ/k.
+    pub period_error: f64,
+    /// r times the period, in σ.
+    pub wavelength: f64,
+    /// Error of the wavelength, in σ.
+    pub wavelength_error: f64,
+    /// Half peak-to-peak of y0, in σ.
+    pub amplitude_y0: f64,
+    /// Error of `amplitude_y0`, in σ.
+    pub amplitude_y0_error: f64,
+    /// Half peak-to-peak of R - x0, in σ.
+    pub amplitude_x0: f64,
+    /// Change of the largest y0 in the last period, over the amplitude.
+    pub drift: f64,
+}
+
+impl SwingDocument {
+    /// Of a motion behind a support of velocity r.
+    pub(crate) fn of(motion: &Snaking, r: f64) -> Self {
+        Self {
+            period: motion.period,
+            period_error: motion.period_error,
+            wavelength: r * motion.period,
+            wavelength_error: r * motion.period_error,
+            amplitude_y0: motion.amplitude,
+            amplitude_y0_error: motion.amplitude_error,
+            amplitude_x0: motion.amplitude_along,
+            drift: motion.drift,
+        }
     }
 }
 

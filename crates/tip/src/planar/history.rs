@@ -160,8 +160,15 @@ impl Trajectory {
         self.step_at(t).velocity(t)
     }
 
+    /// How the support moves.
+    #[must_use]
+    pub fn support(&self) -> &Support {
+        &self.support
+    }
+
     /// The step that holds t.
-    fn step_at(&self, t: f64) -> &Step {
+    #[must_use]
+    pub fn step_at(&self, t: f64) -> &Step {
         let after = self.steps.partition_point(|step| step.along.t <= t);
         &self.steps[after.max(1) - 1]
     }

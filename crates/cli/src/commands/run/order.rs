@@ -48,6 +48,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
 /// What does not go together.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     judge_files(arguments)?;
+    judge_across(&order, arguments)?;
     if order.format != RunFormat::Jsonl {
         return Ok(order);
     }
@@ -72,6 +73,23 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
         ));
     }
     Ok(order)
+}
+
+/// Refuses what is not there for a tip that gives way across the scan.
+fn judge_across(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
+    let unavailable = [
+        ("--verify", arguments.verify),
+        ("--checkpoint", arguments.checkpoint.is_some()),
+        ("--format jsonl", order.format == RunFormat::Jsonl),
+    ];
+    let is_across = order.parameters.stiffness_across.is_some();
+    match unavailable.into_iter().find(|(_, given)| is_across && *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::input(
+            option,
+            "is not available with --stiffness-across: leave one of them out, or write to a .json, .csv or .npz",
+        )),
+    }
 }
 
 /// The files that it reads.

@@ -157,7 +157,7 @@ impl Record {
 
 /// A sample as a row of a journal, NaN for what is not there.
 fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
-    let SampleLine { t, l, lag, x0, velocity, height, weight } = *sample;
+    let SampleLine { t, l, lag, x0, velocity, height, weight, .. } = *sample;
     let [l, lag, height, weight] = [l, lag, height, weight].map(|x| x.unwrap_or(f64::NAN));
     [t, l, lag, x0, velocity, height, weight]
 }
@@ -165,7 +165,8 @@ fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
 fn sample_of([t, l, lag, x0, velocity, height, weight]: [f64; SAMPLE_NUMBERS]) -> SampleLine {
     let there = |x: f64| (!x.is_nan()).then_some(x);
     let [l, lag, height, weight] = [l, lag, height, weight].map(there);
-    SampleLine { t, l, lag, x0, velocity, height, weight }
+    let (y0, velocity_y) = (None, None);
+    SampleLine { t, l, lag, x0, velocity, height, weight, y0, velocity_y }
 }
 
 const OTHER_ROWS: &str = "its rows are not those of the run";

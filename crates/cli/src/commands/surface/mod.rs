@@ -31,6 +31,12 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         RunOrRaster::Raster(raster) => return of_raster::surface(arguments, &raster, format),
     };
     format.judge_of_run(arguments)?;
+    if document.parameters.stiffness_across.is_some() {
+        let named = format!("RUN.json {}", arguments.run.display());
+        let message =
+            "the tip gives way across the scan: the surface that it leaves is not available";
+        return Err(Failure::input(named, message));
+    }
     let damaged = |message: String| {
         Failure::input(
             format!("RUN.json {}", arguments.run.display()),

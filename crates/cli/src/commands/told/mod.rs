@@ -9,7 +9,7 @@ mod run;
 mod verify;
 mod walking;
 
-pub(in crate::commands) use run::{of_lines, of_run};
+pub(in crate::commands) use run::{of_across, of_lines, of_run};
 
 use crate::made::{Document, Made};
 use crate::message::harmless;

@@ -35,6 +35,42 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told 
     told.next(again(&format!("--until {}", digits(end.end + longer, 2))))
 }
 
+/// What is told of a run in two coordinates.
+pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
+    let work = &document.work;
+    let swing = document.snaking.as_ref();
+    let motion = document.oscillation.as_ref();
+    let period = swing.map(|s| (s.period, s.period_error));
+    let period = period.or(motion.map(|o| (o.period, o.period_error.unwrap_or(0.0))));
+    let period = period.map(|(period, error)| to_its_digits(period, error));
+    let end = document.samples.t.last().copied().unwrap_or_default();
+    let headline = format!(
+        "{}{}: t = {} reached in {} steps with {}, {:.1} ms",
+        document.regime,
+        period.as_ref().map_or(String::new(), |period| format!(", period {period}")),
+        digits(end, 10),
+        work.steps,
+        work.memory,
+        1e3 * work.seconds
+    );
+    let held =
+        |value: f64, error: f64, unit: &str| format!("{} {unit}", to_its_digits(value, error));
+    let stiffness = document.parameters.stiffness_across.unwrap_or_default();
+    let told = Told::new(headline)
+        .row("α, r", parameters(&document.parameters.model_parameters()))
+        .row("stiffness across", digits(stiffness, 10));
+    let told = match motion {
+        Some(found) => oscillation(told, found),
+        None => told,
+    };
+    told.maybe("period", swing.map(|s| held(s.period, s.period_error, "Γ/k")))
+        .maybe("wavelength", swing.map(|s| held(s.wavelength, s.wavelength_error, "σ")))
+        .maybe("amplitude of y0", swing.map(|s| held(s.amplitude_y0, s.amplitude_y0_error, "σ")))
+        .maybe("amplitude of x0", swing.map(|s| format!("{} σ", digits(s.amplitude_x0, 7))))
+        .remarks(&document.remarks)
+        .next(again("-o run.json --plot run.svg"))
+}
+
 /// What is told of a run written as lines.
 pub(in crate::commands) fn of_lines(end: &RunEnd) -> Told {
     Told::new(summary(end)).remarks(&end.remarks)

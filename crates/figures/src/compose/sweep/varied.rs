@@ -76,7 +76,9 @@ impl Phase {
             (RegimeName::StickSlip, Some(2)) => Self::TwoSlips,
             (RegimeName::StickSlip, _) => Self::MoreSlips,
             (RegimeName::Trapped, _) => Self::Trapped,
-            (RegimeName::Transient | RegimeName::Drifting, _) => Self::Unsettled,
+            (RegimeName::Transient | RegimeName::Drifting | RegimeName::Snaking, _) => {
+                Self::Unsettled
+            }
         })
     }
 

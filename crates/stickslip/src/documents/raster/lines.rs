@@ -134,7 +134,7 @@ impl LineHistory {
         let Self { t, extension, displacement, height } = self.clone();
         let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
         let model = &plan.law.model;
-        let history = History { nodes, weights, t, extension, displacement, height };
+        let history = History { nodes, weights, t, extension, displacement, height, y0: None };
         let found = history.under(*model.wider(), Support::Moving(model.r()));
         let found = found.map_err(|error| Unusable::new(format!("line {}: {error}", n + 1)))?;
         let (start, end, duration) = (found.start(), found.end(), plan.duration(n));

@@ -102,7 +102,8 @@ impl RegimeCounts {
                 Some(RegimeName::StickSlip) => &mut counts.stick_slip,
                 Some(RegimeName::Trapped) => &mut counts.trapped,
                 Some(RegimeName::Drifting) => &mut counts.drifting,
-                Some(RegimeName::Transient) => &mut counts.transient,
+                // No point of a sweep gives way across the scan.
+                Some(RegimeName::Transient | RegimeName::Snaking) => &mut counts.transient,
                 None => &mut counts.failed,
             } += 1;
         }

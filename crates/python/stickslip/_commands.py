@@ -34,6 +34,7 @@ def command(*path, returns=Result):
         function.__module__ = "stickslip"
         function.__doc__ = f"{described.__doc__.rstrip()}\n\n{listed(path)}"
         function.__signature__ = taken
+        function.__stickslip__ = path
         return function
 
     return made

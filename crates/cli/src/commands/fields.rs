@@ -52,7 +52,9 @@ fn shown(document: &Value, path: &str) -> String {
         (Value::Object(mut fields), _) => fields.remove(name).unwrap_or_default(),
         _ => Value::Null,
     };
-    match path.split('.').fold(document.clone(), step) {
+    // Of fields of which a document has one.
+    let mut values = path.split('|').map(|path| path.split('.').fold(document.clone(), step));
+    match values.find(|value| !value.is_null()).unwrap_or_default() {
         Value::String(text) => harmless(&text).into(),
         // JSON leaves DEL, C1 and marks of direction as they are.
         value => harmless(&value.to_string()).into(),
@@ -93,6 +95,10 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
     }
     match ending.as_slice() {
         [one] => Ok((*one).clone()),
+        several @ [_, ..] if several.iter().all(|name| is_of_motion(name)) => {
+            let names: Vec<&str> = several.iter().map(|name| name.as_str()).collect();
+            Ok(names.join("|"))
+        }
         [] => Err(nearest(&all, path).map_or(refused, |meant| {
             let message = format!("there is no such field: did you mean {}?", meant.join(" or "));
             Failure::input(format!("--print {path}"), message)
@@ -103,6 +109,11 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
             Err(Failure::input(format!("--print {path}"), message))
         }
     }
+}
+
+/// Whether a field is of the periodic motion that a run has come to, of which there is one kind.
+fn is_of_motion(name: &str) -> bool {
+    ["oscillation.", "snaking."].into_iter().any(|part| name.starts_with(part))
 }
 
 /// Parts within parts, at most.
@@ -227,7 +238,12 @@ mod tests {
         let found = only(&["period", "amplitude_u", "steps", "regime"]).unwrap();
         assert_eq!(
             found,
-            ["oscillation.period", "oscillation.amplitude_u", "work.steps", "regime"]
+            [
+                "oscillation.period|snaking.period",
+                "oscillation.amplitude_u",
+                "work.steps",
+                "regime"
+            ]
         );
         let said = |path: &str| only(&[path]).unwrap_err().to_string();
         let several = said("velocity");

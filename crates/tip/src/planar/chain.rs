@@ -255,7 +255,7 @@ impl Chain {
 }
 
 /// Entries of a row that are summed side by side.
-const BLOCK: usize = 8;
+const BLOCK: usize = 12;
 
 /// Rows one after the other, with factors of them and one of their sum.
 struct Sums<'a> {

@@ -47,7 +47,7 @@ struct Cut {
 /// Beyond visits and tip there is to be this room for a step, in widths, and this part of their distance.
 const LEAST_ROOM: (f64, f64) = (0.15, 0.35);
 /// So much more of it, where layers are chosen anew; twice that, where they are given up.
-const SPARE_ROOM: f64 = 0.1;
+const SPARE_ROOM: (f64, f64) = (0.1, 0.1);
 
 impl Frame {
     /// For a Gaussian of this width across, and a footprint of this reach along.
@@ -132,12 +132,13 @@ impl Frame {
         let (low, high) = before.map_or((low, high), |(a, b)| (low.min(a), high.max(b)));
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) / self.width);
         let groups = past.groups();
-        let is_lean = groups <= 1 || !suits(&self.known[groups - 2], half + 2.0 * SPARE_ROOM);
+        let spare = SPARE_ROOM.0 + SPARE_ROOM.1 * half;
+        let is_lean = groups <= 1 || !suits(&self.known[groups - 2], half + 2.0 * spare);
         if suits(&self.radii, farthest(self, (low, high))) && is_lean {
             return Ok(());
         }
         let range = 2.0 * half;
-        let needed = self.groups(half + SPARE_ROOM).ok_or(PlanarError::Range { t, range })?;
+        let needed = self.groups(half + spare).ok_or(PlanarError::Range { t, range })?;
         if let Some(before) = before {
             let error = layers::error_of_visits(farthest(self, before), LANES * groups);
             self.cut(x.1, error);

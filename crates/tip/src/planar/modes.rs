@@ -216,9 +216,11 @@ fn carry(
     for (states, exponents) in states.chunks_mut(2 * TERMS * groups).zip(exponents) {
         let (re, im) = of_lanes(*exponents, moved);
         room.clear();
-        for position in position {
+        for position in &position[..position.len() - 1] {
             room.push(of_lanes(*exponents, moved - position));
         }
+        // The tip stands at the last of them.
+        room.push(([1.0; TERMS], [0.0; TERMS]));
         for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
             let (real, imaginary) = state.split_at_mut(groups);
             for (g, (a, b)) in real.iter_mut().zip(imaginary).enumerate() {

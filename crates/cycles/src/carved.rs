@@ -65,6 +65,15 @@ impl Carved {
         by_columns(&self.bare, &self.weights)
     }
 
+    /// What of these, of ∂/∂h and of ∂/∂`η_k` counts at the end of the step.
+    pub(super) fn at_end(&self) -> [Stages; 3] {
+        let row = |matrix: &Matrix, factors: &Stages| -> Stages {
+            std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])
+        };
+        let by_height = row(&self.bare, &self.by_height).map(|b| b * self.times);
+        [row(&self.bare, &self.weights), row(&self.bare_rate, &self.weights), by_height]
+    }
+
     /// ∂`b_ik w_k`/∂h
     pub(super) fn rate(&self) -> Matrix {
         by_columns(&self.bare_rate, &self.weights)

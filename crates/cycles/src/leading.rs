@@ -5,6 +5,7 @@
 //! past of the tip leads to. The period map within it (Rayleigh, Ritz) has the leading multipliers long before the
 //! others; what two spaces agree on that follow each other is told.
 
+use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::along;
 use super::orbit::Orbit;
@@ -80,6 +81,7 @@ struct PeriodMap<'a> {
     /// Linearised in the fine sum.
     equation: Embedding,
     orbit: &'a Orbit,
+    carved: Vec<Carved>,
 }
 
 impl<'a> PeriodMap<'a> {
@@ -87,12 +89,12 @@ impl<'a> PeriodMap<'a> {
         Self {
             equation: Embedding { short: Arc::clone(&equation.fine), ..equation.clone() },
             orbit,
+            carved: orbit.carved(&equation.wider),
         }
     }
 
     fn past(&self) -> Option<Past<'_>> {
-        let carved = self.orbit.carved(&self.equation.wider);
-        Past::of(&self.equation.short, self.orbit, &carved)
+        Past::of(&self.equation.short, self.orbit, &self.carved)
     }
 
     /// Length of the state.
@@ -106,7 +108,7 @@ impl<'a> PeriodMap<'a> {
         let carry = |_, step: &LinearStep, share: f64| {
             step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
         };
-        along(&self.equation, self.orbit, (past, past), carry).ok()?;
+        along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
         Some(state.columns())
     }
 
@@ -121,7 +123,7 @@ impl<'a> PeriodMap<'a> {
             }
             step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
         };
-        along(&self.equation, self.orbit, (past, past), carry).ok()?;
+        along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
         Some(state.columns())
     }
 }

@@ -4,6 +4,7 @@
 //! changes of the first state X, the period T and the free parameter, with X at the end equal to X at the
 //! start, l at a maximum there, and one equation more: a fixed parameter, or a way along the branch.
 
+use super::carved::Carved;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
@@ -57,7 +58,7 @@ impl Linearisation {
         let mut end = Sensitivity::identity(equation.state_len());
         let (mut stages, mut heights, mut of_steps) = (vec![], vec![], vec![]);
         let mut room = Factors::default();
-        let gap = along(equation, orbit, (&past, solved), |_, step, share| {
+        let gap = along(equation, (orbit, &carved), (&past, solved), |_, step, share| {
             let (of_stages, of_heights) = step.carry(free, share, &mut end, &mut room)?;
             stages.push(of_stages);
             heights.extend(of_heights);
@@ -148,11 +149,10 @@ impl Linearisation {
 /// The sums are as in [`Linearisation::new`].
 pub(super) fn along(
     equation: &Embedding,
-    orbit: &Orbit,
+    (orbit, carved): (&Orbit, &[Carved]),
     (past, solved): (&Past, &Past),
     mut each: impl FnMut(usize, &LinearStep, f64) -> Option<()>,
 ) -> Result<f64, Singular> {
-    let carved = orbit.carved(&equation.wider);
     let (mut extension, mut velocity) = (orbit.extension, orbit.velocity());
     let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
     for (n, ((ends, h), d)) in steps.enumerate() {

@@ -3,6 +3,7 @@
 use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
+use std::cell::RefCell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::exponentials as fill;
@@ -12,14 +13,55 @@ use stickslip_tip::stop;
 /// ζ at the ends of all steps of an orbit, and the exponentials at their stages.
 pub(super) struct Past<'a> {
     terms: &'a [Term],
-    /// `e^{s_j d_i}` by step and term.
+    /// By step and term.
+    numbers: Numbers,
+    /// What is left of it at the nodes of each step.
+    left: Vec<Stages>,
+}
+
+/// Of all steps and terms: some hundred kilobytes, that are made at every linearisation.
+#[derive(Default)]
+struct Numbers {
+    /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `e^{-s_j d_i}`
     inverses: Vec<[Complex<f64>; STAGES]>,
-    /// `ζ_j` by step, the end of the last included, and term.
+    /// What `ζ_j` takes up.
+    spent: Vec<Complex<f64>>,
+    /// `ζ_j`, at the end of the last step too.
     zeta: Vec<Complex<f64>>,
-    /// What is left of it at the nodes of each step.
-    left: Vec<Stages>,
+}
+
+thread_local! {
+    /// Room for the next ones on this thread: asked of the system anew, it would take longer than it is written.
+    static ROOM: RefCell<Vec<Numbers>> = const { RefCell::new(vec![]) };
+}
+/// So many are kept, none of more steps and terms than this.
+const MOST_KEPT: usize = 2;
+const LARGEST_KEPT: usize = 10_000;
+
+impl Numbers {
+    fn with_room_for(count: usize) -> Self {
+        let mut numbers = ROOM.with_borrow_mut(Vec::pop).unwrap_or_default();
+        numbers.exponentials.clear();
+        numbers.inverses.clear();
+        numbers.spent.clear();
+        numbers.zeta.clear();
+        numbers.exponentials.reserve(count);
+        numbers.inverses.reserve(count);
+        numbers
+    }
+}
+
+impl Drop for Past<'_> {
+    fn drop(&mut self) {
+        let numbers = std::mem::take(&mut self.numbers);
+        ROOM.with_borrow_mut(|room| {
+            if room.len() < MOST_KEPT && numbers.exponentials.capacity() <= LARGEST_KEPT {
+                room.push(numbers);
+            }
+        });
+    }
 }
 
 /// That of one step.
@@ -45,43 +87,41 @@ impl<'a> Past<'a> {
     pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
-        let (mut exponentials, mut inverses) =
-            (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut spent = Vec::with_capacity(count);
+        let mut numbers = Numbers::with_room_for(count);
         for (d, carved) in orbit.stages.iter().zip(carved) {
             if stop::is_asked() {
                 return None;
             }
-            let stays = carved.weighted()[STAGES - 1];
+            let [stays, ..] = carved.at_end();
+            let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
             let from = inverses.len();
-            let exponents = terms.iter().map(|term| term.exponent);
-            fill(exponents, d, &mut exponentials, &mut inverses);
+            fill(terms.iter().map(|term| term.exponent), d, exponentials, inverses);
             for (term, inverse) in terms.iter().zip(&inverses[from..]) {
                 spent.push(term.weight * spent_in(inverse, &stays) * carved.times);
             }
         }
+        numbers.zeta.resize(count + terms.len(), Complex::ZERO);
         let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
-        let zeta = vec![Complex::ZERO; count + terms.len()];
-        let mut past = Self { terms, exponentials, inverses, zeta, left };
-        past.follow(&spent);
+        let mut past = Self { terms, numbers, left };
+        past.follow();
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
         let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
-        let added = &past.zeta[past.zeta.len() - terms.len()..];
-        let settled = |(added, term): (&Complex<f64>, &Term)| {
-            added / (1.0 - complex_exp(term.exponent * moved) * kept)
-        };
-        let start: Vec<_> = added.iter().zip(terms).map(settled).collect();
-        past.zeta[..terms.len()].copy_from_slice(&start);
-        past.follow(&spent);
+        let (start, others) = past.numbers.zeta.split_at_mut(terms.len());
+        let added = if count == 0 { &[] } else { &others[count - terms.len()..] };
+        for ((start, added), term) in start.iter_mut().zip(added).zip(terms) {
+            *start = added / (1.0 - complex_exp(term.exponent * moved) * kept);
+        }
+        past.follow();
         Some(past)
     }
 
     /// ζ at the ends of all steps, from what it is at the start.
-    fn follow(&mut self, spent: &[Complex<f64>]) {
+    fn follow(&mut self) {
         let count = self.terms.len();
-        let steps = self.exponentials.chunks_exact(count).zip(spent.chunks_exact(count));
+        let Numbers { exponentials, spent, zeta, .. } = &mut self.numbers;
+        let steps = exponentials.chunks_exact(count).zip(spent.chunks_exact(count));
         for (n, ((exponentials, spent), left)) in steps.zip(&self.left).enumerate() {
-            let (before, after) = self.zeta[n * count..].split_at_mut(count);
+            let (before, after) = zeta[n * count..].split_at_mut(count);
             let left = left[STAGES - 1];
             for (j, after) in after[..count].iter_mut().enumerate() {
                 *after = exponentials[j][STAGES - 1] * (before[j] * left + spent[j]);
@@ -93,10 +133,10 @@ impl<'a> Past<'a> {
         let of = |n: usize| n * self.terms.len()..(n + 1) * self.terms.len();
         PastOfStep {
             terms: self.terms,
-            exponentials: &self.exponentials[of(n)],
-            inverses: &self.inverses[of(n)],
-            zeta: &self.zeta[of(n)],
-            after: &self.zeta[of(n + 1)],
+            exponentials: &self.numbers.exponentials[of(n)],
+            inverses: &self.numbers.inverses[of(n)],
+            zeta: &self.numbers.zeta[of(n)],
+            after: &self.numbers.zeta[of(n + 1)],
             left: &self.left[n],
         }
     }

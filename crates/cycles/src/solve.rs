@@ -4,7 +4,7 @@ use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::Linearisation;
-use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, OfStep, adapted, residuals};
+use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -98,15 +98,20 @@ pub(super) fn close(
     let mut short_of_it = 0;
     for _ in 0..meshes {
         for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
+            let before = Arc::clone(&equation.short);
+            if enough <= ENOUGH {
+                // The last linearisation is kept.
+                equation.short = Arc::clone(&short);
+            }
             let (e, o) = (&mut equation, &mut orbit);
             let mut newton = Newton { equation: e, orbit: o, condition, precise: &short };
-            let Converged { of_steps, count, size } = newton.solve(solved, enough)?;
+            let Converged { linearisation, count, size } = newton.solve(solved, enough)?;
             iterations += count;
             work += equation.work((count * orbit.stages.len()) as f64);
             if work > MOST_WORK || stop::is_asked() {
                 return Err(NotClosed::Lost);
             }
-            let residuals = residuals(&orbit, &of_steps);
+            let residuals = residuals(&orbit, &linearisation.of_steps);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             reached = residual;
             let corners = orbit.corners(equation.r);
@@ -122,13 +127,22 @@ pub(super) fn close(
                     return Err(NotClosed::Lost);
                 }
                 orbit = orbit.on_mesh(equation.r, mesh);
+                if enough <= ENOUGH && size <= ENOUGH {
+                    equation.short = before;
+                }
                 break;
             }
             if enough <= ENOUGH || (Arc::ptr_eq(first, &fine) && size <= ENOUGH) {
+                let is_of_orbit = Arc::ptr_eq(&equation.short, &short) && size <= ENOUGH;
                 equation.short = Arc::clone(&short);
-                let linearisation = Linearisation::new(&equation, &orbit, condition.free, &fine);
-                let linearisation = Arc::new(linearisation.map_err(|_| NotClosed::Lost)?);
-                iterations += 1;
+                let linearisation = if is_of_orbit {
+                    linearisation
+                } else {
+                    iterations += 1;
+                    let again = Linearisation::new(&equation, &orbit, condition.free, &fine);
+                    again.map_err(|_| NotClosed::Lost)?
+                };
+                let linearisation = Arc::new(linearisation);
                 return Ok(Closed { equation, orbit, linearisation, residual, iterations });
             }
         }
@@ -160,8 +174,8 @@ struct Newton<'a> {
 
 /// Where Newton's method ended.
 struct Converged {
-    /// About the last iterate but one, by step.
-    of_steps: Vec<OfStep>,
+    /// About the last iterate but one.
+    linearisation: Linearisation,
     /// Linearisations that it took.
     count: usize,
     /// The last correction.
@@ -184,7 +198,7 @@ impl Newton<'_> {
             let is_rough = !Arc::ptr_eq(&self.equation.short, self.precise);
             let settled = size > 0.5 * last && size < ROUND_OFF && !is_rough;
             if size <= enough || settled {
-                return Ok(Converged { of_steps: linearisation.of_steps, count, size });
+                return Ok(Converged { linearisation, count, size });
             }
             if slow && is_rough {
                 self.equation.short = Arc::clone(self.precise);

@@ -253,15 +253,14 @@ impl<'a> LinearStep<'a> {
         if free == Parameter::R {
             state.constants(0)[1] += self.h;
         }
-        let [stays, rate, by_height] =
-            [self.carved.weighted(), self.carved.rate(), self.carved.by_height()]
-                .map(|b| b[STAGES - 1]);
+        let [stays, rate, by_height] = self.carved.at_end();
         let fading = self.carved.fading[STAGES - 1];
         for (j, term) in self.past.terms.iter().enumerate() {
             let e = self.past.exponentials[j][STAGES - 1];
             let (re, im) = (1 + j, 1 + modes + j);
             let weight = term.weight * e;
-            let visit = self.past.inverses[j].map(|e| weight * e);
+            let mut visit = self.past.inverses[j];
+            visit.iter_mut().for_each(|e| *e *= weight);
             for k in 0..STAGES {
                 let mut change = -term.exponent * (visit[k] * stays[k]) * self.carved.times;
                 if k == STAGES - 1 {

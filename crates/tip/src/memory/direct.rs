@@ -56,7 +56,11 @@ fn add_side_by_side(
     sums[0][..slope.len()].copy_from_slice(slope);
     sums[1][..slope.len()].copy_from_slice(curvature);
     for (position, weight) in visits {
-        let told = tip.slopes_and_curvatures(&x.map(|x| x - position));
+        let mut from = *x;
+        for x in &mut from {
+            *x -= position;
+        }
+        let told = tip.slopes_and_curvatures(&from);
         for i in 0..LANES {
             sums[0][i] += weight * told[0][i];
             sums[1][i] += weight * told[1][i];

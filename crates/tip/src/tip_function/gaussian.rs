@@ -96,16 +96,18 @@ impl GaussianSum {
             return sums;
         }
         for g in &self.terms {
-            let far = x.map(|x| (x - g.center) / g.width);
-            // What is out of reach is 0.
-            let is_near = far.map(|z| z.abs() < WIDTHS_OF_REACH);
-            let mut z = [0.0; N];
+            // Loops throughout: `map` is none over lanes unless it happens to be inlined.
+            let (mut z, mut near) = ([0.0; N], [0.0; N]);
             for i in 0..N {
-                z[i] = if is_near[i] { far[i] } else { 0.0 };
+                let far = (x[i] - g.center) / g.width;
+                // What is out of reach is 0.
+                let is_near = far.abs() < WIDTHS_OF_REACH;
+                (z[i], near[i]) = if is_near { (far, 1.0) } else { (0.0, 0.0) };
             }
-            let mut value = z.map(|z| g.amplitude * exp_within(-0.5 * z * z) / g.width);
+            let mut value = [0.0; N];
             for i in 0..N {
-                value[i] = if is_near[i] { value[i] } else { 0.0 };
+                let exponential = exp_within(-0.5 * z[i] * z[i]);
+                value[i] = near[i] * (g.amplitude * exponential / g.width);
             }
             for i in 0..N {
                 sums[0][i] -= z[i] * value[i];

@@ -11,7 +11,7 @@
 //! A wider law weighs and fades visits ([`Carved`]), carries the force on by another matrix than hA ([`Carrying`]), or
 //! asks for the [heights](LinearHeights) under the tip.
 
-use super::blocks::{Square, Vector};
+use super::blocks::{Square, Vector, inverted};
 use super::carrying::Carrying;
 use super::carved::{Carved, Heights};
 use super::depth::LinearHeights;
@@ -20,6 +20,7 @@ use super::mesh::OfStep;
 use super::past::PastOfStep;
 use super::quadrature::missed;
 use super::sensitivity::Sensitivity;
+use multiversion::multiversion;
 use num_complex::Complex;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::step::OwnGroove;
@@ -137,7 +138,7 @@ impl<'a> LinearStep<'a> {
         room: &mut Factors,
     ) -> Option<(Sensitivity, Option<Sensitivity>)> {
         let Carrying { by_force, .. } = &self.carrying;
-        let inverse = (Square::identity() - by_force * self.velocity_slope).try_inverse()?;
+        let inverse = inverted(Square::identity() - by_force * self.velocity_slope)?;
         let gain = inverse * by_force;
         let told = self.heights_by_state();
         self.stages_by_state(&told, &inverse, &gain, &mut room.of_stages);
@@ -195,22 +196,19 @@ impl<'a> LinearStep<'a> {
         gain: &Square,
         into: &mut Vec<Stages>,
     ) {
-        let (alpha, left) = (self.equation.alpha, &self.carved.left);
         let modes = self.past.terms.len();
         into.clear();
-        into.resize(1 + 2 * modes, [1.0; STAGES]);
+        into.resize(1 + 2 * modes, [0.0; STAGES]);
+        into[0] = Stages::from(gain * Vector::from([1.0; STAGES]));
+        let left = self.carved.left.map(|left| self.equation.alpha * left);
+        let by_past = Square::from_fn(|i, k| gain[(i, k)] * left[k]);
         let (re, im) = into[1..].split_at_mut(modes);
-        for ((re, im), e) in re.iter_mut().zip(im).zip(self.past.exponentials) {
-            for i in 0..STAGES {
-                (re[i], im[i]) = (alpha * e[i].re * left[i], -alpha * e[i].im * left[i]);
-            }
-        }
+        products(&by_past, self.past.exponentials, re, im);
         if let Some(heights) = &self.heights {
-            for (force, told) in into.iter_mut().zip(told) {
-                *force = Stages::from(Vector::from(*force) + heights.force(told));
+            for (stages, told) in into.iter_mut().zip(told) {
+                *stages = Stages::from(Vector::from(*stages) + gain * heights.force(told));
             }
         }
-        into.iter_mut().for_each(|force| *force = product(gain, force));
         into.extend(self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide)));
     }
 
@@ -258,23 +256,17 @@ impl<'a> LinearStep<'a> {
         for (j, term) in self.past.terms.iter().enumerate() {
             let e = self.past.exponentials[j][STAGES - 1];
             let (re, im) = (1 + j, 1 + modes + j);
-            let weight = term.weight * e;
-            let mut visit = self.past.inverses[j];
-            visit.iter_mut().for_each(|e| *e *= weight);
-            for k in 0..STAGES {
-                let mut change = -term.exponent * (visit[k] * stays[k]) * self.carved.times;
-                if k == STAGES - 1 {
-                    change += term.exponent * self.past.after[j];
-                }
-                (by_stages[re][k], by_stages[im][k]) = (change.re, change.im);
-            }
+            let (weight, inverses) = (term.weight * e, &self.past.inverses[j]);
+            let moved = -term.exponent * weight * self.carved.times;
+            (by_stages[re], by_stages[im]) = times(inverses, &stays, moved);
+            let last = term.exponent * self.past.after[j];
+            by_stages[re][STAGES - 1] += last.re;
+            by_stages[im][STAGES - 1] += last.im;
             if heights.is_some() {
-                for k in 0..STAGES {
-                    let change = visit[k] * by_height[k];
-                    (by_heights[re][k], by_heights[im][k]) = (change.re, change.im);
-                }
+                (by_heights[re], by_heights[im]) = times(inverses, &by_height, weight);
             }
-            let spent: Complex<f64> = visit.iter().zip(&rate).map(|(visit, b)| visit * b).sum();
+            let spent: Complex<f64> = inverses.iter().zip(&rate).map(|(e, b)| e * b).sum();
+            let spent = weight * spent;
             let faded = e * self.past.zeta[j] * (left * fading);
             state.constants(re)[0] += (spent.re + faded.re) * share;
             state.constants(im)[0] += (spent.im + faded.im) * share;
@@ -294,15 +286,42 @@ impl<'a> LinearStep<'a> {
     }
 }
 
-/// Matrix times vector, summed column by column.
-fn product(matrix: &Square, vector: &Stages) -> Stages {
-    let mut product = [0.0; STAGES];
-    for (column, factor) in matrix.as_slice().as_chunks::<STAGES>().0.iter().zip(vector) {
-        for i in 0..STAGES {
-            product[i] += column[i] * factor;
+/// A matrix times the real parts, and minus the imaginary parts, of all these vectors.
+///
+/// Compiled for wider vectors too: lanes do not know of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn products(
+    matrix: &Square,
+    vectors: &[[Complex<f64>; STAGES]],
+    re: &mut [Stages],
+    im: &mut [Stages],
+) {
+    let (columns, _) = matrix.as_slice().as_chunks::<STAGES>();
+    for ((re, im), vector) in re.iter_mut().zip(im).zip(vectors) {
+        let mut sums = [[0.0; STAGES]; 2];
+        for (column, factor) in columns.iter().zip(vector) {
+            for i in 0..STAGES {
+                sums[0][i] += column[i] * factor.re;
+                sums[1][i] -= column[i] * factor.im;
+            }
         }
+        (*re, *im) = (sums[0], sums[1]);
     }
-    product
+}
+
+/// Real and imaginary parts of these numbers times factors of each, and one of all.
+#[inline]
+fn times(
+    numbers: &[Complex<f64>; STAGES],
+    factors: &Stages,
+    of_all: Complex<f64>,
+) -> (Stages, Stages) {
+    let (mut re, mut im) = ([0.0; STAGES], [0.0; STAGES]);
+    for k in 0..STAGES {
+        let (a, b) = (numbers[k].re * factors[k], numbers[k].im * factors[k]);
+        (re[k], im[k]) = (of_all.re * a - of_all.im * b, of_all.re * b + of_all.im * a);
+    }
+    (re, im)
 }
 
 #[cfg(test)]

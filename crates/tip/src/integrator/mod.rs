@@ -42,8 +42,6 @@ pub struct Work {
     pub series: u64,
     /// How often collocation took over from series.
     pub switches: u64,
-    /// Of the series, those made side by side with other motions.
-    pub side_by_side: u64,
 }
 
 /// The state of a tip under way, and all that acts on it.

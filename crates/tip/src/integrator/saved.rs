@@ -13,7 +13,7 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         }
         state.steps(self.taylor.taken().or(self.last.as_ref()).into_iter());
         self.corner.iter().for_each(|corner| corner.save(state));
-        let Work { steps, rejected, newton_iterations, series, switches, .. } = self.work;
+        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
         [steps, rejected, newton_iterations, series, switches]
             .into_iter()
             .for_each(|count| state.count(count));
@@ -39,7 +39,6 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
             newton_iterations: state.count()?,
             series: state.count()?,
             switches: state.count()?,
-            side_by_side: 0,
         };
         self.control.restore(state)?;
         self.taylor.restore(state, (self.t, self.extension))?;

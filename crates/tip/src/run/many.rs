@@ -17,8 +17,8 @@ pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
 /// Makes a run of each of these scenarios, and hands it over with its number when it has ended, in any order.
 ///
 /// Under the basic law, without forces, noise and profiles, where the memory is `auto` or `modes`, motions of one footprint
-/// and one tolerance go side by side in the lanes of the machine, in a third of the time ([`Work::side_by_side`] counts
-/// their series). They are as accurate as those that [`run`] makes, though not the same to the last bits; they do not depend
+/// and one tolerance go side by side in the lanes of the machine, in less than half of the time ([`Run::side_by_side`]).
+/// They are as accurate as those that [`run`] makes, though not the same to the last bits; they do not depend
 /// on what other scenarios there are. All others, and those that become too stiff on the way, are made by [`run`].
 ///
 /// ```
@@ -123,6 +123,7 @@ impl Group {
             memory: report.name(),
             memory_reason: format!("side by side with other motions; {fared}"),
             interrupted: false,
+            side_by_side: true,
         })
     }
 }

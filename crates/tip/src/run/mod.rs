@@ -28,6 +28,8 @@ pub struct Run {
     pub memory_reason: String,
     /// Whether the observer stopped it before `until`.
     pub interrupted: bool,
+    /// Whether its series were made side by side with those of other motions: [`run_each`].
+    pub side_by_side: bool,
 }
 
 /// Integrates (15) from the start of the scenario to its end, and keeps the whole history; for more than
@@ -65,5 +67,6 @@ pub fn run_observed(
     let wider = *scenario.model.wider();
     let trajectory = Trajectory::under(wider, scenario.support(), steps);
     let initial_surface = surface;
-    Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted })
+    let side_by_side = false;
+    Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted, side_by_side })
 }

@@ -56,7 +56,7 @@ fn a_run_is_the_same_to_the_last_bit_in_any_company_and_order() {
         assert_eq!((run.work, again.work), (again.work, alone(one).work));
         assert_eq!(run.trajectory.start().to_bits(), one.start_time().to_bits());
         assert_eq!(run.trajectory.end().to_bits(), one.until.to_bits());
-        beside += usize::from(run.work.side_by_side > 0);
+        beside += usize::from(run.side_by_side);
     }
     assert!(beside > 15, "{beside}");
 }
@@ -77,7 +77,7 @@ fn errors_are_no_larger_than_those_of_runs_one_by_one() {
         let (mut ratios, mut worst) = (0.0, 0.0_f64);
         for ((one, fine), beside) in scenarios.iter().zip(&fine).zip(run_many(&scenarios)) {
             let beside = beside.unwrap();
-            assert!(beside.work.side_by_side > 0 && beside.work.newton_iterations == 0);
+            assert!(beside.side_by_side && beside.work.newton_iterations == 0);
             let (error, of_one) = (off(&beside, fine), off(&run(one).unwrap(), fine));
             assert!(error < 3.0 * of_one, "{tolerance:e} α = {}: {error:e}", one.model.alpha());
             ratios += (error / of_one).ln();
@@ -106,7 +106,7 @@ fn other_footprints_and_starts_move_as_they_do_one_by_one() {
     }
     for (one, beside) in scenarios.iter().zip(run_many(&scenarios)) {
         let (single, beside) = (run(one).unwrap(), beside.unwrap());
-        assert!(beside.work.side_by_side > 0 && beside.memory == "modes");
+        assert!(beside.side_by_side && beside.memory == "modes");
         assert!(beside.memory_reason.starts_with("side by side"), "{}", beside.memory_reason);
         for i in 0..=200 {
             let t = one.start_time() + f64::from(i) / 200.0 * (60.0 - one.start_time());
@@ -143,10 +143,11 @@ fn whatever_does_not_go_side_by_side_is_made_one_by_one() {
     for (i, (one, many)) in scenarios.iter().zip(runs).enumerate() {
         match (run(one), many) {
             (Ok(single), Ok(many)) if i == 4 => {
-                assert!(many.work.side_by_side > 0 && single.work.side_by_side == 0);
+                assert!(many.side_by_side && !single.side_by_side);
             }
             (Ok(single), Ok(many)) => {
                 assert_eq!(single.work, many.work, "{i}");
+                assert!(!many.side_by_side, "{i}");
                 assert!(bits(&single) == bits(&many), "{i}");
             }
             (single, many) => {

@@ -310,7 +310,6 @@ impl Member {
         }
         self.work.steps += pieces.len() as u64;
         self.work.series += 1;
-        self.work.side_by_side += 1;
     }
 }
 

@@ -20,7 +20,7 @@ impl End<'_> {
             remarks.push(Remark::RoundOffGrows { rate });
         }
         match regime {
-            Regime::StickSlip if matches!(self.linear(), Linear::Stable(_)) => {
+            Regime::StickSlip if self.steady_is_stable() => {
                 remarks.push(Remark::SteadyToo);
             }
             Regime::StickSlip

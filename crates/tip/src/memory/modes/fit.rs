@@ -296,7 +296,7 @@ fn by_pencil(
     let sample = |i: usize| tip.slope(i as f64 * spacing - window.retreat);
     let even: Vec<f64> = (0..count).map(sample).collect();
     let fine = samples(tip, (window.retreat, span - window.retreat), FINER * count);
-    let pencil = Pencil::new(&even, spacing)?;
+    let pencil = Pencil::cached(&even, spacing)?;
     let most = pencil.most_terms().min(MOST_TERMS);
     let aim = if wanted < CHEAP { (SPARE * wanted).max(FINEST_OF_PENCIL) } else { wanted };
     let (mut best, mut misses, mut met, mut first) = (f64::INFINITY, 0, None, None);

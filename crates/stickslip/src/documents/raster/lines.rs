@@ -204,7 +204,7 @@ impl KeptLine {
     /// Line `index`, counted from 0.
     #[must_use]
     pub fn of(index: usize, line: &Line) -> Self {
-        let Work { steps: done, rejected, newton_iterations, series, switches, .. } = line.work();
+        let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
         let steps = line.trajectory().steps();
         let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
         Self {
@@ -226,8 +226,7 @@ impl KeptLine {
         })?;
         let [done, rejected, newton_iterations] = self.work;
         let [series, switches] = self.series;
-        let work =
-            Work { steps: done, rejected, newton_iterations, series, switches, side_by_side: 0 };
+        let work = Work { steps: done, rejected, newton_iterations, series, switches };
         let (nodes, weights) = nodes_and_weights();
         let line = Line::new(plan.track(self.index), &plan.law.model, steps, work);
         LineHistory::of(line.trajectory()).line((&nodes, &weights), plan, self.index, work)?;

@@ -15,7 +15,7 @@ impl Saved for Integrator<'_> {
         }
         save_steps(self.last.iter(), state);
         save_steps(self.made.iter(), state);
-        let Work { steps, rejected, newton_iterations, series, switches, .. } = self.work;
+        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
         for count in [steps, rejected, newton_iterations, series, switches] {
             state.count(count);
         }
@@ -36,7 +36,6 @@ impl Saved for Integrator<'_> {
             newton_iterations: restored_count(state)?,
             series: restored_count(state)?,
             switches: restored_count(state)?,
-            side_by_side: 0,
         };
         self.control.restore(state)?;
         self.switch.restore(state)?;

@@ -71,7 +71,7 @@ fn a_walk_is_drifting_and_printed_with_its_velocity() {
 /// Whatever heals, swings or is compared: no line of what a person reads is filled with digits.
 #[test]
 fn no_number_in_words_has_hundreds_of_digits() {
-    let folder = Folder::new("digits");
+    let folder = Folder::new("digits_in_words");
     for line in [
         "cycle --tip gaussian --r 0.428268 --alpha 0.803822 --healing-time 26.8123 --format text",
         "run --tip gaussian --r 0.428268 --alpha 0.803822 --kick 0.1 --healing-time 26.8123 --until 300 --format text",

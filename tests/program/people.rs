@@ -160,7 +160,7 @@ fn help_fits_a_terminal_and_names_what_is_required() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_is_told_in_words() {
-    let folder = Folder::new("terminal");
+    let folder = Folder::new("people_terminal");
     let has_script = Command::new("script").arg("--version").stdout(Stdio::null()).status();
     if !has_script.is_ok_and(|status| status.success()) {
         return;

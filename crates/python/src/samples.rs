@@ -47,7 +47,9 @@ pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Ve
             "l" => samples.l = Some(numbers),
             "lag" => samples.lag = Some(numbers),
             "height" => samples.height = Some(numbers),
-            _ => samples.weight = Some(numbers),
+            "weight" => samples.weight = Some(numbers),
+            "y0" => samples.y0 = Some(numbers),
+            _ => samples.velocity_y = Some(numbers),
         }
     }
 }
@@ -64,8 +66,8 @@ fn samples(document: &mut dyn Any) -> Option<&mut Samples> {
 }
 
 /// The columns that are there, moved out.
-fn columns(samples: &mut Samples) -> [(&'static str, Option<Vec<f64>>); 7] {
-    let Samples { t, l, lag, x0, velocity, height, weight } = samples;
+fn columns(samples: &mut Samples) -> [(&'static str, Option<Vec<f64>>); 9] {
+    let Samples { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = samples;
     [
         ("t", Some(std::mem::take(t))),
         ("l", l.take()),
@@ -74,5 +76,7 @@ fn columns(samples: &mut Samples) -> [(&'static str, Option<Vec<f64>>); 7] {
         ("velocity", Some(std::mem::take(velocity))),
         ("height", height.take()),
         ("weight", weight.take()),
+        ("y0", y0.take()),
+        ("velocity_y", velocity_y.take()),
     ]
 }

@@ -6,6 +6,9 @@ use schemars::{JsonSchema, schema_for};
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
+use std::any::TypeId;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// The key of a property of a schema that makes it a parameter which a user may give: see [`option`].
 const OPTION: &str = "x-option";
@@ -64,33 +67,64 @@ pub enum Kind {
     Other,
 }
 
-/// The parameters that a user may give, in the order of a help page.
-pub fn parameters<Q: JsonSchema>() -> Vec<Parameter> {
-    let schema = schema_for!(Q).to_value();
-    let required: Vec<&str> =
-        schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-    let mut found: Vec<Parameter> = properties(&schema)
-        .filter_map(|(name, property)| {
-            let option = property.get(OPTION)?;
-            let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-            Some(Parameter {
-                name: name.clone(),
-                description: text(&property["description"]).replace('\n', " "),
-                kind: kind(name, property, &schema),
-                default: property.get("default").filter(|value| !value.is_null()).cloned(),
-                is_required: required.contains(&name.as_str()),
-                symbol: text(&option["symbol"]),
-                group: text(&option["group"]),
-                place: option["place"].as_u64().unwrap_or(u64::MAX),
-            })
-        })
-        .collect();
-    found.sort_by_key(|parameter| parameter.place);
-    found
+/// What the schema of a question says, made once in a process.
+struct Described {
+    /// Every property of the schema, options or not.
+    properties: BTreeMap<String, Property>,
+    options: Vec<Parameter>,
 }
 
-fn properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
-    schema["properties"].as_object().into_iter().flatten()
+struct Property {
+    description: String,
+    kind: Kind,
+    is_required: bool,
+}
+
+/// The schema of a question takes longer to make than many an answer.
+fn described<Q: JsonSchema + 'static>() -> &'static Described {
+    static KNOWN: Mutex<BTreeMap<TypeId, &'static Described>> = Mutex::new(BTreeMap::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    // There are as many as types of questions.
+    known
+        .entry(TypeId::of::<Q>())
+        .or_insert_with(|| Box::leak(Box::new(Described::of(&schema_for!(Q).to_value()))))
+}
+
+impl Described {
+    fn of(schema: &Value) -> Self {
+        let text = |value: &Value| value.as_str().unwrap_or_default().replace('\n', " ");
+        let required = schema["required"].as_array();
+        let required: Vec<&str> =
+            required.into_iter().flatten().filter_map(Value::as_str).collect();
+        let (mut properties, mut options) = (BTreeMap::new(), vec![]);
+        for (name, property) in schema["properties"].as_object().into_iter().flatten() {
+            let described = Property {
+                description: text(&property["description"]),
+                kind: kind(name, property, schema),
+                is_required: required.contains(&name.as_str()),
+            };
+            if let Some(option) = property.get(OPTION) {
+                options.push(Parameter {
+                    name: name.clone(),
+                    description: described.description.clone(),
+                    kind: described.kind.clone(),
+                    default: property.get("default").filter(|value| !value.is_null()).cloned(),
+                    is_required: described.is_required,
+                    symbol: text(&option["symbol"]),
+                    group: text(&option["group"]),
+                    place: option["place"].as_u64().unwrap_or(u64::MAX),
+                });
+            }
+            properties.insert(name.clone(), described);
+        }
+        options.sort_by_key(|parameter| parameter.place);
+        Self { properties, options }
+    }
+}
+
+/// The parameters that a user may give, in the order of a help page.
+pub fn parameters<Q: JsonSchema + 'static>() -> &'static [Parameter] {
+    &described::<Q>().options
 }
 
 /// By the type of a property, or by what it refers to.
@@ -140,28 +174,28 @@ fn names_of(schema: &Value) -> Vec<(String, String)> {
 ///
 /// # Errors
 /// A name that is none of its parameters, one that is missing, a value of another kind.
-pub fn question<Q: JsonSchema + DeserializeOwned>(
+pub fn question<Q: JsonSchema + DeserializeOwned + 'static>(
     values: Map<String, Value>,
 ) -> Result<Q, Refused> {
-    let schema = schema_for!(Q).to_value();
-    let known = |name: &str| schema["properties"].get(name);
+    let properties = &described::<Q>().properties;
     for (name, value) in &values {
-        let Some(property) = known(name) else {
+        let Some(property) = properties.get(name) else {
             return Err(Refused::whole(name.clone(), "is no parameter here: leave it out"));
         };
-        if let Some(why) = mistaken(&kind(name, property, &schema), value) {
+        if let Some(why) = mistaken(&property.kind, value) {
             let value = Some(typed(value));
             return Err(Refused { parameter: name.clone().into(), value, why });
         }
     }
-    let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    if let Some(name) = required.into_iter().find(|name| !values.contains_key(*name)) {
+    let is_missing = |(name, property): &(&String, &Property)| {
+        property.is_required && !values.contains_key(*name)
+    };
+    if let Some((name, property)) = properties.iter().find(is_missing) {
         if values.get("no_spring") == Some(&Value::Bool(true)) {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
-        let meaning = schema["properties"][name]["description"].as_str().unwrap_or_default();
-        let meaning = meaning.trim_end_matches('.').replace('\n', " ");
-        return Err(Refused::whole(name.to_owned(), format!("is needed: {meaning}")));
+        let meaning = property.description.trim_end_matches('.');
+        return Err(Refused::whole(name.clone(), format!("is needed: {meaning}")));
     }
     serde_json::from_value(Value::Object(values.clone())).map_err(|error| {
         let parameter = culprit::<Q>(&values).unwrap_or("tip").to_owned();
@@ -171,7 +205,7 @@ pub fn question<Q: JsonSchema + DeserializeOwned>(
 
 /// Reads a question as [`question`] does: serde alone lets names pass that are none of its parameters, where some of these are
 /// grouped.
-pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwned>(
+pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwned + 'static>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
     let refused = |refused: Refused| D::Error::custom(refused.described(str::to_owned));
@@ -225,9 +259,9 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
 }
 
 /// The first name among these that is none of the parameters of `Q`.
-pub fn stranger<Q: JsonSchema>(values: &Map<String, Value>) -> Option<&str> {
-    let schema = schema_for!(Q).to_value();
-    values.keys().map(String::as_str).find(|name| schema["properties"].get(*name).is_none())
+pub fn stranger<Q: JsonSchema + 'static>(values: &Map<String, Value>) -> Option<&str> {
+    let properties = &described::<Q>().properties;
+    values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
 }
 
 /// Parameters with others in their place. What another value makes stale goes: α and αc(r) + D replace each other, and the

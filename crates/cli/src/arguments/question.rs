@@ -13,14 +13,14 @@ use stickslip::parameter::{Kind, Parameter, parameters};
 /// The questions that a command may be about.
 pub(crate) trait Questions {
     /// The parameters of all of them.
-    fn parameters() -> Vec<Parameter>;
+    fn parameters() -> Vec<&'static Parameter>;
     /// The formats of their documents.
     fn formats() -> Vec<&'static str>;
 }
 
 impl<Q: Question> Questions for Q {
-    fn parameters() -> Vec<Parameter> {
-        parameters::<Q>()
+    fn parameters() -> Vec<&'static Parameter> {
+        parameters::<Q>().iter().collect()
     }
 
     fn formats() -> Vec<&'static str> {
@@ -33,11 +33,10 @@ impl<Q: Question> Questions for Q {
 pub(crate) struct Either<A, B>(PhantomData<(A, B)>);
 
 impl<A: Questions, B: Questions> Questions for Either<A, B> {
-    fn parameters() -> Vec<Parameter> {
+    fn parameters() -> Vec<&'static Parameter> {
         let mut all = A::parameters();
-        let others = B::parameters();
-        let is_new = |other: &Parameter| all.iter().all(|one| one.name != other.name);
-        let more: Vec<Parameter> = others.into_iter().filter(is_new).collect();
+        let is_new = |other: &&Parameter| all.iter().all(|one| one.name != other.name);
+        let more: Vec<&Parameter> = B::parameters().into_iter().filter(is_new).collect();
         all.extend(more);
         all
     }
@@ -65,7 +64,7 @@ impl<Q: Questions> Args for Options<Q> {
         let command =
             Q::parameters().into_iter().fold(command, |command, parameter| match parameter.kind {
                 Kind::Tip => TipArguments::augment_args(command),
-                _ => command.next_help_heading(None).arg(argument(&parameter)),
+                _ => command.next_help_heading(None).arg(argument(parameter)),
             });
         let file = Arg::new("parameters")
             .long("parameters")
@@ -185,25 +184,25 @@ fn number(value: f64) -> Value {
 }
 
 /// Puts what was given of a parameter among the others; a range may say how many values it has.
-fn insert(given: &mut Map<String, Value>, parameter: Parameter, matches: &ArgMatches) {
+fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMatches) {
     let Parameter { name, kind, .. } = parameter;
     let value = match kind {
-        _ if is_spacing(&name) => json!("logarithmic"),
+        _ if is_spacing(name) => json!("logarithmic"),
         Kind::Switch => json!(true),
-        Kind::Integer => json!(matches.get_one::<u64>(&name)),
-        Kind::Name(_) => json!(matches.get_one::<String>(&name)),
+        Kind::Integer => json!(matches.get_one::<u64>(name)),
+        Kind::Name(_) => json!(matches.get_one::<String>(name)),
         Kind::Ends => {
-            let Some(interval) = matches.get_one::<Interval>(&name) else { return };
+            let Some(interval) = matches.get_one::<Interval>(name) else { return };
             if let Some(points) = interval.counted() {
                 given.insert("points".into(), json!(points));
             }
             json!(interval.numbers().map(number))
         }
         Kind::Numbers => {
-            let all = matches.get_many::<f64>(&name).into_iter().flatten();
+            let all = matches.get_many::<f64>(name).into_iter().flatten();
             Value::Array(all.map(|value| number(*value)).collect())
         }
-        _ => number(*matches.get_one::<f64>(&name).unwrap_or(&f64::NAN)),
+        _ => number(*matches.get_one::<f64>(name).unwrap_or(&f64::NAN)),
     };
-    given.insert(name, value);
+    given.insert(name.clone(), value);
 }

@@ -9,6 +9,7 @@ mod folder;
 #[path = "../support/runs.rs"]
 mod runs;
 
+mod across;
 mod checkpoints;
 mod command_line;
 mod compare_command;

@@ -4,6 +4,7 @@ use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
+use crate::number::short;
 use stickslip::{
     ColourName, ComplexDocument, CurveDocument, FigureDocument, PanelDocument, StabilityDocument,
     StyleName,
@@ -14,17 +15,22 @@ const UNSTABLE_PART: f64 = 0.15;
 const PADDING: f64 = 0.06;
 
 impl Drawn for StabilityDocument {
-    /// Those at the critical point neither grow nor decay, whatever round-off says.
+    /// Exponents along the scan. Those at the critical point neither grow nor decay, whatever round-off says.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
+        let snaking = self.snaking.as_ref().and_then(Option::as_ref);
         let what = match (self.parameters.at_critical_point, self.stable) {
+            _ if snaking.is_some_and(|at| model.alpha >= at.alpha) => "snakes",
             (true, _) => "critical",
             (_, true) => "stable",
             (_, false) => "unstable",
         };
-        let title = format!("{}: {what}", model_name(&model));
+        let across = self.parameters.stiffness_across;
+        let across = across.map(|stiffness| format!(", κ_y = {}", short(stiffness)));
+        let title = format!("{}{}: {what}", model_name(&model), across.unwrap_or_default());
         let mut figure = FigureDocument::new("stability", &title, vec![model]);
-        figure.panels = vec![exponents("", &self.roots, self.certificate.largest_error)];
+        let name = if self.snaking.is_some() { "along the scan" } else { "" };
+        figure.panels = vec![exponents(name, &self.roots, self.certificate.largest_error)];
         Ok(figure)
     }
 }

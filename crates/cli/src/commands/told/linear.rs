@@ -4,7 +4,7 @@ use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip::{
     BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
-    StabilityDocument, to_its_digits,
+    SnakingDocument, StabilityDocument, to_its_digits,
 };
 
 /// What holds of the numbers of a critical point.
@@ -17,19 +17,24 @@ impl Product for StabilityDocument {
         let stable = if self.stable { "stable" } else { "unstable" };
         let state = if self.parameters.at_critical_point { "critical" } else { stable };
         let critical = self.critical.as_ref();
+        let snaking = self.snaking.as_ref().map(Option::as_ref);
+        let along = if snaking.is_some() { "along the scan " } else { "" };
         let headline = match critical {
             Some(at) if self.parameters.at_critical_point => format!(
                 "stick-slip sets in at α = {alpha}, r = {r}, with ω = {}",
                 digits(at.omega, CRITICAL)
             ),
             Some(at) => format!(
-                "steady motion at α = {alpha}, r = {r} is {state}; it loses its stability at α = {}, r = {}",
+                "steady motion at α = {alpha}, r = {r} is {state}; {along}it loses its stability at α = {}, r = {}",
                 digits(at.alpha, CRITICAL),
                 digits(at.r, CRITICAL)
             ),
             None => format!("steady motion at α = {alpha}, r = {r} is {state}"),
         };
-        let told = Told::new(headline)
+        let snakes = snaking.flatten();
+        let snakes =
+            snakes.map(|at| format!("; the line snakes above α = {}", digits(at.alpha, CRITICAL)));
+        let told = Told::new(headline + &snakes.unwrap_or_default())
             .maybe("critical α", critical.map(|at| digits(at.alpha, CRITICAL)))
             .maybe("critical r", critical.map(|at| digits(at.r, CRITICAL)))
             .maybe("ω there", critical.map(|at| format!("{} k/Γ", digits(at.omega, CRITICAL))))
@@ -46,6 +51,10 @@ impl Product for StabilityDocument {
                 "trapped for ever from",
                 self.trapping.alpha.map(|a| format!("α = {}", digits(a, 7))),
             );
+        let told = match snaking {
+            Some(snaking) => across(told, snaking),
+            None => told,
+        };
         let error = self.certificate.largest_error;
         let root = |root: &ComplexDocument| {
             let [re, im] = [root.re, root.im].map(|part| to_its_digits(part, error));
@@ -67,6 +76,14 @@ impl Product for StabilityDocument {
             .remarks(&self.remarks)
             .next(again("-o stability.json --plot roots.svg"))
     }
+}
+
+/// Where a line snakes, if it ever does.
+fn across(told: Told, snaking: Option<&SnakingDocument>) -> Told {
+    let Some(at) = snaking else { return told.row("snakes above", "no α") };
+    told.row("snakes above", format!("α = {}", digits(at.alpha, CRITICAL)))
+        .row("ω of snaking", format!("{} k/Γ", digits(at.omega, CRITICAL)))
+        .row("wavelength of snaking", format!("{} σ", digits(at.wavelength, CRITICAL)))
 }
 
 fn criticality(name: CriticalityName) -> &'static str {

@@ -99,7 +99,7 @@ pub enum StabilityError {
     NoRipples,
     /// Healing on the way back.
     #[error(
-        "a zigzag over a healing surface has no threshold of its own: the time since the line before passed a place differs along the line, so that no wave e^{{iqx}} is its own answer; go one way, or leave the healing time out"
+        "a zigzag over a healing surface has no threshold of its own: the time since the line before passed a place differs along the line, so that no wave e^(iqx) is its own answer; go one way, or leave the healing time out"
     )]
     HealingZigzag,
     /// Nobody waits for it any more: [`stickslip_tip::stop`].

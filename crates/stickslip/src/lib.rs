@@ -60,10 +60,12 @@ pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
 pub use ask::lines;
 pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
-pub use ask::raster_boundary::{RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound};
+pub use ask::raster_boundary::{
+    RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
+};
 pub use ask::raster_stability::{
-    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterStability,
-    RasterStabilityDocument, RasterStabilityFound,
+    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterKindName,
+    RasterStability, RasterStabilityDocument, RasterStabilityFound,
 };
 pub use ask::response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
 pub use ask::run::{

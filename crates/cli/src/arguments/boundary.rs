@@ -35,4 +35,6 @@ const EXAMPLES: &str = "Examples:
   With a depth limit, with the one below which nothing is unstable at each r:
     stickslip boundary --beta 0 --depth-limit 5 --r-range 0.2:3:100 -o limited.json --plot limited.svg
   Where lines begin to ripple together, and at what angle:
-    stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 -o pitch.csv --plot pitch.svg";
+    stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 -o pitch.csv --plot pitch.svg
+  The same on a spring across the scan, where lines bunch too:
+    stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 --stiffness-across 2.5 -o across.csv --plot across.svg";

@@ -39,6 +39,9 @@ const EXAMPLES: &str = "Examples:
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 -o growth.csv --plot growth.svg
   The same where the tip has inertia and grooves are limited in depth:
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 --inertia 0.3
+  On a spring across the scan, softer than that along it: where a line snakes, and where lines bunch or ripple:
+    stickslip stability --r 1 --stiffness-across 0.5
+    stickslip stability --tip gaussian --r 1 --pitch 0.5 --stiffness-across 0.5
   Another pass over the same line:
     stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv
   A tip that walks by itself, over waves of its own that fade: its speed, and whether it keeps it:

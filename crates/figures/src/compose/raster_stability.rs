@@ -5,9 +5,12 @@ use super::tip::{model_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
-    CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument, RasterStabilityDocument,
-    StyleName,
+    ColourName, CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument,
+    RasterKindName, RasterStabilityDocument, StyleName, ThresholdColumns,
 };
+
+/// Room above the lowest thresholds.
+const AIR: f64 = 1.3;
 
 impl Drawn for RasterStabilityDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
@@ -21,7 +24,9 @@ impl Drawn for RasterStabilityDocument {
             Some(pitch) => format!("lines {} σ apart", short(pitch)),
             None => "one line repeated".into(),
         };
-        let title = format!("{}, {lines}", model_name(model));
+        let across = self.parameters.stiffness_across;
+        let across = across.map(|stiffness| format!(", κ_y = {}", short(stiffness)));
+        let title = format!("{}, {lines}{}", model_name(model), across.unwrap_or_default());
         let mut figure = FigureDocument::new("raster-stability", &title, vec![model.clone()]);
         let q = &growth.q;
         let ends = [0.0, q.last().copied().unwrap_or(1.0)];
@@ -44,6 +49,7 @@ impl Drawn for RasterBoundaryDocument {
             (", b = ", parameters.law.depth_limit),
             (", T = ", parameters.law.healing_time),
             (", M = ", parameters.law.inertia),
+            (", κ_y = ", parameters.stiffness_across),
         ];
         let wider =
             wider.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
@@ -52,17 +58,65 @@ impl Drawn for RasterBoundaryDocument {
             format!("{}, r = {}{law}", tip_name(&(&parameters.tip.0).into()), short(parameters.r));
         let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);
         let mut threshold = PanelDocument::new("", ("pitch (σ)", "critical α"));
-        let one_way = CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha);
+        let one_way = match &self.thresholds {
+            Some(columns) => by_kind(&self.pitch, columns),
+            None => vec![CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha)],
+        };
         let mut zigzag = CurveDocument::new(StyleName::Dashed, "zigzag", &self.pitch, &[]);
         zigzag.y = self.alpha_zigzag.clone();
-        threshold.curves = vec![one_way];
+        zigzag.colour = self.thresholds.as_ref().map(|_| ColourName::Black);
+        threshold.curves = one_way;
         if self.alpha_zigzag.iter().any(Option::is_some) {
             threshold.curves.push(zigzag);
         }
+        if self.thresholds.is_some() {
+            // Of a kind that comes far later the end is not drawn.
+            let lowest = self.alpha.iter().chain(self.alpha_zigzag.iter().flatten());
+            let highest = lowest.copied().fold(0.0, f64::max);
+            threshold.y_range = (highest > 0.0).then_some([0.0, AIR * highest]);
+        }
         let mut angle = PanelDocument::new("", ("pitch (σ)", "crest to scan axis (°)"));
-        angle.curves =
-            vec![CurveDocument::new(StyleName::Line, "", &self.pitch, &self.crest_angle)];
+        angle.curves = match &self.thresholds {
+            Some(columns) => angles(&self.pitch, &self.crest_angle, &columns.kind),
+            None => vec![CurveDocument::new(StyleName::Line, "", &self.pitch, &self.crest_angle)],
+        };
         figure.panels = vec![threshold, angle];
         Ok(figure)
     }
+}
+
+/// Kinds of waves and their colours.
+const KINDS: [(RasterKindName, ColourName); 3] = [
+    (RasterKindName::Ripples, ColourName::Blue),
+    (RasterKindName::Bunching, ColourName::Vermillion),
+    (RasterKindName::Snaking, ColourName::Green),
+];
+
+/// The threshold of each kind over the pitch.
+fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
+    let ThresholdColumns { ripples, bunching, snaking, .. } = columns;
+    let curves = KINDS.iter().zip([ripples, bunching, snaking]);
+    let drawn = curves.filter(|(_, alpha)| alpha.iter().any(Option::is_some));
+    drawn.map(|((kind, colour), alpha)| curve((kind.as_str(), *colour), pitch, alpha)).collect()
+}
+
+/// Angles of the waves that come first, which jump where another kind does.
+fn angles(pitch: &[f64], angle: &[f64], first: &[RasterKindName]) -> Vec<CurveDocument> {
+    let of = |kind: RasterKindName| {
+        let rows = angle.iter().zip(first);
+        rows.map(|(angle, first)| (*first == kind).then_some(*angle)).collect::<Vec<_>>()
+    };
+    let kinds = KINDS.iter().filter(|(kind, _)| first.contains(kind));
+    kinds.map(|(kind, colour)| curve(("", *colour), pitch, &of(*kind))).collect()
+}
+
+fn curve(
+    (name, colour): (&str, ColourName),
+    pitch: &[f64],
+    values: &[Option<f64>],
+) -> CurveDocument {
+    let mut curve = CurveDocument::new(StyleName::Line, name, pitch, &[]);
+    curve.y = values.to_vec();
+    curve.colour = Some(colour);
+    curve
 }

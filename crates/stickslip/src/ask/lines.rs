@@ -1,7 +1,7 @@
 //! What questions about scan lines beside each other share.
 
 use crate::Refused;
-use stickslip_stability::StabilityError;
+use stickslip_stability::{Raster, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
 
 /// The f(x,y) of a tip, and V of f(x,y) = f(x) exp(-y²/(2V²)) for one that has f(x) alone: the width asked for, or that of
@@ -66,10 +66,30 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     }
 }
 
+/// Lines on whose grooves `left` is left, with a spring across the scan if there is one.
+///
+/// # Errors
+/// What [`Raster::new`] and [`Raster::with_stiffness_across`] refuse.
+pub fn raster(
+    footprint: &Footprint,
+    law: Wider,
+    at: (f64, f64),
+    (left, stiffness_across): (f64, Option<f64>),
+) -> Result<Raster, StabilityError> {
+    let raster = Raster::new(footprint, law, at, left)?;
+    match stiffness_across {
+        Some(stiffness) => raster.with_stiffness_across(stiffness),
+        None => Ok(raster),
+    }
+}
+
 /// Why a raster has no threshold; what is not of r, the law, the path or the tip is of its pitches.
 pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
     match error {
         StabilityError::R(_) => Refused::number("r", r, error),
+        StabilityError::StiffnessAcross(stiffness) => {
+            Refused::number("stiffness_across", *stiffness, error)
+        }
         StabilityError::NoSupport => Refused::whole("no_spring", error),
         StabilityError::Corner => Refused::whole("depth_limit", error),
         StabilityError::Wider(error) => (*error).into(),

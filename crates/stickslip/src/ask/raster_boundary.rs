@@ -1,14 +1,16 @@
-//! The question `raster-boundary`: where ripples begin to grow from line to line, over the distance of the lines.
+//! The question `raster-boundary`: where ripples begin to grow from line to line, over the distance of the lines; of a tip that
+//! gives way across the scan, where lines bunch and snake too.
 
-use super::lines::{footprint, left, refused};
+use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::{
-    Ask, Boundary, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip, Typed,
+    Ask, Boundary, Context, Document, Failure, Law, Question, RasterKindName, Refused, SpacingName,
+    Tip, Typed,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError};
+use stickslip_stability::{RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Wider};
 
 /// The critical α of rasters over a range of distances of their lines.
@@ -45,6 +47,11 @@ pub struct RasterBoundary {
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
+    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where lines bunch or
+    /// snake too. Without it the tip is held on its lines.
+    #[schemars(extend("x-option" = option("K", "Raster", 34)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
 }
 
 fn default_points() -> usize {
@@ -98,10 +105,12 @@ impl Ask for RasterBoundary {
         let law: Wider = self.law.into();
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         let left = left(self.length, &law, self.r)?;
+        let across = (left, self.stiffness_across);
         let (mut found, mut left_out) = (RasterBoundaryFound::default(), vec![]);
+        found.thresholds = self.stiffness_across.map(|_| ThresholdColumns::default());
         let pitches = self.spacing.values(self.pitch_range, self.points);
         for (n, pitch) in pitches.into_iter().enumerate() {
-            match thresholds(&footprint, law, (self.r, pitch), left) {
+            match thresholds(&footprint, law, (self.r, pitch), across) {
                 Ok((one_way, zigzag)) => found.push(pitch, &one_way, zigzag),
                 // That nothing grows is an answer of the wider law.
                 Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
@@ -114,16 +123,16 @@ impl Ask for RasterBoundary {
     }
 }
 
-/// Where ripples of lines that go one way begin to grow, and the α of a zigzag; of that none over a surface that heals, and
-/// none where nothing grows.
+/// Where waves of lines that go one way begin to grow, of each kind by rising α, and the α of a zigzag; of that none over a
+/// surface that heals, and none where nothing grows.
 fn thresholds(
     footprint: &Footprint,
     law: Wider,
     (r, pitch): (f64, f64),
-    left: f64,
-) -> Result<(RasterCritical, Option<f64>), StabilityError> {
-    let raster = Raster::new(footprint, law, (r, pitch), left)?;
-    let one_way = raster.critical(RasterPath::OneWay)?;
+    across: (f64, Option<f64>),
+) -> Result<(Vec<RasterCritical>, Option<f64>), StabilityError> {
+    let raster = raster(footprint, law, (r, pitch), across)?;
+    let one_way = raster.thresholds(RasterPath::OneWay)?;
     match raster.critical(RasterPath::Zigzag) {
         Ok(zigzag) => Ok((one_way, Some(zigzag.alpha))),
         Err(StabilityError::HealingZigzag | StabilityError::NoCrossing { .. }) => {
@@ -147,7 +156,7 @@ fn remark(left_out: &[f64]) -> Option<String> {
 pub struct RasterBoundaryFound {
     /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
     pub pitch: Vec<f64>,
-    /// Critical α of one-way lines.
+    /// Critical α of one-way lines; with a spring across the scan the lowest of all kinds.
     pub alpha: Vec<f64>,
     /// Wave number along the lines there, in 1/σ.
     pub q: Vec<f64>,
@@ -157,28 +166,74 @@ pub struct RasterBoundaryFound {
     pub crest_angle: Vec<f64>,
     /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
     pub alpha_zigzag: Vec<Option<f64>>,
+    /// With a spring across the scan: what grows at `alpha`, and where each kind of wave begins to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thresholds: Option<ThresholdColumns>,
+}
+
+/// Thresholds of one-way lines by kind, for each pitch: of waves that begin to grow before those next to them. Where a band of
+/// waves merges with another of lower α, its kind has the threshold of another band, or none, which is null. Only the lowest of
+/// all is certain.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ThresholdColumns {
+    /// The kind of the lowest.
+    pub kind: Vec<RasterKindName>,
+    /// Critical α of ripples.
+    pub ripples: Vec<Option<f64>>,
+    /// Critical α of lines that bunch.
+    pub bunching: Vec<Option<f64>>,
+    /// Critical α of lines that snake.
+    pub snaking: Vec<Option<f64>>,
 }
 
 impl RasterBoundaryFound {
-    fn push(&mut self, pitch: f64, one_way: &RasterCritical, zigzag: Option<f64>) {
+    fn push(&mut self, pitch: f64, one_way: &[RasterCritical], zigzag: Option<f64>) {
+        let Some(first) = one_way.first() else { return };
         self.pitch.push(pitch);
-        self.alpha.push(one_way.alpha);
-        self.q.push(one_way.q);
-        self.kappa.push(one_way.kappa.unwrap_or_default());
-        self.crest_angle.push(one_way.crest_angle.unwrap_or(90.0));
+        self.alpha.push(first.alpha);
+        self.q.push(first.q);
+        self.kappa.push(first.kappa.unwrap_or_default());
+        self.crest_angle.push(first.crest_angle.unwrap_or(90.0));
         self.alpha_zigzag.push(zigzag);
+        if let Some(thresholds) = &mut self.thresholds {
+            thresholds.push(first.kind.into(), one_way);
+        }
+    }
+}
+
+impl ThresholdColumns {
+    fn push(&mut self, first: RasterKindName, all: &[RasterCritical]) {
+        let of = |kind: RasterKindName| {
+            let at = all.iter().find(|at| RasterKindName::from(at.kind) == kind);
+            at.map(|at| at.alpha)
+        };
+        self.kind.push(first);
+        self.ripples.push(of(RasterKindName::Ripples));
+        self.bunching.push(of(RasterKindName::Bunching));
+        self.snaking.push(of(RasterKindName::Snaking));
     }
 }
 
 impl Tabular for RasterBoundaryFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        vec![
+        let mut columns = vec![
             ("pitch", Column::of(&self.pitch)),
             ("alpha", Column::of(&self.alpha)),
             ("q", Column::of(&self.q)),
             ("kappa", Column::of(&self.kappa)),
             ("crest_angle", Column::of(&self.crest_angle)),
             ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
-        ]
+        ];
+        if let Some(ThresholdColumns { kind, ripples, bunching, snaking }) = &self.thresholds {
+            let kinds = kind.iter().map(|kind| kind.as_str().into()).collect();
+            columns.extend([
+                ("kind", Column::Words(kinds, None)),
+                ("alpha_ripples", Column::optional(ripples)),
+                ("alpha_bunching", Column::optional(bunching)),
+                ("alpha_snaking", Column::optional(snaking)),
+            ]);
+        }
+        columns
     }
 }

@@ -1,6 +1,7 @@
-//! The question `raster-stability`: where ripples begin to grow from line to line, and how fast.
+//! The question `raster-stability`: where ripples begin to grow from line to line, and how fast; of a tip that gives way across
+//! the scan, where lines bunch and snake too.
 
-use super::lines::{footprint, left, refused};
+use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::{
@@ -9,7 +10,9 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{Raster, RasterCertificate, RasterCritical, RasterPath, StabilityError};
+use stickslip_stability::{
+    Raster, RasterCertificate, RasterCritical, RasterKind, RasterPath, StabilityError,
+};
 use stickslip_tip::Wider;
 
 /// Wave numbers at which growth is computed.
@@ -21,12 +24,18 @@ const SHOWN: f64 = 0.4;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterStabilityFound {
-    /// Where a ripple first does not fade from line to line; null for a line that is repeated, where every α makes some
-    /// ripple grow.
+    /// Where a ripple first does not fade from line to line, or with a spring across the scan any wave; null for a line that is
+    /// repeated, where every α makes some ripple grow.
     pub critical: Option<RasterCriticalDocument>,
-    /// Whether every ripple fades from line to line at the α of `parameters`; null where none was given.
+    /// With a spring across the scan: the lowest threshold of each kind that has one, by rising α. The first is `critical`, the
+    /// only one that is certain to be the lowest of its kind: the others have a tolerance of 1 and no cells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thresholds: Option<Vec<RasterCriticalDocument>>,
+    /// Whether every ripple fades from line to line at the α of `parameters`, or with a spring across the scan every wave; null
+    /// where none was given.
     pub stable: Option<bool>,
-    /// By how much ripples e^{iqx} change from line to line at the α of `parameters`; null where none was given.
+    /// By how much ripples e^{iqx} change from line to line at the α of `parameters`, along the scan and with a spring across
+    /// it in both directions; null where none was given.
     pub growth: Option<RasterGrowth>,
 }
 
@@ -64,6 +73,11 @@ pub struct RasterStability {
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
+    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where lines bunch or
+    /// snake too. Without it the tip is held on its lines.
+    #[schemars(extend("x-option" = option("K", "Raster", 34)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
     /// Whether α is the critical one, for want of another.
     #[serde(default)]
     pub at_critical_point: bool,
@@ -77,8 +91,8 @@ impl Question for RasterStability {
     type Answer = RasterStabilityFound;
 }
 
-/// A threshold, or that there is none.
-type Threshold = Result<RasterCritical, StabilityError>;
+/// The lowest threshold of each kind, by rising α, or that there is none.
+type Thresholds = Result<Vec<RasterCritical>, StabilityError>;
 
 impl RasterStability {
     /// The same as documents hold it.
@@ -88,6 +102,11 @@ impl RasterStability {
 
     fn raster(&self, law: Wider) -> Result<Raster, Failure> {
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        if let (PathName::Repeat, Some(stiffness)) = (self.path, self.stiffness_across) {
+            let why = "linear theory of a repeated line covers a tip that is held on it: leave the option out, or give {pitch} \
+                       in place of {path} repeat";
+            return Err(Refused::number("stiffness_across", stiffness, why).into());
+        }
         let pitch = match (self.path, self.pitch) {
             (PathName::Repeat, Some(pitch)) => {
                 let why = "has no meaning with {path} repeat: leave one of them out";
@@ -109,7 +128,7 @@ impl RasterStability {
             }
         };
         let left = left(self.length, &law, self.r)?;
-        let raster = Raster::new(&footprint, law, (self.r, pitch), left);
+        let raster = raster(&footprint, law, (self.r, pitch), (left, self.stiffness_across));
         Ok(raster.map_err(|error| self.refused(&error))?)
     }
 
@@ -119,18 +138,18 @@ impl RasterStability {
     }
 
     /// Of a repeated line none. That nothing grows is an answer for a given α.
-    fn threshold(&self, raster: &Raster) -> Result<Option<Threshold>, Refused> {
+    fn thresholds(&self, raster: &Raster) -> Result<Option<Thresholds>, Refused> {
         let path = match self.path {
             PathName::OneWay => RasterPath::OneWay,
             PathName::Zigzag => RasterPath::Zigzag,
             PathName::Repeat => return Ok(None),
         };
         let is_given = self.indentation != Indentation::default();
-        match raster.critical(path) {
+        match raster.thresholds(path) {
             Err(error) if !(is_given && matches!(error, StabilityError::NoCrossing { .. })) => {
                 Err(self.refused(&error))
             }
-            threshold => Ok(Some(threshold)),
+            thresholds => Ok(Some(thresholds)),
         }
     }
 }
@@ -151,10 +170,11 @@ impl Ask for RasterStability {
             return Ok(Self { indentation, ..question });
         }
         let why = "a repeated line has no critical α: give {alpha} for the growth there";
-        let threshold = question.threshold(&raster)?;
-        let threshold = threshold.ok_or_else(|| Refused::whole("alpha", why))?;
-        let critical = threshold.map_err(|error| question.refused(&error))?;
-        let indentation = Indentation::given(critical.alpha);
+        let thresholds = question.thresholds(&raster)?;
+        let thresholds = thresholds.ok_or_else(|| Refused::whole("alpha", why))?;
+        let thresholds = thresholds.map_err(|error| question.refused(&error))?;
+        let critical = thresholds.first().map(|critical| critical.alpha);
+        let indentation = Indentation { alpha: critical, ..Indentation::default() };
         Ok(Self { indentation, at_critical_point: true, ..question })
     }
 
@@ -163,9 +183,9 @@ impl Ask for RasterStability {
         let raster = self.raster(law)?;
         let model = self.indentation.model(&self.tip.0, law, self.r)?;
         let (alpha, is_given) = (model.alpha(), !self.at_critical_point);
-        let threshold = self.threshold(&raster)?;
+        let thresholds = self.thresholds(&raster)?;
         let mut remarks = vec![];
-        if let Some(Err(none)) = &threshold {
+        if let Some(Err(none)) = &thresholds {
             remarks.push(format!("critical: {none}"));
         }
         if self.path == PathName::Zigzag && is_given {
@@ -175,23 +195,28 @@ impl Ask for RasterStability {
             remarks
                 .push("critical: another pass deepens some ripple of the groove at every α".into());
         }
-        let is_below =
-            |threshold: &Threshold| threshold.as_ref().map_or(true, |at| alpha < at.alpha);
-        let stable = threshold.as_ref().filter(|_| is_given).map(is_below);
-        let critical = threshold.as_ref().and_then(|threshold| threshold.as_ref().ok());
+        let thresholds = thresholds.map(Result::unwrap_or_default);
+        let is_below = |all: &Vec<RasterCritical>| all.first().is_none_or(|at| alpha < at.alpha);
+        let stable = thresholds.as_ref().filter(|_| is_given).map(is_below);
         let has_growth = is_given && self.path != PathName::Zigzag;
-        let growth =
-            has_growth.then(|| RasterGrowth::of(&raster, self.path, alpha, self.tip.0.band()));
-        Ok((RasterStabilityFound { critical: critical.map(Into::into), stable, growth }, remarks))
+        let growth = has_growth.then(|| RasterGrowth::of(&raster, self, alpha));
+        let is_plane = self.stiffness_across.is_some();
+        let thresholds = thresholds.unwrap_or_default();
+        let thresholds: Vec<RasterCriticalDocument> =
+            thresholds.iter().map(|at| RasterCriticalDocument::of(at, is_plane)).collect();
+        let critical = thresholds.first().cloned();
+        let thresholds = is_plane.then_some(thresholds);
+        Ok((RasterStabilityFound { critical, thresholds, stable, growth }, remarks))
     }
 }
 
 impl RasterGrowth {
     /// |z| and arg z over wave numbers.
-    fn of(raster: &Raster, path: PathName, alpha: f64, band: f64) -> Self {
+    fn of(raster: &Raster, question: &RasterStability, alpha: f64) -> Self {
+        let band = question.tip.0.band();
         let number = |i: u32| SHOWN * band * f64::from(i) / f64::from(WAVE_NUMBERS);
         let q: Vec<f64> = (1..=WAVE_NUMBERS).map(number).collect();
-        let growth = |q: &f64| match path {
+        let growth = |q: &f64| match question.path {
             PathName::Repeat => raster.repeat_gain(alpha, *q).to_polar(),
             _ => raster.growth(alpha, *q).to_polar(),
         };
@@ -200,10 +225,25 @@ impl RasterGrowth {
     }
 }
 
+/// What a wave of the tracks of a raster is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RasterKindName {
+    /// Crests across the lines or oblique, at 22.5° or more to them.
+    Ripples,
+    /// Crests nearly along the lines, which fall into the grooves of earlier ones: trenches along the scan, or pairs of lines.
+    Bunching,
+    /// Deviations across the lines of which each line's own groove is most of the cause.
+    Snaking,
+}
+
 /// Where a ripple first does not fade.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterCriticalDocument {
+    /// With a spring across the scan: what grows there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<RasterKindName>,
     /// The smallest α of such a ripple.
     pub alpha: f64,
     /// r
@@ -214,8 +254,8 @@ pub struct RasterCriticalDocument {
     pub kappa: Option<f64>,
     /// Between crests and scan axis, atan(q/|κ|), in degrees; null on a zigzag.
     pub crest_angle: Option<f64>,
-    /// 2π/q, in σ.
-    pub wavelength_x: f64,
+    /// 2π/q, in σ; null where the lines stay straight, q = 0, as those that bunch in pairs do.
+    pub wavelength_x: Option<f64>,
     /// Phase from one line to the next, from -π to π; on a zigzag that from a way there to the way back after it.
     pub phase_per_line: f64,
     /// Evidence that it is the threshold; missing in documents of older versions.
@@ -252,12 +292,35 @@ pub struct RasterGrowth {
     pub phase: Vec<f64>,
 }
 
-impl From<&RasterCritical> for RasterCriticalDocument {
-    fn from(critical: &RasterCritical) -> Self {
+impl RasterCriticalDocument {
+    /// A threshold, and of which kind it is where there are several.
+    pub fn of(critical: &RasterCritical, has_kind: bool) -> Self {
         let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, .. } = *critical;
-        let wavelength_x = critical.wavelength_x;
+        let kind = has_kind.then(|| critical.kind.into());
+        let wavelength_x = Some(critical.wavelength_x).filter(|length| length.is_finite());
         let certificate = Some((&critical.certificate).into());
-        Self { alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line, certificate }
+        Self { kind, alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line, certificate }
+    }
+}
+
+impl RasterKindName {
+    /// As it is written.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Ripples => "ripples",
+            Self::Bunching => "bunching",
+            Self::Snaking => "snaking",
+        }
+    }
+}
+
+impl From<RasterKind> for RasterKindName {
+    fn from(kind: RasterKind) -> Self {
+        match kind {
+            RasterKind::Ripples => Self::Ripples,
+            RasterKind::Bunching => Self::Bunching,
+            RasterKind::Snaking => Self::Snaking,
+        }
     }
 }
 
@@ -270,7 +333,7 @@ impl From<&RasterCertificate> for RasterCertificateDocument {
 }
 
 impl Tabular for RasterStabilityFound {
-    /// The growth over wave numbers; without α the critical ripple.
+    /// The growth over wave numbers; without α the critical ripple, or the thresholds of all kinds.
     fn columns(&self) -> Vec<Named<'_>> {
         if let Some(RasterGrowth { q, factor, phase }) = &self.growth {
             return vec![
@@ -279,16 +342,23 @@ impl Tabular for RasterStabilityFound {
                 ("phase", Column::of(phase)),
             ];
         }
+        let critical = self.critical.as_slice();
+        let rows = self.thresholds.as_deref().unwrap_or(critical);
         let column = |of: fn(&RasterCriticalDocument) -> Option<f64>| {
-            Column::from(self.critical.iter().map(of).collect::<Vec<Option<f64>>>())
+            Column::from(rows.iter().map(of).collect::<Vec<Option<f64>>>())
         };
-        vec![
+        let mut columns = vec![
             ("alpha", column(|at| Some(at.alpha))),
             ("q", column(|at| Some(at.q))),
             ("kappa", column(|at| at.kappa)),
             ("crest_angle", column(|at| at.crest_angle)),
-            ("wavelength_x", column(|at| Some(at.wavelength_x))),
+            ("wavelength_x", column(|at| at.wavelength_x)),
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
-        ]
+        ];
+        if self.thresholds.is_some() {
+            let kinds = rows.iter().filter_map(|at| at.kind).map(RasterKindName::as_str);
+            columns.push(("kind", Column::Words(kinds.map(Into::into).collect(), None)));
+        }
+        columns
     }
 }

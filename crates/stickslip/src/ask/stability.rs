@@ -43,8 +43,8 @@ pub struct Stability {
     /// Whether α and r are those of the critical point, for want of one of them.
     #[serde(default)]
     pub at_critical_point: bool,
-    /// Spring across the scan, in units of that along it, above 0, on which the tip gives way: where the line begins to snake.
-    /// Without it the tip is held on its line.
+    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where a line begins to
+    /// snake, and many to bunch. Without it the tip is held on its line.
     #[schemars(extend("x-option" = option("K", "Across the scan", 25)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,

@@ -3,8 +3,9 @@
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;
 use stickslip::{
-    HeightMap, PatternDocument, RasterBoundaryDocument, RasterCompareDocument, RasterCompareFound,
-    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    HeightMap, PathName, PatternDocument, RasterBoundaryDocument, RasterCompareDocument,
+    RasterCompareFound, RasterCriticalDocument, RasterDocument, RasterKindName,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
 };
 
 impl Product for RasterDocument {
@@ -43,28 +44,54 @@ impl Product for RasterStabilityDocument {
     fn told(&self) -> Told {
         let at = self.critical.as_ref();
         let number = |value: f64| digits(value, 10);
-        let stable = match self.stable {
-            Some(true) => ": every ripple fades",
-            Some(false) => ": ripples grow",
-            None => "",
+        let is_plane = self.thresholds.is_some();
+        let stable = match (self.stable, is_plane) {
+            (Some(true), false) => ": every ripple fades",
+            (Some(false), false) => ": ripples grow",
+            (Some(true), true) => ": every wave fades",
+            (Some(false), true) => ": waves grow",
+            (None, _) => "",
         };
-        let headline = match at {
-            Some(at) => format!("ripples grow from line to line above α = {}", number(at.alpha)),
-            None => "every α makes some ripple of a repeated line grow".into(),
+        let headline = match (at, self.parameters.path) {
+            (Some(at), _) => format!("{} above α = {}", grows(at), number(at.alpha)),
+            (None, PathName::Repeat) => "every α makes some ripple of a repeated line grow".into(),
+            (None, _) => "nothing grows from line to line, however large α".into(),
         };
         let alpha =
             self.parameters.indentation.alpha.filter(|_| !self.parameters.at_critical_point);
         let here = alpha.map(|alpha| format!("; α = {}{stable}", digits(alpha, 10)));
-        let angle = at.and_then(|at| at.crest_angle).map(|angle| format!("{} °", digits(angle, 6)));
-        Told::new(headline + &here.unwrap_or_default())
+        let length =
+            at.and_then(|at| at.wavelength_x).map(|length| format!("{} σ", number(length)));
+        let told = Told::new(headline + &here.unwrap_or_default())
             .maybe("critical α", at.map(|at| number(at.alpha)))
             .maybe("q along the lines", at.map(|at| format!("{} 1/σ", number(at.q))))
-            .maybe("wavelength along them", at.map(|at| format!("{} σ", number(at.wavelength_x))))
+            .maybe("wavelength along them", length)
             .maybe("phase per line", at.map(|at| number(at.phase_per_line)))
-            .maybe("crests to scan axis", angle)
-            .remarks(&self.remarks)
-            .next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
+            .maybe("crests to scan axis", at.and_then(angle));
+        let others = self.thresholds.iter().flatten().skip(1);
+        let told = others.fold(told, |told, at| {
+            let crests = angle(at).map(|angle| format!(", crests at {angle}")).unwrap_or_default();
+            told.row(
+                &format!("{} above", at.kind.map_or("", RasterKindName::as_str)),
+                format!("α = {}, q = {} 1/σ{crests}", number(at.alpha), digits(at.q, 7)),
+            )
+        });
+        told.remarks(&self.remarks).next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
     }
+}
+
+/// What begins at a threshold.
+fn grows(at: &RasterCriticalDocument) -> &'static str {
+    match at.kind {
+        Some(RasterKindName::Bunching) if at.wavelength_x.is_none() => "lines bunch in pairs",
+        Some(RasterKindName::Bunching) => "lines bunch",
+        Some(RasterKindName::Snaking) => "lines snake",
+        Some(RasterKindName::Ripples) | None => "ripples grow from line to line",
+    }
+}
+
+fn angle(at: &RasterCriticalDocument) -> Option<String> {
+    at.crest_angle.map(|angle| format!("{} °", digits(angle, 6)))
 }
 
 impl Product for RasterBoundaryDocument {
@@ -74,15 +101,21 @@ impl Product for RasterBoundaryDocument {
             format!("{first} to {last}")
         };
         let pitches = self.pitch.len();
-        Told::new(format!(
+        let told = Told::new(format!(
             "αc from {} at {pitches} pitches from {}",
             ends(&self.alpha),
             ends(&self.pitch)
         ))
         .row("αc one-way", format!("from {}", ends(&self.alpha)))
-        .row("crests to scan axis", format!("from {} °", ends(&self.crest_angle)))
-        .remarks(&self.remarks)
-        .next(again("-o pitch.csv --plot pitch.svg"))
+        .row("crests to scan axis", format!("from {} °", ends(&self.crest_angle)));
+        let kinds = self.thresholds.iter().flat_map(|columns| columns.kind.chunk_by(|a, b| a == b));
+        let mut first = 0;
+        let told = kinds.fold(told, |told, kind| {
+            let pitches = ends(&self.pitch[first..first + kind.len()]);
+            first += kind.len();
+            told.row(&format!("{} first", kind[0].as_str()), format!("at pitches from {pitches}"))
+        });
+        told.remarks(&self.remarks).next(again("-o pitch.csv --plot pitch.svg"))
     }
 }
 

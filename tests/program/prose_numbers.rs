@@ -10,7 +10,10 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};
-use stickslip_stability::{Raster, RasterPath, creep, critical, critical_r, onset, trapping_alpha};
+use stickslip_stability::{
+    Raster, RasterCritical, RasterKind, RasterPath, Snaking, creep, critical, critical_r, onset,
+    trapping_alpha,
+};
 use stickslip_tip::memory::Fit;
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
@@ -477,6 +480,57 @@ fn critical_points_and_thresholds() {
         )
     });
     says("docs/stability.md", &small);
+}
+
+/// The first wave of one-way lines of a round Gaussian at r = 1, on a spring across the scan if there is one.
+fn first_across(path: RasterPath, pitch: f64, stiffness: Option<f64>) -> RasterCritical {
+    let footprint = Footprint::separable(triple(0.0), 1.0).unwrap();
+    let held = Raster::new(&footprint, Wider::default(), (1.0, pitch), 1.0).unwrap();
+    let raster = stiffness.map(|stiffness| held.clone().with_stiffness_across(stiffness).unwrap());
+    raster.unwrap_or(held).critical(path).unwrap()
+}
+
+#[test]
+fn thresholds_across_the_scan() {
+    let line = Footprint::separable(triple(1.0), 1.0).unwrap();
+    let snaking = |stiffness: f64| {
+        let line = Snaking::new(&line, Wider::default(), (1.0, stiffness)).unwrap();
+        line.critical().unwrap().unwrap()
+    };
+    let along = critical(&Wider::default(), &triple(1.0), 1.0).unwrap().alpha;
+    // It snakes first below the fourth decimal of this, and last above.
+    assert!(snaking(0.5661).alpha < along && along < snaking(0.5663).alpha);
+    let mut passages = vec![format!("above α = {along:.6}:")];
+    passages.extend([0.25, 0.5, 1.0].map(|stiffness| {
+        let at = snaking(stiffness);
+        format!("| {stiffness} | {:.7} | {:.2} |", at.alpha, at.wavelength)
+    }));
+    let first = |pitch, stiffness| first_across(RasterPath::OneWay, pitch, stiffness);
+    let cell = |pitch: f64, stiffness: Option<f64>| {
+        let at = first(pitch, stiffness);
+        let what = match at.kind {
+            RasterKind::Bunching if at.q == 0.0 => "pairs".into(),
+            RasterKind::Bunching => "trenches".into(),
+            _ => format!("{:.1}°", at.crest_angle.unwrap()),
+        };
+        format!("{:.5}, {what}", at.alpha)
+    };
+    let stiffnesses = [None, Some(10.0), Some(3.0), Some(1.0), Some(0.3)];
+    for (pitch, below) in [(0.25, 2.13), (0.5, 2.14), (1.0, 1.9), (1.5, 2.73), (2.0, 3.3)] {
+        let kind = |stiffness: f64| first(pitch, Some(stiffness)).kind;
+        assert_eq!(kind(below - 0.006), RasterKind::Bunching, "{pitch}");
+        assert_eq!(kind(below + 0.006), RasterKind::Ripples, "{pitch}");
+        let cells = stiffnesses.map(|stiffness| cell(pitch, stiffness)).join(" | ");
+        passages.push(format!("| {pitch} | {cells} | {below:.2} |"));
+    }
+    let [across, axis] = [0.65, 1.54].map(|stiffness| first(0.5, Some(stiffness)).alpha);
+    let held = first(0.5, None).alpha;
+    passages.push(format!("are {across:.5} and {axis:.5}, against {held:.5}"));
+    let zigzag = |stiffness| first_across(RasterPath::Zigzag, 0.5, Some(stiffness));
+    assert!(zigzag(1.0).q.abs() < 1e-12);
+    passages.push(format!("threshold is {:.5}, close to", zigzag(1.0).alpha));
+    passages.push(format!("it is {:.5}, a quarter above", zigzag(3.0).alpha));
+    says("docs/across.md", &passages);
 }
 
 #[test]

@@ -136,6 +136,11 @@ fn a_stiff_spring_holds_the_tip_on_its_lines() {
     };
     let [near, far] = [1e3, 1e2].map(difference);
     assert!((0.95..1.05).contains(&(far / (10.0 * near))), "{far} {near}");
+    // Where the depth limit lets no ripple grow, lines on a spring may still bunch.
+    let limited = "stability --tip gaussian --r 1 --pitch 1 --depth-limit 0.1 --alpha 1";
+    assert!(words(&folder, limited).starts_with("nothing grows from line to line"));
+    let bunched = words(&folder, &format!("{limited} --stiffness-across 2"));
+    assert!(bunched.starts_with("lines bunch in pairs above α = 1171"), "{bunched}");
 }
 
 #[test]

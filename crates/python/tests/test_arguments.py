@@ -62,8 +62,8 @@ def test_what_is_unusable_is_refused_by_the_names_that_python_has():
         (dict(r=1, alpha=1, until=3), "until=3: "),
         (dict(r=1, alpha="much", until=20), "invalid value 'much' for 'alpha'"),
         (dict(r=1, until=20), "alpha"),
-        (dict(r=1, alpha=1), "missing: until"),
-        (dict(alpha=1), "missing: until, r"),
+        (dict(r=1, alpha=1), "until: is needed"),
+        (dict(alpha=1, until=20), "r: is needed"),
         (dict(r=1, alpha=1, until=20, tip_file="nowhere.csv"), "tip_file=nowhere.csv: cannot be read"),
         (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "tip_file=<tip>: "),
         (dict(r=1, alpha=1, until=20, memory="none"), "invalid value 'none' for 'memory'"),
@@ -77,7 +77,7 @@ def test_what_is_unusable_is_refused_by_the_names_that_python_has():
         assert "--" not in str(refused.value), given
     with pytest.raises(ValueError, match="missing: run"):
         stickslip.surface()
-    with pytest.raises(ValueError, match="missing: pitch, lines, length"):
+    with pytest.raises(ValueError, match="pitch: give the distance"):
         stickslip.raster(alpha=1, r=1)
 
 

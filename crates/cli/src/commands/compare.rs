@@ -111,6 +111,10 @@ fn run_of(
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run>(&values, "a run: --lines N or --area FILE make it a raster")?;
     let run: Run = parameter::question(values)?;
+    if let Some(stiffness) = run.stiffness_across {
+        let message = "there is no grid for a tip that gives way across the scan: leave it out";
+        return Err(Failure::input(format!("--stiffness-across {}", Typed(stiffness)), message));
+    }
     let run = disturbed(run, disturbance, support_path.as_deref(), scales)?;
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);

@@ -1,4 +1,4 @@
-//! The envelope of a document: what was asked, who answered, the answer, and remarks on it.
+//! The envelope of a document: the question, the program that answered it, the answer, and warnings.
 
 use crate::documents::table::{Array, Named, Tabular};
 use crate::parameter::strictly;
@@ -12,16 +12,16 @@ use std::fmt::{self, Debug};
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
 
-/// The parameters of a document: what was asked.
+/// The parameters of a document: the question.
 pub trait Question:
     Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
 {
-    /// Format of its documents: `stickslip/` and the name that `stickslip schema` knows it by.
+    /// Format of the documents of this question: `stickslip/` and the name by which `stickslip schema` knows it.
     const FORMAT: &'static str;
-    /// The result, whose fields stand in the document beside its envelope.
+    /// Type of the answer. Its fields are written next to those of the envelope.
     type Answer: Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static;
 
-    /// The dense history in an answer, if it has one: it is large, and nothing of it is repeated in physical units.
+    /// The dense history of an answer, if it has one. It is large, and no part of it is converted to physical units.
     fn history(_: &mut Self::Answer) -> Option<&mut Option<History>> {
         None
     }
@@ -32,14 +32,14 @@ pub trait Question:
     }
 }
 
-/// A question and its answer, as they are saved. The fields of the answer stand beside those of the envelope.
+/// A question and its answer, as saved in a file. The fields of the answer are written next to those of the envelope.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[serde(bound = "")]
 #[schemars(rename = "Document", deny_unknown_fields)]
 pub struct Document<Q: Question> {
     /// "stickslip/" and the name of the question.
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
     /// The program that wrote it.
     pub software: Software,
@@ -48,19 +48,19 @@ pub struct Document<Q: Question> {
     /// The answer.
     #[serde(flatten)]
     pub answer: Q::Answer,
-    /// What a reader should know, such as values that are left out; empty if there is nothing.
+    /// Warnings to the reader, such as values that could not be computed; may be empty.
     #[serde(default)]
     pub remarks: Vec<String>,
-    /// Its numbers in nm, s and nN, where scales were given.
+    /// The numbers of the answer in nm, s and nN, if scales were given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub physical: Option<InUnits>,
 }
 
 impl<Q: Question> Document<Q> {
-    /// Its `format`.
+    /// The value of the field `format`.
     pub const FORMAT: &'static str = Q::FORMAT;
 
-    /// Its JSON Schema, called by its format and described as its answer is.
+    /// The JSON Schema of the document, with its format as name and the description of the answer.
     pub fn schema() -> Schema {
         let mut schema = schema_for!(Self);
         schema.insert("title".into(), Q::FORMAT.into());
@@ -70,7 +70,7 @@ impl<Q: Question> Document<Q> {
         schema
     }
 
-    /// Question and answer as this program writes them.
+    /// A document of this question and answer, with the version of this program.
     pub fn new(parameters: Q, answer: Q::Answer, remarks: Vec<String>) -> Self {
         let (format, software) = (Q::FORMAT.into(), Software::this());
         let format_version = FORMAT_VERSION;
@@ -78,7 +78,7 @@ impl<Q: Question> Document<Q> {
     }
 }
 
-/// A document is read as its answer.
+/// Gives access to the fields of the answer.
 impl<Q: Question> Deref for Document<Q> {
     type Target = Q::Answer;
 
@@ -128,7 +128,7 @@ impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
     }
 }
 
-/// A question that has no names but its parameters.
+/// A wrapper that reads a question and rejects unknown fields.
 struct Strict<Q>(Q);
 
 impl<'de, Q: Question> Deserialize<'de> for Strict<Q> {
@@ -137,7 +137,7 @@ impl<'de, Q: Question> Deserialize<'de> for Strict<Q> {
     }
 }
 
-/// The fields of the envelope, as far as they have been read.
+/// The fields of the envelope that have been read so far.
 struct Envelope<Q> {
     format: Option<String>,
     format_version: Option<u32>,
@@ -148,7 +148,7 @@ struct Envelope<Q> {
 }
 
 impl<'de, Q: Question> Envelope<Q> {
-    /// Reads the value of a key of the envelope; gives back any other key.
+    /// Reads the value of `key` if it is a key of the envelope, and returns any other key.
     fn take<M: MapAccess<'de>>(
         &mut self,
         key: String,
@@ -179,8 +179,8 @@ fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
     Ok(())
 }
 
-/// A map without the fields of the envelope, which are put aside: `#[serde(flatten)]` would copy all that a document holds
-/// once more.
+/// A map reader that stores the fields of the envelope and passes on the others. (`#[serde(flatten)]` would copy the
+/// whole content of a document.)
 struct Rest<'a, M, Q> {
     map: M,
     envelope: &'a mut Envelope<Q>,

@@ -1,6 +1,6 @@
 //! Stick-slip of an AFM tip on a soft surface: one closed delay equation instead of a PDE.
 //!
-//! This crate is what a program of one's own depends on. It has two parts.
+//! Depend on this crate to use stickslip from your own program. It has two parts.
 //!
 //! - The subjects, each a crate of its own: [`tip`], the closed equation with its memories and its integrator;
 //!   [`outcome`], the regime of a run; [`surface`], u(x,t) afterwards; [`stability`] and [`cycles`]; [`raster`];

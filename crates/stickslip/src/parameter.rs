@@ -10,38 +10,37 @@ use std::any::TypeId;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The key of a property of a schema that makes it a parameter which a user may give: see [`option`].
+/// Key of a property in a JSON Schema; it marks the property as a parameter that a user may give: see [`option`].
 const OPTION: &str = "x-option";
 
-/// What a schema says of a parameter beside its description: the symbol of its value, the group of parameters that it belongs
-/// to, and its place among all. A field without it, such as a result of [`Ask::resolved`](crate::Ask::resolved), is written to
-/// documents and read from them, but is no option.
+/// Schema attributes of a parameter: the symbol of its value, its group, and its rank on the help page. A field
+/// without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents but is no option.
 pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
     json!({ "symbol": symbol, "group": group, "place": place })
 }
 
-/// Why most questions need a spring.
+/// Reason given when a question that needs a spring gets a model without one.
 pub(crate) const NOTHING_DRAGS: &str =
     "nothing drags the tip: there is no steady motion behind a support";
 
 /// A parameter of a question.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// Such as `alpha_above`.
+    /// The name, such as `alpha_above`.
     pub name: String,
     /// Meaning, unit and range.
     pub description: String,
-    /// What values it takes.
+    /// The kind of its values.
     pub kind: Kind,
-    /// The value where none is given.
+    /// The default value, if there is one.
     pub default: Option<Value>,
-    /// Whether the question cannot do without it.
+    /// Whether the parameter is required.
     pub is_required: bool,
-    /// What stands for its value, such as `R`.
+    /// The symbol of its value on the help page, such as `R`.
     pub symbol: String,
     /// The group of parameters that it belongs to, such as `Wider law`.
     pub group: String,
-    /// Its place among all.
+    /// Its rank on the help page.
     place: u64,
 }
 
@@ -57,13 +56,13 @@ pub enum Kind {
     Switch,
     /// One of several names, each with its meaning.
     Name(Vec<(String, String)>),
-    /// Both ends of a range; `points` and `spacing` of the same question say how it is divided.
+    /// Both ends of a range; `points` and `spacing` of the same question define its division.
     Ends,
-    /// Numbers.
+    /// A list of numbers.
     Numbers,
     /// A footprint, as [`Tip`](crate::Tip) reads it.
     Tip,
-    /// Anything else, such as a table.
+    /// Any other value, such as a table.
     Other,
 }
 
@@ -127,7 +126,7 @@ pub fn parameters<Q: JsonSchema + 'static>() -> &'static [Parameter] {
     &described::<Q>().options
 }
 
-/// By the type of a property, or by what it refers to.
+/// The kind of a property, from its type or from the definition that it refers to.
 fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
     if name == "tip" {
         return Kind::Tip;
@@ -160,7 +159,7 @@ fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
     if names.is_empty() { Kind::Other } else { Kind::Name(names) }
 }
 
-/// The names of an enumeration whose every name is explained.
+/// The names of an enumeration, each with its description; empty if one has no description.
 fn names_of(schema: &Value) -> Vec<(String, String)> {
     let alternatives = schema["oneOf"].as_array().into_iter().flatten();
     let named = alternatives.filter_map(|one| {
@@ -170,7 +169,7 @@ fn names_of(schema: &Value) -> Vec<(String, String)> {
     named.collect()
 }
 
-/// The question with these parameters; those that are not given have their defaults.
+/// The question with the given parameters, and defaults for the others.
 ///
 /// # Errors
 /// A name that is none of its parameters, one that is missing, a value of another kind.
@@ -212,7 +211,7 @@ pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwn
     question(Map::deserialize(deserializer)?).map_err(refused)
 }
 
-/// The parameter without which the others can be read.
+/// The parameter that cannot be read: without it the others can.
 fn culprit<Q: DeserializeOwned>(values: &Map<String, Value>) -> Option<&str> {
     let is_read_without = |name: &&str| {
         let mut others = values.clone();
@@ -222,7 +221,7 @@ fn culprit<Q: DeserializeOwned>(values: &Map<String, Value>) -> Option<&str> {
     values.keys().map(String::as_str).find(is_read_without)
 }
 
-/// A value as one would type it.
+/// A value in the form in which a user types it.
 pub fn typed(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -230,7 +229,7 @@ pub fn typed(value: &Value) -> String {
     }
 }
 
-/// Why a value is of another kind, if it is. Null stands for what is not given.
+/// The reason why a value is of the wrong kind; `None` if it is not. Null stands for a missing value.
 fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
     let is_right = value.is_null()
         || match kind {
@@ -264,8 +263,8 @@ pub fn stranger<Q: JsonSchema + 'static>(values: &Map<String, Value>) -> Option<
     values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
 }
 
-/// Parameters with others in their place. What another value makes stale goes: α and αc(r) + D replace each other, and the
-/// critical α or r of a question that was resolved is computed anew.
+/// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) +
+/// D replace each other, and a critical α or r that was computed is computed anew.
 #[must_use]
 pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Map<String, Value> {
     if base.remove("at_critical_point") == Some(Value::Bool(true)) {

@@ -1,4 +1,4 @@
-//! A run of a tip that gives way across the scan.
+//! A run of a tip that is free to move across the scan.
 
 use super::run_found::{RunEnd, RunFound, SampleLine};
 use crate::{
@@ -10,12 +10,12 @@ use stickslip_stability::Snaking;
 use stickslip_tip::Wider;
 use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Trajectory};
 
-/// A deviation across of no more tolerances than this at the end of a run has died out.
+/// A deviation across the scan counts as decayed if it is at most this many tolerances at the end of a run.
 const DIED_OUT: f64 = 10.0;
-/// The part of a run at its end in which it must have.
+/// The last part of a run, as a fraction of it, in which this must hold.
 const LATE: f64 = 0.25;
 
-/// The run as far as it was not cancelled; `None` where it has no step.
+/// The document of a run up to its end or its cancellation; `None` if it has no step.
 pub(super) fn found(
     scenario: &PlanarScenario,
     times: &Times,
@@ -61,7 +61,7 @@ pub(super) fn found(
     Ok(Some((found, remarks)))
 }
 
-/// What the motion along the scan is, where that across has died out; else that it has not settled.
+/// The regime of the motion along the scan if the motion across it has decayed; otherwise that it has not settled.
 fn became(
     scenario: &PlanarScenario,
     has_died_out: bool,
@@ -88,7 +88,8 @@ fn became(
     })
 }
 
-/// A remark on a tip that stays on its line because nothing pushes it off, where deviations across would grow.
+/// A warning for a tip that stays on its line only because nothing displaces it, although deviations across the scan
+/// would grow.
 fn undisturbed(scenario: &PlanarScenario) -> Option<String> {
     let model = &scenario.along.model;
     let is_pushed = scenario.kick_across.abs() > 0.0;
@@ -104,7 +105,7 @@ fn undisturbed(scenario: &PlanarScenario) -> Option<String> {
     })
 }
 
-/// The motion at these times, as far as it goes.
+/// The motion at these times, as far as it was computed.
 fn samples(
     trajectory: &Trajectory,
     times: &Times,
@@ -123,7 +124,7 @@ fn samples(
     times.all().into_iter().filter(|t| *t <= end).map(sample).collect()
 }
 
-/// That along the scan, and y0 beside it.
+/// The history of the motion along the scan, together with y0.
 fn history(trajectory: &Trajectory, wider: &Wider) -> History {
     let steps = trajectory.steps();
     let along = steps.iter().map(|step| step.along).collect();

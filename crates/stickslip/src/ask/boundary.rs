@@ -14,25 +14,25 @@ use stickslip_stability::{
 };
 use stickslip_tip::{TipFunction, Wider};
 
-/// The critical α over a range of r, and the oscillation that is born along it.
+/// The critical α over a range of r, and the oscillation that bifurcates there.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Boundary {
     /// Footprint f(x) of the tip.
     #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     #[serde(default)]
     pub tip: Tip,
-    /// First and last r, above 0, and how many there are, both included.
+    /// First and last r, above 0, and the number of values, both ends included.
     #[schemars(extend("x-option" = option("LO:HI:N", "Boundary", 20)))]
     pub r_range: [f64; 2],
-    /// Number of values, where the range does not say it; from 2 to 100,000.
+    /// Number of values, if the range does not contain it; from 2 to 100,000.
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "default_points")]
     pub points: usize,
-    /// How that range is divided.
+    /// Spacing of the values of that range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
 }
@@ -48,45 +48,45 @@ pub type BoundaryDocument = Document<Boundary>;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoundaryFound {
-    /// Ω = ω/r of the oscillation that is born, in 1/σ.
+    /// Ω = ω/r of the oscillation at onset, in 1/σ.
     #[serde(rename = "Omega")]
     pub wave_number: Vec<f64>,
     /// r, ascending; those at which steady motion is stable for every α are left out.
     pub r: Vec<f64>,
     /// αc(r), the first crossing: steady motion is stable below.
     pub alpha: Vec<f64>,
-    /// What is born there.
+    /// The oscillation at onset.
     pub onset: OnsetColumns,
-    /// The whole curve (42), (43) within the range of r, by stretches on which Ω runs without a gap.
-    /// Where there are several, or where one turns back in r, its parts above αc(r) are where further
-    /// pairs of roots cross. None under a wider law.
+    /// The whole curve (42), (43) within the range of r, in stretches with contiguous Ω. If there are several, or if
+    /// one turns back in r, the parts above αc(r) are crossings of further pairs of roots. Empty for the extended
+    /// model.
     pub branches: Vec<BranchDocument>,
-    /// Under a wider law: whether linear theory decides, for each r.
+    /// Extended model only: whether linear theory decides, for each r.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub kind: Vec<OnsetKindName>,
-    /// Under a wider law: what leaves nothing unstable.
+    /// Extended model only: conditions under which steady motion is stable at every α.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitColumns>,
 }
 
 impl Boundary {
-    /// Values of r where their number is not given.
+    /// Number of values of r, by default.
     pub const DEFAULT_POINTS: usize = 200;
-    /// More take hours, and no picture shows them.
+    /// Largest number of points: more would take hours.
     pub const MOST_POINTS: usize = 100_000;
 
-    /// The boundary over a range of r, in 200 points, under the basic law.
+    /// The boundary over a range of r, in 200 points, for the basic model.
     pub fn new(tip: Tip, r_range: [f64; 2]) -> Self {
         let (points, spacing) = (default_points(), SpacingName::default());
         Self { tip, r_range, points, spacing, law: Law::default() }
     }
 
-    /// A point of the boundary as a model.
+    /// The model at a point of the boundary.
     pub fn at(&self, r: f64, alpha: f64) -> ModelParameters {
         ModelParameters::asked(&self.tip, Indentation::given(alpha), r, self.law)
     }
 
-    /// Refuses a range that is none, or of too few or too many points.
+    /// Rejects an invalid range, or too few or too many points.
     fn judged(&self) -> Result<(), Refused> {
         let [low, high] = self.r_range;
         let refused = |why: &str| Err(self.refused(why));
@@ -109,7 +109,7 @@ impl Boundary {
         Refused { parameter: "r_range".into(), value, why: why.to_string() }
     }
 
-    /// Under the basic law: with criticality and all stretches of the curve.
+    /// The boundary of the basic model, with criticality and all stretches of the curve.
     fn basic(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
         let tip = &self.tip.0;
         let boundary = stability::Boundary::new(&Wider::default(), tip);
@@ -140,7 +140,7 @@ impl Boundary {
         Ok((found, left_out_remark(&left_out).into_iter().collect()))
     }
 
-    /// Under any other law. That nothing is unstable at all is an answer too.
+    /// The boundary of an extended model. A model without any instability is an answer too.
     fn extended(
         &self,
         law: &Wider,
@@ -230,7 +230,7 @@ impl BoundaryFound {
     }
 }
 
-/// How a range is divided.
+/// The spacing of values in a range.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpacingName {
@@ -242,7 +242,7 @@ pub enum SpacingName {
 }
 
 impl SpacingName {
-    /// So many values from low to high, both exactly.
+    /// The given number of values from low to high, both ends exact.
     pub fn values(self, [low, high]: [f64; 2], points: usize) -> Vec<f64> {
         let last = points.max(2) - 1;
         let between = |i: usize| {
@@ -260,24 +260,26 @@ impl SpacingName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitColumns {
-    /// Every r that was asked for, also those without a critical α.
+    /// All values of r requested, including those without a critical α.
     pub r: Vec<f64>,
-    /// b_c of each, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
-    /// the inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady
-    /// tip is 0, the corner of |h|.
+    /// b_c of each r, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
+    /// the inertia of `parameters`. Null if steady motion is stable at every b, or if the height under the steady tip
+    /// is 0, the kink of |u|.
     pub least_depth_limit: Vec<Option<f64>>,
-    /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null
-    /// where there is none for this tip.
+    /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null if
+    /// this tip has none.
     pub memory_length: Option<f64>,
 }
 
-/// The small oscillation along the boundary, to leading order in α - αc. Null where that says nothing.
+/// The small oscillation along the boundary, to leading order in α - αc. Null where the leading order is not
+/// available.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OnsetColumns {
-    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
+    /// Whether the oscillation starts with amplitude 0 beyond αc (supercritical) or exists already below it
+    /// (subcritical).
     pub criticality: Vec<Option<CriticalityName>>,
-    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
+    /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: Vec<Option<f64>>,
     /// dT/dα along the branch, in Γ/k.
     pub period_slope: Vec<Option<f64>>,
@@ -299,14 +301,14 @@ pub struct BranchDocument {
 }
 
 impl OnsetColumns {
-    /// What is born at each of these points of the boundary.
+    /// The small oscillation at each of these points of the boundary.
     pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
         let mut columns = Self::default();
         boundary.iter().for_each(|at| columns.push(tip, at));
         columns
     }
 
-    /// Of so many points, none of which is known.
+    /// Columns of null for the given number of points.
     #[must_use]
     pub fn unknown(points: usize) -> Self {
         Self {
@@ -317,7 +319,7 @@ impl OnsetColumns {
         }
     }
 
-    /// Adds what is born at a point of the boundary.
+    /// Appends the small oscillation at a point of the boundary.
     pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
         let onset = onset_at(tip, *at).ok();
         self.criticality.push(onset.map(|o| o.criticality.into()));
@@ -335,7 +337,7 @@ impl From<BoundaryBranch> for BranchDocument {
 }
 
 impl Tabular for BoundaryFound {
-    /// The boundary, a row for each r.
+    /// The boundary as a table, with a row for each r.
     fn columns(&self) -> Vec<Named<'_>> {
         let OnsetColumns { amplitude_squared_slope, period_slope, lyapunov, .. } = &self.onset;
         vec![

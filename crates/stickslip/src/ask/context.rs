@@ -1,4 +1,4 @@
-//! What an answer is computed within: cancellation, progress, time.
+//! The context of a computation: cancellation, progress, time.
 
 use crate::Failure;
 use std::fmt::{self, Debug};
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use stickslip_tip::stop;
 
-/// Who may cancel an answer, and who watches its progress.
+/// Cancellation flag, progress callback and clock of a computation.
 #[derive(Clone, Default)]
 pub struct Context {
     cancel: Arc<AtomicBool>,
@@ -14,17 +14,17 @@ pub struct Context {
     clock: Option<fn() -> f64>,
 }
 
-/// Takes the part that is done, from 0 to 1, where that is known, and what is counted, such as `12 of 60 points`.
+/// A callback for progress: the fraction done, from 0 to 1, if known, and a count such as `12 of 60 points`.
 type Progress = dyn Fn(Option<f64>, &str) + Send + Sync;
 
 impl Context {
-    /// Nobody watches; the work ends early once `cancel` is set.
+    /// A context without progress reports; the work ends early once `cancel` is set.
     #[must_use]
     pub fn cancelled_by(cancel: Arc<AtomicBool>) -> Self {
         Self { cancel, ..Self::default() }
     }
 
-    /// Calls `progress` with the part that is done, from 0 to 1, where that is known, and what is counted.
+    /// Calls `progress` with the fraction done, from 0 to 1, if known, and with a count.
     #[must_use]
     pub fn watched_by(self, progress: impl Fn(Option<f64>, &str) + Send + Sync + 'static) -> Self {
         Self { progress: Some(Arc::new(progress)), ..self }
@@ -36,12 +36,12 @@ impl Context {
         Self { clock: Some(clock), ..self }
     }
 
-    /// Seconds since some fixed time.
+    /// Seconds since a fixed time; 0 without a clock.
     pub(crate) fn seconds(&self) -> f64 {
         self.clock.map_or(0.0, |clock| clock())
     }
 
-    /// Reports `done` of `all` parts, called `parts`.
+    /// Reports progress: `done` of `all` items, named `parts`.
     ///
     /// # Errors
     /// The work is cancelled.
@@ -49,7 +49,7 @@ impl Context {
         self.reached(Some(done as f64 / all as f64), &format!("{done} of {all} {parts}"))
     }
 
-    /// Reports the part that is done, from 0 to 1, where that is known, and what is counted.
+    /// Reports the fraction done, from 0 to 1, if known, and a count.
     ///
     /// # Errors
     /// The work is cancelled.
@@ -65,7 +65,7 @@ impl Context {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    /// Work that ends early once it is cancelled, with what there is by then.
+    /// Runs work that ends early once it is cancelled, and returns its partial result.
     pub(crate) fn keeping<T>(
         &self,
         work: impl FnOnce() -> Result<T, Failure>,
@@ -74,7 +74,7 @@ impl Context {
         if done.is_err() && self.is_cancelled() { Err(Failure::Cancelled) } else { done }
     }
 
-    /// Work that ends early once it is cancelled.
+    /// Runs work that ends early once it is cancelled, and returns an error then.
     pub(crate) fn within<T>(
         &self,
         work: impl FnOnce() -> Result<T, Failure>,

@@ -1,4 +1,4 @@
-//! The question `continue`: a branch of cycles, and those of twice its period.
+//! The question `continue`: a branch of cycles, and the branches of doubled period.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::parameter::option;
@@ -15,9 +15,9 @@ use stickslip_cycles::{
 use stickslip_stability::trapping_alpha;
 use stickslip_tip::Trajectory;
 
-/// Branches of twice the period, of four times and so on: a cascade has no end.
+/// Largest number of branches of doubled period: a cascade has infinitely many.
 const MOST_BRANCHES: usize = 12;
-/// Period doublings nearer to each other than this, relatively, are one.
+/// Period doublings at a smaller relative distance are the same.
 const SAME: f64 = 1e-6;
 
 /// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
@@ -25,18 +25,18 @@ const SAME: f64 = 1e-6;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContinueFound {
-    /// The first, and with --switch those of twice its period, of four times, ….
+    /// The first branch and, with --switch, those of twice its period, of four times, ….
     pub branches: Vec<CycleBranch>,
-    /// Where something happens to the cycles of a branch, in order of the branches.
+    /// Special points of the branches, in order of the branches.
     pub special: Vec<SpecialDocument>,
-    /// The value of what varies at which the tip can be trapped for ever; null if there is none.
+    /// The value of the continuation parameter at which trapping becomes possible; null if there is none.
     pub trapping: Option<f64>,
-    /// Whether a signal stopped it.
+    /// Whether a signal stopped the computation.
     pub interrupted: bool,
 }
 
-/// A branch of cycles in α or r, stable or not, with the points where something happens to it. It begins at the cycle of α and r;
-/// where the one that varies is not given, at the onset of oscillation.
+/// A branch of cycles in α or r, stable or not, with its special points. It begins at the cycle of the given α and r;
+/// if the continuation parameter is not given, at the onset of oscillation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Continue {
     /// Footprint f(x) of the tip.
@@ -50,13 +50,13 @@ pub struct Continue {
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     #[serde(default)]
     pub r: Option<f64>,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// What varies.
+    /// The continuation parameter.
     #[schemars(extend("x-option" = option("NAME", "Branch", 20)))]
     pub over: OverName,
-    /// Its last value; without one the branch ends otherwise.
+    /// Last value of the continuation parameter; without it the branch ends by another criterion.
     #[schemars(extend("x-option" = option("V", "Branch", 21)))]
     #[serde(default)]
     pub to: Option<f64>,
@@ -64,7 +64,7 @@ pub struct Continue {
     #[schemars(extend("x-option" = option("", "Branch", 22)))]
     #[serde(default)]
     pub switch: bool,
-    /// The branch ends where the period is longer than this, in Γ/k.
+    /// Largest period, in Γ/k; the branch ends where it is exceeded.
     #[schemars(extend("x-option" = option("T", "Branch", 23)))]
     #[serde(default = "default_longest_period")]
     pub longest_period: f64,
@@ -72,7 +72,7 @@ pub struct Continue {
     #[schemars(extend("x-option" = option("S", "Branch", 24)))]
     #[serde(default = "default_longest_step")]
     pub longest_step: f64,
-    /// Each branch ends with this many cycles.
+    /// Largest number of cycles of a branch.
     #[schemars(extend("x-option" = option("N", "Branch", 25)))]
     #[serde(default = "default_most_points")]
     pub most_points: usize,
@@ -109,20 +109,20 @@ impl Question for Continue {
     type Answer = ContinueFound;
 }
 
-/// A branch, and the special point of another (branch, place in its list) that it began at.
+/// A branch, and the special point (branch, index in its list) at which it begins.
 struct Found {
     branch: Branch,
     from: Option<(usize, usize)>,
 }
 
 impl Continue {
-    /// The same as documents hold it.
+    /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         let r = self.r.unwrap_or(f64::NAN);
         ModelParameters::asked(&self.tip, self.indentation, r, self.law)
     }
 
-    /// The cycle that the first branch begins with; none where it begins at onset.
+    /// The cycle at which the first branch begins; `None` if it begins at onset.
     fn first(&self) -> Result<Option<Cycle>, Failure> {
         let alpha = self.indentation != Indentation::default();
         let is_there = match self.over {
@@ -140,7 +140,7 @@ impl Continue {
         Ok(Some(Cycle { law, tolerance, start, ..cycle }))
     }
 
-    /// The value, where a branch begins at onset, of what does not vary.
+    /// The value of the fixed parameter, for a branch that begins at onset.
     fn other(&self) -> Result<f64, Refused> {
         let (name, value) = match self.over {
             OverName::Alpha => ("r", self.r),
@@ -239,7 +239,7 @@ impl Continue {
         }
     }
 
-    /// The branches in a document.
+    /// The answer for these branches.
     fn found(&self, found: &[Found], interrupted: bool) -> ContinueFound {
         let first = &found[0].branch.points[0];
         // Where the special points of each branch begin in the list of all.
@@ -265,7 +265,7 @@ impl Continue {
         ContinueFound { branches, special: special.collect(), trapping, interrupted }
     }
 
-    /// A branch that begins at the cycle of a document.
+    /// The question for a branch that begins at the cycle of a document.
     ///
     /// # Errors
     /// The history of the document is damaged.
@@ -295,7 +295,7 @@ impl Ask for Continue {
         Ok((self.found(&found, context.is_cancelled()), remarks))
     }
 
-    /// Its α and r are those of the first cycle. What was found before it was cancelled is kept.
+    /// The α and r of the answer are those of the first cycle. Branches found before a cancellation are kept.
     fn answered(self, context: &Context) -> Result<ContinueDocument, Failure> {
         let (answer, remarks) = context.keeping(|| self.answer(context))?;
         let first = &answer.branches[0];
@@ -310,7 +310,7 @@ impl Ask for Continue {
     }
 }
 
-/// Whether a branch that was followed already has come back there.
+/// Whether a branch that was already followed ends at this period doubling.
 fn is_end_of(doubling: &Special, found: &[Found]) -> bool {
     let special = found.iter().flat_map(|f| &f.branch.special);
     special.filter(|s| s.kind == SpecialKind::PeriodHalving).any(|s| {
@@ -319,7 +319,7 @@ fn is_end_of(doubling: &Special, found: &[Found]) -> bool {
     })
 }
 
-/// What varies along a branch.
+/// The continuation parameter of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OverName {
@@ -333,7 +333,7 @@ pub enum OverName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CycleBranch {
-    /// Index in `special` of the period doubling that it began at; null for the first branch.
+    /// Index in `special` of the period doubling at which the branch begins; null for the first branch.
     pub from: Option<usize>,
     /// α of each cycle, dimensionless (13).
     pub alpha: Vec<f64>,
@@ -341,27 +341,27 @@ pub struct CycleBranch {
     pub r: Vec<f64>,
     /// T of each cycle, in Γ/k.
     pub period: Vec<f64>,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    /// Half peak-to-peak of l (the oscillation of x0 about its steady advance), in σ.
     pub amplitude_x0: Vec<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
-    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. On a healing surface u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
     pub amplitude_u: Vec<f64>,
-    /// Whether every small deviation from the cycle but a shift in time dies out.
+    /// Whether every small deviation from the cycle, except a shift in time, decays.
     pub stable: Vec<bool>,
-    /// Real part of the largest Floquet multiplier but that of a shift in time, dimensionless; 0 where all are
-    /// below 1e-6.
+    /// Real part of the largest Floquet multiplier except that of a shift in time, dimensionless; 0 if all are below
+    /// 1e-6.
     pub multiplier_re: Vec<f64>,
-    /// Its imaginary part.
+    /// Imaginary part of the same multiplier.
     pub multiplier_im: Vec<f64>,
-    /// Why it ends where it does.
+    /// The reason why the branch ends.
     pub end: EndName,
 }
 
-/// Why a branch ends.
+/// The reason why a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EndName {
-    /// What varies has its last value.
+    /// The continuation parameter reached its last value.
     Reached,
     /// The period exceeds the longest one.
     LongPeriod,
@@ -369,29 +369,29 @@ pub enum EndName {
     Steady,
     /// It joins the branch of half the period.
     Halved,
-    /// Enough cycles.
+    /// The branch has the largest number of cycles.
     ManyPoints,
-    /// No cycle was found a shortest step further on.
+    /// No cycle was found even with the shortest step.
     Lost,
-    /// A signal.
+    /// A signal stopped the computation.
     Interrupted,
 }
 
-/// A point where something happens to the cycles of a branch.
+/// A special point of a branch, such as a fold or a period doubling.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpecialDocument {
-    /// What.
+    /// The kind of special point.
     pub kind: SpecialName,
-    /// Index in `branches`.
+    /// Index of the branch in `branches`.
     pub branch: usize,
-    /// α there, dimensionless (13).
+    /// α at the point, dimensionless (13).
     pub alpha: f64,
-    /// r there, dimensionless (12).
+    /// r at the point, dimensionless (12).
     pub r: f64,
-    /// T of the cycle there, in Γ/k; at a Hopf point that of the oscillation that is born.
+    /// T of the cycle at the point, in Γ/k; at a Hopf point that of the oscillation at onset.
     pub period: f64,
-    /// Half peak-to-peak of l of the cycle there, in σ; 0 at a Hopf point.
+    /// Half peak-to-peak of l of the cycle at the point, in σ; 0 at a Hopf point.
     pub amplitude_x0: f64,
 }
 
@@ -399,22 +399,23 @@ pub struct SpecialDocument {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpecialName {
-    /// The cycle vanishes into steady motion.
+    /// Hopf point: the amplitude of the cycle goes to 0.
     Hopf,
-    /// The branch turns back.
+    /// Fold: the branch turns back.
     Fold,
     /// A multiplier passes -1: a branch of twice the period begins.
     PeriodDoubling,
-    /// The branch joins one of half the period, where that doubles it; period and amplitude are that one's.
+    /// The branch ends at the period doubling of a branch of half its period; period and amplitude are those of that
+    /// branch.
     PeriodHalving,
-    /// A second multiplier passes 1, and the branch does not turn: another branch crosses.
+    /// A second multiplier passes 1 without a fold: another branch crosses.
     BranchPoint,
-    /// A complex pair crosses the unit circle: a torus is born.
+    /// A complex pair crosses the unit circle: quasi-periodic motion on a torus begins.
     Torus,
 }
 
 impl CycleBranch {
-    /// A branch, and the index in `special` of the period doubling that it began at.
+    /// A branch, with the index in `special` of the period doubling at which it begins.
     pub fn of(branch: &Branch, from: Option<usize>) -> Self {
         let points = &branch.points;
         let column = |of: fn(&Point) -> f64| points.iter().map(of).collect();
@@ -434,7 +435,7 @@ impl CycleBranch {
 }
 
 impl SpecialDocument {
-    /// A point of the branch with this index.
+    /// A special point of the branch with this index.
     pub fn of(branch: usize, special: &Special) -> Self {
         Self {
             kind: special.kind.into(),
@@ -484,7 +485,7 @@ impl From<SpecialKind> for SpecialName {
 }
 
 impl Tabular for ContinueFound {
-    /// The cycles of all branches, one after the other.
+    /// The cycles of all branches, in one table.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
             self.branches.iter().flat_map(of).copied().collect::<Vec<_>>().into()
@@ -510,7 +511,7 @@ impl Tabular for ContinueFound {
         self.interrupted.then(|| "interrupted: more of the branches was asked for".into())
     }
 
-    /// A branch cut short says so.
+    /// Arrays of the branches; a branch that was interrupted is marked as such.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns().into_iter();
         let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));

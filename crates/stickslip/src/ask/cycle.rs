@@ -12,10 +12,10 @@ use stickslip_cycles as cycles;
 use stickslip_cycles::CycleError;
 use stickslip_tip::{Model, Step, Support, TipFunction, Trajectory};
 
-/// Intervals of the profile in a step of the mesh, at least: the largest velocity is then seen to 0.3 %, with one
-/// to 1.4 % (α from 1.2 to 2, the loosest tolerance).
+/// Smallest number of profile intervals per mesh step: the error of the largest velocity is then 0.3 %, and 1.4 %
+/// with one interval (α from 1.2 to 2, the loosest tolerance).
 const FEWEST_PARTS: usize = 2;
-/// More do not fit in a picture, nor are they needed in a table.
+/// Largest number of points of a profile.
 const MOST_POINTS: usize = 1_000_000;
 
 /// The periodic motion at given α and r, and its stability.
@@ -31,20 +31,20 @@ pub struct Cycle {
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: f64,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
     /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
     #[schemars(extend("x-option" = option("E", "Accuracy", 20)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// Intervals of the profile, about, and not fewer; up to 1,000,000. They are uneven in time: each step of the cycle's
-    /// mesh, short where the motion is fast, is divided evenly, in two at least.
+    /// Approximate number of intervals of the profile, a lower bound; up to 1,000,000. They are uneven in time: each
+    /// step of the cycle's mesh, short where the motion is fast, is divided evenly, into at least two.
     #[schemars(extend("x-option" = option("N", "Output", 30)))]
     #[serde(default = "default_points")]
     pub points: usize,
-    /// One period of a motion nearby from which Newton's method starts; without it the small oscillation at αc or a short
-    /// run.
+    /// One period of a similar motion, from which Newton's method starts; without it the small oscillation at αc or a
+    /// short run.
     #[serde(skip)]
     pub start: Option<Trajectory>,
 }
@@ -61,7 +61,7 @@ fn default_points() -> usize {
 pub type CycleDocument = Document<Cycle>;
 
 impl Cycle {
-    /// The cycle of a footprint at an indentation rate and a support velocity, under the basic law.
+    /// The cycle of a footprint at an indentation rate and a support velocity, for the basic model.
     pub fn new(tip: Tip, indentation: Indentation, r: f64) -> Self {
         Self {
             tip,
@@ -74,10 +74,10 @@ impl Cycle {
         }
     }
 
-    /// The question of a document again, started from its answer. It is resolved: its α is a number.
+    /// The question of a document, with its answer as the initial approximation. It is resolved: its α is a number.
     ///
     /// # Errors
-    /// The history of the document is damaged, or is not one of a cycle.
+    /// The history of the document is damaged, or is not that of a cycle.
     pub fn again(document: &CycleDocument) -> Result<Self, Unusable> {
         let question = document.parameters.clone();
         let support = Support::Moving(question.r);
@@ -88,7 +88,7 @@ impl Cycle {
         Ok(Self { start: Some(start), ..question })
     }
 
-    /// Footprint, law, α and r of a resolved question.
+    /// Footprint, law, α and r of a resolved question, as a model.
     ///
     /// # Errors
     /// A number is out of its range.
@@ -97,7 +97,7 @@ impl Cycle {
         self.indentation.model(&self.tip.0, law, self.r)
     }
 
-    /// The same as documents hold it.
+    /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
     }
@@ -115,7 +115,7 @@ impl Cycle {
         Ok(found?)
     }
 
-    /// Refuses a residual that cannot be reached, or is too large for a cycle.
+    /// Rejects a tolerance that cannot be reached, or that is too large for a cycle.
     ///
     /// # Errors
     /// The tolerance is outside [`cycles::TOLERANCES`].
@@ -127,7 +127,7 @@ impl Cycle {
         Err(Refused::number("tolerance", tolerance, CycleError::Tolerance(tolerance)))
     }
 
-    /// Refuses what no cycle can be computed for or shown with.
+    /// Rejects parameters for which no cycle can be computed, and an invalid number of points.
     fn judged(&self) -> Result<(), Refused> {
         Self::judge_tolerance(self.tolerance)?;
         if matches!(self.tip.0, TipFunction::Bessel) {
@@ -179,44 +179,44 @@ pub struct CycleFound {
     /// Error of `period`, in Γ/k.
     #[serde(default)]
     pub period_error: Option<f64>,
-    /// rT, that of the surface left behind, in σ.
+    /// rT, the wavelength of the surface far behind the tip, in σ.
     pub wavelength: f64,
     /// Error of `wavelength`, in σ.
     #[serde(default)]
     pub wavelength_error: Option<f64>,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    /// Half peak-to-peak of l (the oscillation of x0 about its steady advance), in σ.
     pub amplitude_x0: f64,
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. Where the surface heals, u at the distance D
-    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. On a healing surface u at the distance D
+    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
     pub amplitude_u: f64,
     /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
     /// Maxima of l in one period.
     pub slips: usize,
-    /// One period from where l is largest, sampled at uneven times: densely where the motion is fast.
+    /// One period, beginning at the maximum of l, at uneven times: densely sampled where the motion is fast.
     pub profile: CycleProfile,
-    /// Floquet multipliers by falling modulus, down to 1e-6 (0.01 for footprints with much detail), the one above the
-    /// real axis first of each pair: a small deviation is multiplied by them in each period. One is 1, that of a shift
-    /// in time. In error by up to 5e-8 above 0.01, by up to 1e-6 below.
+    /// Floquet multipliers, the factors of small deviations per period, by falling modulus, down to 1e-6 (0.01 for
+    /// footprints with much detail); of each pair the one above the real axis comes first. One is 1, that of a shift
+    /// in time. The error is at most 5e-8 above 0.01 and at most 1e-6 below.
     pub floquet: Vec<ComplexDocument>,
-    /// How far the multiplier that should be 1 is from it.
+    /// Error of the trivial multiplier, |μ - 1|.
     pub floquet_error: f64,
-    /// Whether every small deviation but a shift in time dies out.
+    /// Whether every small deviation except a shift in time decays.
     pub stable: bool,
     /// Estimate of the largest residual of (18) at any time, in kσ/Γ.
     pub residual: f64,
-    /// One period, as it was solved for.
+    /// The dense solution over one period.
     pub history: History,
-    /// What it took.
+    /// Cost of the run.
     pub work: CycleWork,
 }
 
 impl CycleFound {
-    /// A cycle with about `points` intervals of its profile, and what it took to find it.
+    /// The document of a cycle with about `points` intervals of its profile and its cost.
     fn of(cycle: &cycles::Cycle, points: usize, seconds: f64) -> Self {
         let multipliers = cycle.multipliers();
         let distances = multipliers.iter().map(|m| (m - 1.0).norm());
@@ -245,25 +245,25 @@ impl CycleFound {
     }
 }
 
-/// Columns of equal length, at times that are uneven: each step of the cycle's mesh, short where the motion is fast,
-/// is divided evenly. The largest velocity is seen to a per cent.
+/// Columns of equal length, at uneven times: each step of the cycle's mesh, short where the motion is fast, is
+/// divided evenly. The error of the largest velocity is about one per cent.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CycleProfile {
-    /// From 0, where l is largest, to T, in Γ/k; ascending, at uneven distances.
+    /// Times from 0, where l is largest, to T, in Γ/k; ascending, unevenly spaced.
     pub t: Vec<f64>,
     /// l = rt - r - x0, in σ.
     pub l: Vec<f64>,
     /// x0', in kσ/Γ.
     pub velocity: Vec<f64>,
-    /// The height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    /// The height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<f64>>,
 }
 
 impl CycleProfile {
-    /// About `points` intervals. The steps are short where the motion is fast: times even over the period would pass
-    /// over its slips.
+    /// A profile of about `points` intervals. The steps are short where the motion is fast: even times would miss the
+    /// slips.
     fn of(cycle: &cycles::Cycle, points: usize) -> Self {
         let motion = cycle.motion();
         let steps = motion.steps();
@@ -282,20 +282,20 @@ impl CycleProfile {
     }
 }
 
-/// Counts that depend on the input alone, and the time that it took.
+/// Counts that depend on the input alone, and the time of the computation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CycleWork {
-    /// Steps of the mesh over one period.
+    /// Number of steps of the mesh over one period.
     pub steps: usize,
-    /// Newton iterations, on all meshes.
+    /// Number of Newton iterations, on all meshes.
     pub newton_iterations: usize,
-    /// Time that it took, in seconds: the one field that differs from run to run.
+    /// Time of the computation, in seconds: the only field that differs between identical runs.
     pub seconds: f64,
 }
 
 impl Tabular for CycleFound {
-    /// The profile.
+    /// The profile as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let CycleProfile { t, l, velocity, height } = &self.profile;
         let height = height.iter().map(|height| ("height", Column::of(height)));

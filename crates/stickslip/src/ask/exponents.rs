@@ -1,18 +1,18 @@
-//! Lists of growth exponents: how many may be asked for, and remarks on those found.
+//! Lists of growth exponents: the largest number allowed, and warnings about the exponents found.
 
 use crate::{Failure, Refused, Typed};
 use stickslip_stability::{Certificate, Spectrum, StabilityError};
 use stickslip_tip::{Model, TipFunction};
 
-/// Errors above this part of the smallest |λ| are worth a remark.
+/// Largest relative error, in units of the smallest |λ|, that causes no warning.
 const EXACT: f64 = 1e-10;
-/// More than there are right of [`leftmost`].
+/// Largest number of exponents in a list; fewer lie to the right of [`leftmost`].
 const MOST_ROOTS: usize = 1000;
 
-/// Re λ below which the roots of a table are those of its round-off, and those of a closed form are of
-/// no use: they decay by e^{-60} over a width of the tip.
+/// Re λ below which roots are not listed: those of a table are round-off, and the others decay by e^{-60} over a
+/// width of the tip.
 pub(crate) fn leftmost(model: &Model) -> f64 {
-    /// Tips of more Gaussians come from tables.
+    /// Largest number of Gaussians of a tip that was not fitted to a table.
     const FEW: usize = 16;
     let TipFunction::Gaussians(sum) = model.tip() else { return -1e6 * model.r() };
     let reach = model.tip().reach().unwrap_or(1.0);
@@ -20,10 +20,10 @@ pub(crate) fn leftmost(model: &Model) -> f64 {
     model.r() * exponent / reach
 }
 
-/// Refuses a number of roots that is not from 1 to 1000.
+/// Rejects a number of roots outside 1 to 1000.
 ///
 /// # Errors
-/// The refusal.
+/// The number is out of this range.
 pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused> {
     if (1..=MOST_ROOTS).contains(&count) {
         return Ok(());
@@ -31,7 +31,7 @@ pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused>
     Err(Refused::number(parameter, count as f64, format!("1 to {MOST_ROOTS} will do")))
 }
 
-/// The roots could not be listed, through no fault of the question unless α and r are out of all proportion.
+/// The error of a list that could not be computed, with advice; the question is valid unless α and r are extreme.
 pub fn failed(error: &StabilityError, advice: &str) -> Failure {
     match error {
         StabilityError::Stopped => Failure::Cancelled,
@@ -43,7 +43,7 @@ pub fn failed(error: &StabilityError, advice: &str) -> Failure {
     }
 }
 
-/// What a reader of the list should know: fewer than asked for, or inexact.
+/// Warnings about the list: fewer roots than requested, or inexact ones.
 pub fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<String> {
     let Spectrum { roots, certificate: Certificate { largest_error, .. } } = spectrum;
     let found = roots.len();

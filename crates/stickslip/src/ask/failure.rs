@@ -1,4 +1,4 @@
-//! Why a question has no answer, in words that every face can use.
+//! Reasons why a question has no answer, in words for all interfaces.
 
 use std::borrow::Cow;
 use std::fmt::{self, Display};
@@ -7,46 +7,46 @@ use stickslip_stability::StabilityError;
 use stickslip_tip::{ModelError, TipFunctionError, WiderError};
 use thiserror::Error;
 
-/// Why a question has no answer.
+/// The reason why a question has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Failure {
-    /// A parameter is refused.
+    /// A parameter is invalid.
     #[error("{}", .0.described(str::to_owned))]
     Refused(Refused),
     /// The computation found nothing.
     #[error("{0}")]
     Failed(String),
-    /// [`Context::cancelled_by`].
+    /// The work was cancelled: see [`Context::cancelled_by`].
     #[error("cancelled")]
     Cancelled,
 }
 
-/// A parameter that cannot be, and what can. Names of parameters in `{}` are written as the face writes them: `--alpha-above`
-/// on a command line, `alpha_above` in Python.
+/// An invalid parameter, with the reason and the remedy. Names of parameters in `{}` are written in the style of the
+/// interface: `--alpha-above` on a command line, `alpha_above` in Python.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refused {
-    /// Its name, or several joined by " and ".
+    /// The name of the parameter, or several joined by " and ".
     pub parameter: Cow<'static, str>,
-    /// As it would be typed, or those of several joined by " and "; `None` where it is missing or the name says enough.
+    /// The value as typed, or several joined by " and "; `None` if it is missing or the name is sufficient.
     pub value: Option<String>,
     /// The reason and the remedy.
     pub why: String,
 }
 
 impl Refused {
-    /// A parameter and a number that it cannot have.
+    /// The rejection of a number as value of a parameter.
     pub fn number(parameter: impl Into<Cow<'static, str>>, value: f64, why: impl Display) -> Self {
         let value = Some(Typed(value).to_string());
         Self { parameter: parameter.into(), value, why: why.to_string() }
     }
 
-    /// A parameter, whatever its value.
+    /// The rejection of a parameter, without its value.
     pub fn whole(parameter: impl Into<Cow<'static, str>>, why: impl Display) -> Self {
         Self { parameter: parameter.into(), value: None, why: why.to_string() }
     }
 
-    /// The parameter with its value, such as `--r 0`; several, such as `--alpha 1 --r 0`.
+    /// The parameter with its value, such as `--r 0`; or several, such as `--alpha 1 --r 0`.
     pub fn named(&self, name: impl Fn(&str) -> String) -> String {
         let names: Vec<String> = self.parameter.split(" and ").map(name).collect();
         let values: Vec<&str> = self.value.iter().flat_map(|value| value.split(" and ")).collect();
@@ -58,18 +58,18 @@ impl Refused {
         names.join(" and ") + &values.collect::<String>()
     }
 
-    /// The reason, with names of parameters as `name` writes them.
+    /// The reason, with names of parameters written by `name`.
     pub fn reason(&self, name: impl Fn(&str) -> String) -> String {
         named(&self.why, name)
     }
 
-    /// Both.
+    /// Parameter, value and reason in one sentence.
     pub fn described(&self, name: impl Fn(&str) -> String) -> String {
         format!("{}: {}", self.named(&name), self.reason(&name))
     }
 }
 
-/// A text with each `{parameter}` in it as `name` writes it.
+/// A text with each `{parameter}` replaced by `name`.
 fn named(text: &str, name: impl Fn(&str) -> String) -> String {
     let mut named = String::new();
     let mut rest = text;
@@ -85,7 +85,7 @@ fn named(text: &str, name: impl Fn(&str) -> String) -> String {
 }
 
 impl Failure {
-    /// The reason, with names of parameters as `name` writes them.
+    /// The reason, with names of parameters written by `name`.
     pub fn described(&self, name: impl Fn(&str) -> String) -> String {
         match self {
             Self::Refused(refused) => refused.described(name),
@@ -141,7 +141,7 @@ impl From<StabilityError> for Failure {
 }
 
 impl From<CycleError> for Failure {
-    /// That nothing was found is no fault of the question, unless there is never anything.
+    /// A cycle that was not found is a failure, not an invalid question, unless the parameters admit no cycle at all.
     fn from(error: CycleError) -> Self {
         match error {
             CycleError::NeverFades => Refused::whole("tip", error).into(),
@@ -157,7 +157,7 @@ impl From<CycleError> for Failure {
     }
 }
 
-/// A number as one would type it: `1e300` rather than three hundred digits.
+/// A number in its shortest form: `1e300` rather than three hundred digits.
 #[derive(Debug, Clone, Copy)]
 pub struct Typed(pub f64);
 

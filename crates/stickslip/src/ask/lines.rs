@@ -1,14 +1,15 @@
-//! What questions about scan lines beside each other share.
+//! Functions shared by the questions about neighbouring scan lines.
 
 use crate::Refused;
 use stickslip_stability::{Raster, StabilityError};
 use stickslip_tip::{Footprint, TipFunction, Wider};
 
-/// The f(x,y) of a tip, and V of f(x,y) = f(x) exp(-y²/(2V²)) for one that has f(x) alone: the width asked for, or that of
-/// all its Gaussians.
+/// The f(x,y) of a tip, and V of f(x,y) = f(x) exp(-y²/(2V²)) for a tip that has f(x) alone: the width given, or the
+/// common width of its Gaussians.
 ///
 /// # Errors
-/// The tip has an f(x,y) and a width is given; it has none and no single width; the width is not above 0.
+/// A width is given for a tip that has its own f(x,y); no width is given and the Gaussians differ in width; the width
+/// is not above 0.
 pub fn footprint(
     width_y: Option<f64>,
     tip: &TipFunction,
@@ -32,7 +33,7 @@ pub fn footprint(
     }
 }
 
-/// The width of all Gaussians of the tip, if it is the same.
+/// The common width of the Gaussians of the tip; `None` if they differ.
 fn common_width(tip: &TipFunction) -> Option<f64> {
     let TipFunction::Gaussians(sum) = tip else { return None };
     let width = sum.terms().first()?.width;
@@ -42,10 +43,10 @@ fn common_width(tip: &TipFunction) -> Option<f64> {
     (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
 }
 
-/// The part of a groove that is left after another line of this length, in σ, dragged at r.
+/// The fraction of a groove that remains after another line of this length, in σ, scanned at r.
 ///
 /// # Errors
-/// The surface heals and no length above 0 is given, or it does not and one is.
+/// The surface heals and no length above 0 is given, or it does not heal and a length is given.
 pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     match (length, law.healing_time) {
         (None, None) => Ok(1.0),

@@ -1,8 +1,8 @@
 //! Questions: data that one function answers.
 //!
-//! A question is a struct whose fields are its parameters, such as [`Cycle`](crate::Cycle). [`Ask::ask`] answers it with a
-//! [`Document`], which holds both, or refuses it by the name of a parameter. Faces (the command line, Python, a page) make
-//! questions of what they are given and write documents; they compute nothing.
+//! A question is a struct whose fields are its parameters, such as [`Cycle`](crate::Cycle). [`Ask::ask`] answers it
+//! with a [`Document`], which contains both, or rejects it and names the invalid parameter. The interfaces (command
+//! line, Python, web page) convert input to questions and write documents; they compute nothing.
 //!
 //! ```
 //! use stickslip::{Ask, Context, Cycle, Indentation, Tip};
@@ -38,12 +38,12 @@ use crate::{Context, Document, Failure, Question};
 
 /// A question that one function answers.
 pub trait Ask: Question {
-    /// The velocity r of the support, if there is one: it makes v0 of an experiment a scale of time.
+    /// The velocity r of the support, if there is one; together with v0 of an experiment it defines a scale of time.
     fn support_velocity(&self) -> Option<f64> {
         None
     }
 
-    /// The question with everything that it leaves to be computed first, such as α of αc(r) + D: as a document holds it.
+    /// The question with its derived parameters computed, such as α of αc(r) + D: the form that documents contain.
     ///
     /// # Errors
     /// A parameter is out of its range, or contradicts another.
@@ -51,13 +51,13 @@ pub trait Ask: Question {
         Ok(self)
     }
 
-    /// The answer to a resolved question, and remarks on it.
+    /// The answer to a resolved question, and warnings about it.
     ///
     /// # Errors
     /// A parameter is out of its range; nothing was found; the work was cancelled.
     fn answer(&self, context: &Context) -> Result<(Self::Answer, Vec<String>), Failure>;
 
-    /// Question and answer.
+    /// The document of the question, resolved and answered.
     ///
     /// # Errors
     /// As [`resolved`](Self::resolved) and [`answer`](Self::answer).
@@ -65,7 +65,7 @@ pub trait Ask: Question {
         context.within(|| self.resolved(context))?.answered(context)
     }
 
-    /// A resolved question and its answer.
+    /// The document of a resolved question.
     ///
     /// # Errors
     /// As [`answer`](Self::answer).

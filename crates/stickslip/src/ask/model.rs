@@ -12,9 +12,9 @@ use stickslip_tip::{
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TipDocument {
-    /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, a tip from a file.
+    /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, or a tip from a file.
     Gaussians {
-        /// Its terms.
+        /// The terms of the sum.
         gaussians: Vec<GaussianDocument>,
     },
     /// J0(x).
@@ -23,12 +23,12 @@ pub enum TipDocument {
     Cosine {},
     /// f(x,0) of a footprint f(x,y) in three dimensions, a sum of layers g(x)h(y).
     Footprint {
-        /// Its terms.
+        /// The terms of the sum.
         layers: Vec<LayerDocument>,
     },
 }
 
-/// g(x)h(y), g a sum of Gaussians, h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or
+/// A layer g(x)h(y), where g is a sum of Gaussians and h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or
 /// exp(-y²/(2v²)) for d = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -41,7 +41,7 @@ pub struct LayerDocument {
     pub gaussians: Vec<GaussianDocument>,
 }
 
-/// a exp(-(x-c)²/(2w²)).
+/// One Gaussian, a exp(-(x-c)²/(2w²)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GaussianDocument {
@@ -94,10 +94,10 @@ fn layer_document(layer: &Layer) -> LayerDocument {
 }
 
 impl TipDocument {
-    /// The tip again.
+    /// The tip function of this document.
     ///
     /// # Errors
-    /// There is no such tip, such as one without width, or one that no lattice holds.
+    /// The document defines no valid tip: for instance a width is 0, or f varies too fast for any lattice.
     pub fn tip(&self) -> Result<TipFunction, Unusable> {
         let tip = self.as_described().map_err(Unusable::new)?;
         judge_details(&tip)?;
@@ -121,14 +121,14 @@ impl TipDocument {
     }
 }
 
-/// A Gaussian has some eighty half-waves at the band limit of f within its reach, a table of 2,000 rows 15,000. A lattice
-/// of twice as many cells holds the groove.
+/// Largest number of half-waves at the band limit of f within its reach. A Gaussian has about eighty, a table of
+/// 2,000 rows 15,000. A lattice of twice as many cells holds the groove.
 const MOST_DETAILS: f64 = 1e5;
 
-/// Refuses a tip function that reaches too far for its detail: every lattice that is made for it is as long.
+/// Rejects a tip function with too much detail for its reach: every lattice for it would be as long.
 ///
 /// # Errors
-/// It has more than 1e5 half-waves at its band limit within its reach.
+/// The tip has more than 1e5 half-waves at its band limit within its reach.
 pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
     let details = tip.reach().map_or(0.0, |reach| reach * tip.band());
     if details <= MOST_DETAILS {
@@ -144,14 +144,14 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
     TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
 }
 
-/// What is added to the basic law. A question without them is about the basic law.
+/// Extensions of the basic model. Without any, a question is about the basic model.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Law {
     /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b).
     #[schemars(extend("x-option" = option("B", "Wider law", 10)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_limit: Option<f64>,
-    /// Time T in which the surface heals, as exp(-t/T), in Γ/k; above 0.
+    /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0.
     #[schemars(extend("x-option" = option("T", "Wider law", 11)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub healing_time: Option<f64>,
@@ -159,8 +159,8 @@ pub struct Law {
     #[schemars(extend("x-option" = option("M", "Wider law", 12)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
-    /// No spring and no support: a particle driven by its own past. There is no r then, α may be below 0, and the start is
-    /// flat.
+    /// No spring and no support: a particle driven by its own groove. There is no r then, α may be below 0, and the
+    /// initial surface is flat.
     #[schemars(extend("x-option" = option("", "Wider law", 13)))]
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub no_spring: bool,
@@ -179,8 +179,8 @@ impl From<Law> for Wider {
 }
 
 impl Law {
-    /// Refuses what has no steady motion behind a support: no spring, or a footprint that never fades on a surface that
-    /// never heals.
+    /// Rejects models without steady motion behind a support: no spring, or a footprint without decay on a surface
+    /// that does not heal.
     pub(crate) fn dragged(self, tip: &TipFunction) -> Result<Wider, Refused> {
         if self.no_spring {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
@@ -189,7 +189,7 @@ impl Law {
         Ok(self.into())
     }
 
-    /// Refuses a footprint that never fades on a surface that never heals.
+    /// Rejects a footprint without decay on a surface that does not heal.
     pub(crate) fn fading(self, tip: &TipFunction) -> Result<(), Refused> {
         if *tip == TipFunction::Cosine && self.healing_time.is_none() {
             let why =
@@ -204,44 +204,44 @@ impl Law {
     }
 }
 
-/// Footprint, α and r, and what a wider law adds.
+/// Footprint, α, r and extensions of the basic model.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ModelParameters {
     /// Footprint f.
     pub tip: TipDocument,
     /// Dimensionless indentation rate α (13).
     pub alpha: f64,
-    /// D, where α was given as αc(r) + D; dimensionless.
+    /// D, if α was given as αc(r) + D; dimensionless.
     pub alpha_above: Option<f64>,
     /// Dimensionless support velocity r (12); 0 without a spring.
     pub r: f64,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
 }
 
 impl ModelParameters {
-    /// Those of the paper's law.
+    /// The parameters of the basic model.
     pub fn papers(tip: TipDocument, alpha: f64, alpha_above: Option<f64>, r: f64) -> Self {
         Self { tip, alpha, alpha_above, r, law: Law::default() }
     }
 
-    /// Those of a model, and D where its α was given as αc(r) + D.
+    /// The parameters of a model, with D if its α was given as αc(r) + D.
     pub fn of(model: &Model, alpha_above: Option<f64>) -> Self {
         let (tip, law) = (model.tip().into(), (*model.wider()).into());
         Self { tip, alpha: model.alpha(), alpha_above, r: model.r(), law }
     }
 
-    /// The model again.
+    /// The model of these parameters.
     ///
     /// # Errors
-    /// No model has such a tip, α or r.
+    /// The tip, α or r is invalid.
     pub fn model(&self) -> Result<Model, Unusable> {
         let tip = self.tip.tip()?;
         Model::under(self.wider(), tip, self.alpha, self.r).map_err(Unusable::new)
     }
 
-    /// What the wider law adds.
+    /// The extensions of the basic model.
     pub fn wider(&self) -> Wider {
         self.law.into()
     }

@@ -12,8 +12,8 @@ use std::borrow::Cow;
 use stickslip_stability as stability;
 use stickslip_tip::{Model, ModelError, TipFunction, Wider};
 
-/// A footprint in a question. It is written as [`TipDocument`] and read from that, or from a name with `beta` and `width`,
-/// or from a table with the columns `x` and `f`.
+/// A footprint in a question. It is written as [`TipDocument`] and read from the same form, from a name with `beta`
+/// and `width`, or from a table with the columns `x` and `f`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tip(pub TipFunction);
 
@@ -31,14 +31,14 @@ pub enum TipName {
     Cosine,
 }
 
-/// A footprint by its name, and what the name leaves open.
+/// A footprint given by its name, with the parameters of that name.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct NamedTip {
-    /// The triple Gaussian where there is none.
+    /// The name; the triple Gaussian by default.
     pub name: Option<TipName>,
-    /// Weight β of the side lobes of the triple Gaussian; 1 where it is not given.
+    /// Weight β of the side lobes of the triple Gaussian; 1 by default.
     pub beta: Option<f64>,
-    /// Width W of either Gaussian, in σ; 1 where it is not given.
+    /// Width W of either Gaussian, in σ; 1 by default.
     pub width: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ impl NamedTip {
     /// The footprint.
     ///
     /// # Errors
-    /// A number that this footprint does not have, or one out of its range.
+    /// The footprint has no such parameter, or a number is out of its range.
     pub fn tip(&self) -> Result<TipFunction, Refused> {
         let name = self.name.unwrap_or(TipName::TripleGaussian);
         let unused = |parameter, value, with: &str| {
@@ -95,11 +95,12 @@ impl Serialize for Tip {
     }
 }
 
-/// All forms of a footprint side by side: an untagged enumeration would only say that no variant fits.
+/// The fields of all forms of a footprint in one struct: the error of an untagged enumeration would only be that no
+/// variant fits.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TipFields {
-    /// gaussians, bessel, cosine or footprint, as documents have it; or triple-gaussian or gaussian.
+    /// gaussians, bessel, cosine or footprint, as in documents; or triple-gaussian or gaussian.
     name: Option<String>,
     /// Weight β of the side lobes of triple-gaussian; default 1.
     beta: Option<f64>,
@@ -156,13 +157,13 @@ impl JsonSchema for Tip {
         TipDocument::schema_name()
     }
 
-    /// That of what is written.
+    /// The schema of the form that is written.
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         TipDocument::json_schema(generator)
     }
 }
 
-/// Dimensionless indentation rate, given as α or by its distance from the critical one.
+/// Dimensionless indentation rate, given as α or by its distance from the critical value.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Indentation {
     /// Dimensionless indentation rate α = Γ N a/(σ² k²), (13); 0 or above with a spring.
@@ -173,26 +174,26 @@ pub struct Indentation {
     pub alpha_above: Option<f64>,
 }
 
-/// α and αc + D are the same to this, relatively.
+/// Largest relative difference at which α and αc + D count as equal.
 const SAME: f64 = 1e-9;
 
 impl Indentation {
-    /// α itself.
+    /// An indentation rate given as α.
     #[must_use]
     pub fn given(alpha: f64) -> Self {
         Self { alpha: Some(alpha), alpha_above: None }
     }
 
-    /// αc(r) + D.
+    /// An indentation rate given as αc(r) + D.
     #[must_use]
     pub fn above_critical(distance: f64) -> Self {
         Self { alpha: None, alpha_above: Some(distance) }
     }
 
-    /// The same with α, whichever way it was given. A resolved one stays as it is.
+    /// The same with α computed, however it was given. A resolved one is returned unchanged.
     ///
     /// # Errors
-    /// Neither is given; both are, and differ; there is no αc.
+    /// Neither is given; both are given and differ; or αc does not exist.
     pub fn resolved(self, tip: &TipFunction, law: Wider, r: f64) -> Result<Self, Refused> {
         let Some(distance) = self.alpha_above else {
             let why =
@@ -216,7 +217,7 @@ impl Indentation {
         }
     }
 
-    /// The model of a resolved one.
+    /// The model with this indentation rate, which must be resolved.
     ///
     /// # Errors
     /// A number is out of its range.
@@ -232,7 +233,7 @@ impl Indentation {
 }
 
 impl ModelParameters {
-    /// Those of a resolved question.
+    /// The parameters of a resolved question, in the form of documents.
     pub(crate) fn asked(tip: &Tip, indentation: Indentation, r: f64, law: Law) -> Self {
         let alpha = indentation.alpha.unwrap_or(f64::NAN);
         let alpha_above = indentation.alpha_above;

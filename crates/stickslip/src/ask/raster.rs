@@ -1,4 +1,4 @@
-//! The question `raster`: scan lines beside each other, and the pattern that they write.
+//! The question `raster`: neighbouring scan lines, and the pattern that they write.
 
 use super::lines::footprint;
 use crate::documents::table::Array;
@@ -12,21 +12,21 @@ use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, AreaLine, Line, Path, Plan, RasterError, Scanning};
 use stickslip_tip::{Force, Pulse, RunError, Scenario};
 
-/// One sample in so much of the way of the support, by default, in widths of the tip.
+/// Default distance that the support moves between samples, in widths of the tip.
 const SAMPLE: f64 = 0.25;
-/// Of all lines: with their columns and what is written of them, under a gigabyte.
+/// Largest number of samples of all lines together: their columns then take less than a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
 
-/// How the support goes from one line to the next.
+/// The path of the support from one line to the next.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PathName {
-    /// Every line from x = 0 in the same direction, with the spring relaxed.
+    /// Every line runs in the same direction from x = 0, with the spring relaxed.
     #[default]
     OneWay,
-    /// The support turns back at the end of a line and goes one pitch further; the tip starts where it was.
+    /// The support turns back at the end of a line and moves one pitch further; the tip keeps its position.
     Zigzag,
-    /// The same line again, from x = 0, with the spring relaxed.
+    /// The same line is scanned again from x = 0, with the spring relaxed.
     Repeat,
 }
 
@@ -43,19 +43,19 @@ pub struct Raster {
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: f64,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
     /// Gaussians.
     #[schemars(extend("x-option" = option("V", "Model", 6)))]
     #[serde(default)]
     pub width_y: Option<f64>,
-    /// How the support goes from one line to the next.
+    /// The path of the support from one line to the next.
     #[schemars(extend("x-option" = option("PATH", "Scan", 43)))]
     #[serde(default)]
     pub path: PathName,
-    /// Distance of the lines, in σ; null where all are the same, or they are unevenly spaced.
+    /// Distance of the lines, in σ; null if all lines coincide or are unevenly spaced.
     #[schemars(extend("x-option" = option("D", "Scan", 40)))]
     #[serde(default)]
     pub pitch: Option<f64>,
@@ -63,25 +63,26 @@ pub struct Raster {
     #[schemars(extend("x-option" = option("N", "Scan", 41)))]
     #[serde(default)]
     pub lines: usize,
-    /// X: how far the support goes along each line, in σ, along the longest of an area; a line lasts X/r.
+    /// X: distance that the support moves along each line, in σ (along the longest line of an area); a line lasts
+    /// X/r.
     #[schemars(extend("x-option" = option("X", "Scan", 42)))]
     #[serde(default)]
     pub length: f64,
-    /// The lines of an area that is no rectangle, in place of pitch, number and length.
+    /// The lines of an area that is not a rectangle, instead of pitch, number and length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area: Option<AreaDocument>,
-    /// Gaussian pulses of external force on the first line, by the time since its start.
+    /// Gaussian pulses of external force on the first line; their times count from its start.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pulses: Vec<PulseParameters>,
     /// Largest error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// How the past of a line is remembered. All memories give the same motion to the tolerance.
+    /// Memory: the algorithm for the history of a line. All memories give the same motion within the tolerance.
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
     pub memory: MemoryName,
-    /// When samples of each line are taken, since its start.
+    /// Times of the samples of each line, from its start.
     #[serde(flatten)]
     pub sampling: Sampling,
 }
@@ -90,15 +91,15 @@ fn default_tolerance() -> f64 {
     1e-9
 }
 
-/// A raster and the question that it answers. `remarks` say why something of the pattern is unknown, or may differ after more
-/// lines.
+/// A raster and the question that it answers. `remarks` are warnings: a part of the pattern is unknown, or may differ
+/// after more lines.
 pub type RasterDocument = Document<Raster>;
 
 impl Question for Raster {
     const FORMAT: &'static str = "stickslip/raster";
     type Answer = RasterFound;
 
-    /// `u` is the height map, a row for each of `u_y`, a column for each of `u_x`.
+    /// The height map `u`, with a row for each of `u_y` and a column for each of `u_x`.
     fn more_arrays(&self, answer: &RasterFound) -> Vec<(&'static str, Array<'static>)> {
         let scanned = self.plan().and_then(|plan| Ok((answer.history.lines(&plan)?, plan)));
         let Ok((lines, plan)) = scanned else { return vec![] };
@@ -112,16 +113,16 @@ impl Question for Raster {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AreaDocument {
-    /// Where each lies.
+    /// y of each line.
     pub y: Vec<f64>,
-    /// Its smallest x.
+    /// Smallest x of each line.
     pub start: Vec<f64>,
-    /// How far the support goes along it.
+    /// Distance that the support moves along each line.
     pub length: Vec<f64>,
 }
 
 impl AreaDocument {
-    /// These lines.
+    /// The document of these lines.
     #[must_use]
     pub fn of(lines: &[AreaLine]) -> Self {
         let column = |of: fn(&AreaLine) -> f64| lines.iter().map(of).collect();
@@ -148,10 +149,10 @@ impl AreaDocument {
 }
 
 impl Raster {
-    /// The question that a plan answers to.
+    /// The question that corresponds to a plan.
     ///
     /// # Errors
-    /// The footprint is damaged.
+    /// The footprint is invalid.
     pub fn of(
         plan: &Plan,
         model: &ModelParameters,
@@ -178,12 +179,12 @@ impl Raster {
         })
     }
 
-    /// Footprint, law, α and r as other documents hold them.
+    /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
     }
 
-    /// A rectangle, or other lines.
+    /// The area: a rectangle, or other lines.
     fn area(&self) -> Result<Area, Refused> {
         if let Some(area) = &self.area {
             return area.area().map_err(|error| Refused::whole("area", error));
@@ -219,15 +220,15 @@ impl Raster {
         Ok(plan)
     }
 
-    /// The same of a document, which somebody may have changed.
+    /// The plan of a question that was read from a document and may be invalid.
     ///
     /// # Errors
-    /// No raster can be that of these parameters.
+    /// The parameters define no raster.
     pub fn plan(&self) -> Result<Plan, Unusable> {
         self.prepared().map_err(|failure| Unusable::new(failure.described(str::to_owned)))
     }
 
-    /// What a raster was refused for, by its parameter.
+    /// The rejection of the parameter that caused this error.
     fn refused(&self, error: &RasterError) -> Refused {
         let of_area = |name: &'static str, value: f64| match self.area {
             Some(_) => Refused::whole("area", error),
@@ -259,10 +260,10 @@ impl Raster {
         }
     }
 
-    /// Times since the start of each line at which it is sampled; as many as the longest has.
+    /// Times since the start of each line at which it is sampled; their number is that of the longest line.
     ///
     /// # Errors
-    /// A time is out of range; there would be more samples than are kept.
+    /// A time is out of range, or there would be more samples than allowed.
     pub fn times(&self, plan: &Plan) -> Result<Vec<f64>, Refused> {
         let duration = plan.duration_of(plan.area.longest());
         let lines = plan.lines() as f64;
@@ -279,7 +280,7 @@ impl Raster {
         Ok((0..=count as usize).map(|i| duration * i as f64 / count).collect())
     }
 
-    /// Refuses samples that memory does not hold, with what it would.
+    /// Rejects more samples than fit in memory, and names values that would fit.
     fn too_many(&self, (each, lines): (f64, f64), duration: f64) -> Refused {
         let (count, most) = (each * lines, (MOST_SAMPLES / lines).floor());
         let why = format!(
@@ -302,7 +303,8 @@ impl Raster {
         }
     }
 
-    /// The document of these lines of its plan, sampled at these times since the start of each line, as far as it lasts.
+    /// The document of these lines of its plan; each line is sampled at these times since its start, as far as it
+    /// lasts.
     #[must_use]
     pub fn document(self, plan: &Plan, lines: &[Line], times: &[f64]) -> RasterDocument {
         let (found, remarks) = RasterFound::of(plan, lines, times);
@@ -340,7 +342,7 @@ impl Ask for Raster {
 }
 
 impl Document<Raster> {
-    /// The plan, and the lines as their dense history tells them.
+    /// The plan, and the lines as reconstructed from their dense history.
     ///
     /// # Errors
     /// The document is damaged.
@@ -359,8 +361,8 @@ impl Document<Raster> {
         Ok(HeightMap::at(&plan, &lines, x, y))
     }
 
-    /// u on every line, at even distances from the smallest x to the largest; on evenly spaced rows where lines are not,
-    /// and around a line that was repeated on lines beside it too.
+    /// u on every line, at even distances from the smallest x to the largest. Unevenly spaced lines are interpolated
+    /// on evenly spaced rows; around a repeated line, rows on either side are added.
     ///
     /// # Errors
     /// The document is damaged.

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use stickslip_stability::{RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Wider};
 
-/// The critical α of rasters over a range of distances of their lines.
+/// The critical α of rasters over a range of pitches.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct RasterBoundary {
     /// Footprint f of the tip.
@@ -23,27 +23,27 @@ pub struct RasterBoundary {
     /// Dimensionless support velocity r (12) of the lines; above 0.
     #[schemars(extend("x-option" = option("R", "Raster", 31)))]
     pub r: f64,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
     /// Gaussians.
     #[schemars(extend("x-option" = option("V", "Raster", 32)))]
     #[serde(default)]
     pub width_y: Option<f64>,
-    /// First and last distance of scan lines beside each other, in σ, and how many there are: where ripples begin to grow from
-    /// line to line, and the angle of their crests.
+    /// First and last distance of neighbouring scan lines, in σ, and the number of values: for each, the α at which
+    /// ripples begin to grow from line to line, and the angle of their crests.
     #[schemars(extend("x-option" = option("LO:HI:N", "Raster", 30)))]
     pub pitch_range: [f64; 2],
-    /// Number of values, where the range does not say it; from 2 to 100,000.
+    /// Number of values, if the range does not contain it; from 2 to 100,000.
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "default_points")]
     pub points: usize,
-    /// How that range is divided.
+    /// Spacing of the values of that range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// X, how far the support goes along each line, in σ, for a surface that heals meanwhile.
+    /// X, the distance that the support moves along each line, in σ, for a surface that heals meanwhile.
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -81,7 +81,7 @@ impl RasterBoundary {
         Ok(())
     }
 
-    /// The range as it would be typed.
+    /// A rejection of the range, with its value as typed.
     fn pitches(&self) -> Refused {
         let [low, high] = self.pitch_range.map(Typed);
         let value = Some(format!("{low}:{high}:{}", self.points));
@@ -150,21 +150,21 @@ fn remark(left_out: &[f64]) -> Option<String> {
     ))
 }
 
-/// Where ripples begin to grow from line to line, against the distance of the lines. Lengths in σ.
+/// Threshold for ripples that grow from line to line, against the pitch. Lengths in σ.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterBoundaryFound {
-    /// Distances of the lines, in σ; those at which no ripple grows, however large α, are left out.
+    /// Pitches, in σ, without those at which no ripple grows at any α.
     pub pitch: Vec<f64>,
     /// Critical α of one-way lines; with a spring across the scan the lowest of all kinds.
     pub alpha: Vec<f64>,
-    /// Wave number along the lines there, in 1/σ.
+    /// Wave number of the critical ripple along the lines, in 1/σ.
     pub q: Vec<f64>,
-    /// Wave number across them, in 1/σ.
+    /// Wave number of the critical ripple across the lines, in 1/σ.
     pub kappa: Vec<f64>,
-    /// Between crests and scan axis, in degrees.
+    /// Angle between crests and scan axis, in degrees.
     pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null where nothing grows, and where the surface heals, for which a zigzag has no threshold.
+    /// Critical α of a zigzag; null if nothing grows, and on a healing surface, where zigzags have no threshold.
     pub alpha_zigzag: Vec<Option<f64>>,
     /// With a spring across the scan: what grows at `alpha`, and where each kind of wave begins to.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -17,10 +17,11 @@ use stickslip_tip::Wider;
 
 /// Wave numbers at which growth is computed.
 const WAVE_NUMBERS: u32 = 200;
-/// Of the band of f: beyond, ripples neither grow nor do they hold.
+/// Largest wave number of the growth curve, as a fraction of the bandwidth of f: beyond it ripples neither grow nor
+/// decay.
 const SHOWN: f64 = 0.4;
 
-/// Linear stability of many scan lines beside each other. Lengths in σ.
+/// Linear stability of many neighbouring scan lines. Lengths in σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterStabilityFound {
@@ -39,7 +40,7 @@ pub struct RasterStabilityFound {
     pub growth: Option<RasterGrowth>,
 }
 
-/// Scan lines beside each other: the critical α, and the growth of ripples from line to line at a given one.
+/// Neighbouring scan lines: the critical α, and the growth of ripples from line to line at a given α.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct RasterStability {
     /// Footprint f of the tip.
@@ -52,24 +53,24 @@ pub struct RasterStability {
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: f64,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
     /// Gaussians.
     #[schemars(extend("x-option" = option("V", "Raster", 32)))]
     #[serde(default)]
     pub width_y: Option<f64>,
-    /// How the support goes from one line to the next.
+    /// The path of the support from one line to the next.
     #[schemars(extend("x-option" = option("PATH", "Raster", 31)))]
     #[serde(default)]
     pub path: PathName,
-    /// Distance of scan lines that lie beside each other, in σ: where ripples begin to grow from line to line, and at what
-    /// angle their crests stand, in place of a single line.
+    /// Distance of neighbouring scan lines, in σ: analyse ripples that grow from line to line, and the angle of their
+    /// crests, instead of a single line.
     #[schemars(extend("x-option" = option("D", "Raster", 30)))]
     #[serde(default)]
     pub pitch: Option<f64>,
-    /// X, how far the support goes along each line, in σ, for a surface that heals meanwhile.
+    /// X, the distance that the support moves along each line, in σ, for a surface that heals meanwhile.
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -95,7 +96,7 @@ impl Question for RasterStability {
 type Thresholds = Result<Vec<RasterCritical>, StabilityError>;
 
 impl RasterStability {
-    /// The same as documents hold it.
+    /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
     }
@@ -246,36 +247,38 @@ pub struct RasterCriticalDocument {
     pub kind: Option<RasterKindName>,
     /// The smallest α of such a ripple.
     pub alpha: f64,
-    /// r
+    /// r, dimensionless.
     pub r: f64,
     /// Its wave number along the lines, in 1/σ.
     pub q: f64,
-    /// κ, the phase from line to line over the pitch, in 1/σ; null on a zigzag, where it goes to and fro.
+    /// κ, the phase from line to line over the pitch, in 1/σ; null for a zigzag, where the phase alternates.
     pub kappa: Option<f64>,
-    /// Between crests and scan axis, atan(q/|κ|), in degrees; null on a zigzag.
+    /// Angle between crests and scan axis, atan(q/|κ|), in degrees; null for a zigzag.
     pub crest_angle: Option<f64>,
     /// 2π/q, in σ; null where the lines stay straight, q = 0, as those that bunch in pairs do.
     pub wavelength_x: Option<f64>,
     /// Phase from one line to the next, from -π to π; on a zigzag that from a way there to the way back after it.
     pub phase_per_line: f64,
-    /// Evidence that it is the threshold; missing in documents of older versions.
+    /// Evidence for the threshold; missing in documents of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<RasterCertificateDocument>,
 }
 
-/// Evidence that no ripple grows below a threshold, and that one does above.
+/// Evidence that no ripple grows below a threshold, and that one grows above.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterCertificateDocument {
-    /// Largest relative distance of a lower threshold that the search over all wave numbers and phases does not rule out.
+    /// Relative tolerance of the search over all wave numbers and phases: it rules out a threshold lower by more than
+    /// this.
     pub tolerance: f64,
-    /// Cells of wave numbers and phases that the search went through.
+    /// Number of cells of wave numbers and phases that the search examined.
     pub cells: usize,
-    /// Relative distance from the threshold of the two α at which the waves of its q that grow were counted.
+    /// Relative distance from the threshold of the two values of α at which growing waves of this q were counted.
     pub margin: f64,
-    /// Waves that grow below the threshold, on a zigzag pairs ±z; null where lines feel each other too little for a count.
+    /// Number of waves that grow below the threshold (pairs ±z for a zigzag); null if the lines interact too weakly
+    /// for a count.
     pub growing_below: Option<usize>,
-    /// Waves that grow above it.
+    /// Number of waves that grow above it.
     pub growing_above: Option<usize>,
 }
 
@@ -285,8 +288,8 @@ pub struct RasterCertificateDocument {
 pub struct RasterGrowth {
     /// Wave numbers, in 1/σ.
     pub q: Vec<f64>,
-    /// |z|: one way, the factor from line to line that comes to be after many; of a repeated line, the factor by which
-    /// its groove changes with another pass when it was passed once.
+    /// |z|: for one-way lines the factor from line to line after many lines; for a repeated line the factor of its
+    /// groove from the first pass to the second.
     pub factor: Vec<f64>,
     /// arg z, the phase from line to line.
     pub phase: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The question `response`: what weak pulses do to steady motion, to first order.
+//! The question `response`: the effect of weak pulses on steady motion, to first order.
 
 use super::exponents::{failed, judge_count, remarks};
 use crate::documents::table::{Array, Column, Named, Tabular};
@@ -13,33 +13,33 @@ use stickslip_stability::{self as theory, ResponseMode};
 use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, Pulse, TipFunction};
 
-/// What the modes left out may add, relative to the leading one, where the sum counts as valid.
+/// Largest contribution of the omitted modes, relative to the leading one, at which the sum counts as valid.
 const VALID_TO: f64 = 1e-6;
-/// exp(-5.5²/2) = 3e-7: after so many widths a pulse is over.
+/// Half length of a pulse in standard deviations: exp(-5.5²/2) = 3e-7.
 const WIDTHS_OF_PULSE: f64 = 5.5;
-/// Deviations above this part of the tip's width are no longer small.
+/// Largest deviation, in widths of the tip, that counts as small.
 const SMALL: f64 = 0.01;
 
 /// Linear response of steady motion to weak pulses. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseFound {
-    /// The motion that the pulses disturb.
+    /// The steady motion that the pulses disturb.
     pub steady_state: SteadyState,
     /// Terms of (A.9) by falling Re λ.
     pub modes: Vec<ModeDocument>,
-    /// Time t0, in Γ/k, that the residues refer to, the center of the last pulse: from `valid_from` on,
-    /// l(t) - l0 = Σ residue e^{λ(t-t0)}.
+    /// Time t0, in Γ/k, to which the residues refer, the center of the last pulse: from `valid_from` on, l(t) - l0 =
+    /// Σ residue e^{λ(t-t0)}.
     pub origin: f64,
-    /// Time, in Γ/k, from which on, after the last pulse, the modes left out are estimated to add less than
-    /// `valid_to` of the leading mode. While a pulse lasts the sum over modes is off by up to a half of the whole: the
-    /// samples of that time are had by the inverse Laplace transform instead, to 1e-9 of their largest.
+    /// Time after the last pulse, in Γ/k, from which the omitted modes contribute less than `valid_to` of the leading
+    /// mode, by an estimate. During a pulse the sum over modes is off by up to a half: before `valid_from` the
+    /// samples come from the inverse Laplace transform instead, to 1e-9 of their largest.
     pub valid_from: f64,
-    /// 1e-6, a ratio.
+    /// Largest contribution of the omitted modes relative to the leading one; 1e-6.
     pub valid_to: f64,
-    /// That no mode right of the last is missing.
+    /// Evidence that no mode to the right of the last one is missing.
     pub certificate: CertificateDocument,
-    /// l at the times asked for.
+    /// l at the sample times.
     pub samples: ResponseSamples,
 }
 
@@ -56,24 +56,24 @@ pub struct Response {
     /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0.
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: f64,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
     /// Gaussian pulses of external force.
     pub pulses: Vec<PulseParameters>,
-    /// Least number of modes: all those right of a line chosen so.
+    /// Smallest number of modes: all modes to the right of a suitable vertical line are listed.
     #[schemars(extend("x-option" = option("N", "Accuracy", 50)))]
     #[serde(default = "default_modes")]
     pub modes: usize,
-    /// X, in σ: the samples begin where a run with this start position and a steady start begins, so that the two can be
-    /// compared one by one.
+    /// X, in σ: the samples begin at the time at which a run with this start position and a steady start begins, so
+    /// that the two can be compared sample by sample.
     #[schemars(extend("x-option" = option("X", "Output", 62)))]
     #[serde(default = "default_start_position")]
     pub start_position: f64,
     /// Time of the last sample, in Γ/k.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
     pub until: f64,
-    /// When samples are taken.
+    /// Times of the samples.
     #[serde(flatten)]
     pub sampling: Sampling,
 }
@@ -95,22 +95,22 @@ impl Question for Response {
 }
 
 impl Response {
-    /// Footprint, law, α and r as other documents hold them.
+    /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
     }
 
-    /// A run over the same time.
+    /// A run over the same time, for comparison.
     fn run(&self) -> Run {
         let start_position = self.start_position;
         let run = Run::new(self.tip.clone(), self.indentation, self.r, self.until);
         Run { law: self.law, start_position, sampling: self.sampling.clone(), ..run }
     }
 
-    /// When the samples begin and end.
+    /// Times of the first and the last sample.
     ///
     /// # Errors
-    /// They would begin after their end.
+    /// The first would be after the last.
     pub fn span(&self) -> Result<(f64, f64), Failure> {
         let start = self.run().started_at()?;
         Ok((start, self.until))
@@ -160,7 +160,7 @@ impl Ask for Response {
     }
 }
 
-/// Steady motion and what disturbs it.
+/// Steady motion and the pulses that disturb it.
 struct Pulsed {
     model: Model,
     pulses: Vec<Pulse>,
@@ -177,7 +177,7 @@ impl Pulsed {
         Ok(Self { model, pulses, origin })
     }
 
-    /// Modes with residues that refer to the origin: e^{-λT} of a late pulse overflows.
+    /// The modes, with residues that refer to the origin: e^{-λT} of a late pulse would overflow.
     fn response(&self, modes: usize) -> Result<theory::Response, Failure> {
         let shifted = self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p });
         let shifted: Vec<Pulse> = shifted.collect();
@@ -185,7 +185,7 @@ impl Pulsed {
         found.map_err(|error| failed(&error, "ask for another number with {modes}"))
     }
 
-    /// When the modes beyond those of `listed` have faded against the leading one.
+    /// The time from which the modes beyond those of `listed` are negligible against the leading one.
     fn valid_from(&self, listed: &theory::Response) -> Result<f64, Failure> {
         let more = self.response(listed.modes.len() + 20)?;
         let beyond = more.modes.get(listed.modes.len()..).unwrap_or_default();
@@ -207,8 +207,8 @@ impl Pulsed {
         Ok(self.origin + over + longer)
     }
 
-    /// From `valid_from` on the sum over modes, and before that the inverse transform: for J0, to whose modes something
-    /// is missing at any time, throughout.
+    /// The samples: the sum over modes from `valid_from` on, and the inverse transform before. For J0, whose modes
+    /// are never complete, the inverse transform throughout.
     fn samples(
         &self,
         response: &theory::Response,
@@ -231,7 +231,7 @@ impl Pulsed {
         ResponseSamples { t, l, deviation }
     }
 
-    /// Where linear theory is not what the tip does.
+    /// A warning if linear theory does not describe the motion of the tip.
     fn beyond_linear(&self, response: &theory::Response, samples: &ResponseSamples) -> Vec<String> {
         let sizes = samples.deviation.iter().flatten().map(|d| d.abs());
         let widths = sizes.fold(0.0, f64::max) / self.model.tip().widths(1.0);
@@ -265,13 +265,13 @@ fn mode(mode: &ResponseMode) -> Result<ModeDocument, Refused> {
     })
 }
 
-/// residue e^{λ(t-t0)}.
+/// One mode, residue e^{λ(t-t0)}.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModeDocument {
     /// λ, in k/Γ.
     pub lambda: ComplexDocument,
-    /// Its residue, in σ.
+    /// Residue of the mode, in σ.
     pub residue: ComplexDocument,
 }
 
@@ -281,9 +281,9 @@ pub struct ModeDocument {
 pub struct ResponseSamples {
     /// Times, in Γ/k.
     pub t: Vec<f64>,
-    /// l = rt - r - x0, in σ; null where it has grown beyond all numbers.
+    /// l = rt - r - x0, in σ; null where it exceeds all numbers.
     pub l: Vec<Option<f64>>,
-    /// l - l0, in σ, with all its digits where that is small.
+    /// l - l0, in σ, without cancellation where it is small.
     pub deviation: Vec<Option<f64>>,
 }
 
@@ -297,7 +297,7 @@ impl Tabular for ResponseFound {
         ]
     }
 
-    /// The samples, and the modes.
+    /// The samples and the modes, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let samples = self.columns().into_iter();
         let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));

@@ -1,4 +1,4 @@
-//! The question `run`: the motion of the tip from a start, and what becomes of it.
+//! The question `run`: the motion of the tip from an initial condition, and its regime.
 
 use super::across;
 use super::lines::footprint;
@@ -31,10 +31,10 @@ pub struct Run {
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     #[serde(default)]
     pub r: Option<f64>,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// What the tip finds at the start; without it the steady state, or a flat surface without a spring.
+    /// Initial condition; by default the steady state, or a flat surface without a spring.
     #[schemars(extend("x-option" = option("START", "Start", 21)))]
     #[serde(default)]
     pub start: Option<StartName>,
@@ -46,10 +46,10 @@ pub struct Run {
     #[schemars(extend("x-option" = option("D", "Start", 23)))]
     #[serde(default)]
     pub kick: f64,
-    /// Motion of the support, where it has one of its own: R less where it starts, straight between the knots.
+    /// Motion of a support with its own path: R minus its initial value, linear between the knots.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support_path: Option<SupportPathParameters>,
-    /// Velocity of a tip with inertia at the start, in kσ/Γ; without it r on a steady start, else 0.
+    /// Initial velocity of a tip with inertia, in kσ/Γ; by default r on a steady start, else 0.
     #[schemars(extend("x-option" = option("V", "Start", 24)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start_velocity: Option<f64>,
@@ -65,32 +65,33 @@ pub struct Run {
     /// Tabulated external force.
     #[serde(default)]
     pub force: Option<ForceTable>,
-    /// Time at which the run ends, in Γ/k. It starts when the support has pulled the tip to its start position: about t = 16 by
-    /// default.
+    /// Time at which the run ends, in Γ/k. A run starts when the support has pulled the tip to its start position:
+    /// about t = 16 by default.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
     pub until: f64,
     /// Largest error of l(t) and x0(t), in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// How the past is remembered. All memories give the same motion to the tolerance.
+    /// Memory: the algorithm for the history integral. All memories give the same motion within the tolerance.
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
     pub memory: MemoryName,
-    /// κ_y, the spring across the scan in units of that along it; above 0. Without it the tip is held on its line.
+    /// κ_y, the spring constant across the scan over that along it; above 0. Without it the tip cannot leave its
+    /// line.
     #[schemars(extend("x-option" = option("K", "Across the scan", 30)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
-    /// How far off its line the tip starts, in σ, where it gives way across the scan; without it 0.
+    /// Initial distance of the tip from its line, in σ, if it is free to move across the scan; 0 by default.
     #[schemars(extend("x-option" = option("D", "Across the scan", 31)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kick_across: Option<f64>,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that gives way across the scan and has no f(x,y) of its own; without it
-    /// the width of the tip's Gaussians.
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that is free to move across the scan and has no f(x,y) of
+    /// its own; by default the width of the tip's Gaussians.
     #[schemars(extend("x-option" = option("V", "Across the scan", 32)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
-    /// When samples are taken.
+    /// Times of the samples.
     #[serde(flatten)]
     pub sampling: Sampling,
 }
@@ -104,10 +105,10 @@ fn default_tolerance() -> f64 {
 }
 
 impl Document<Run> {
-    /// The motion, as its dense history tells it.
+    /// The motion, reconstructed from its dense history.
     ///
     /// # Errors
-    /// The history was left out, or damaged.
+    /// The history is missing or invalid.
     pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
         if self.parameters.stiffness_across.is_some() {
             let why = "the tip gives way across the scan: what is read off a motion along a line alone is not available of it";
@@ -126,25 +127,25 @@ impl Document<Run> {
     }
 }
 
-/// Heights uniform in [-amplitude, amplitude] on a grid, a cubic spline through them.
+/// Heights uniform in [-amplitude, amplitude] on a grid, interpolated by a cubic spline.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NoiseParameters {
     /// Largest height, 0 or above, in kσ²/a.
     pub amplitude: f64,
-    /// Distance of the grid points, in σ; 0.1 where it is not given. It is part of the start: white noise has no limit as the
-    /// spacing goes to 0.
+    /// Distance of the grid points, in σ; 0.1 by default. It is part of the initial condition: white noise has no
+    /// limit as the spacing goes to 0.
     #[serde(default = "default_spacing")]
     pub spacing: f64,
-    /// Seed of the random numbers; 1 where it is not given.
+    /// Seed of the random numbers; 1 by default.
     #[serde(default = "default_seed")]
     pub seed: u64,
 }
 
 impl NoiseParameters {
-    /// Distance of the grid points where it is not given, in σ.
+    /// Default distance of the grid points, in σ.
     pub const SPACING: f64 = 0.1;
-    /// Seed where it is not given.
+    /// Default seed.
     pub const SEED: u64 = 1;
 }
 
@@ -156,16 +157,16 @@ fn default_seed() -> u64 {
     NoiseParameters::SEED
 }
 
-/// The noise of the paper's simulations, but on a grid on which its slope is small.
+/// The noise of the paper's simulations, but on a grid that resolves its slope.
 const PAPERS_NOISE: NoiseParameters = NoiseParameters { amplitude: 1e-4, spacing: 0.05, seed: 1 };
 
-/// Knots of a path: straight between them.
+/// Knots of a piecewise linear path.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportPathParameters {
     /// Times from the start of the run, ascending, in Γ/k.
     pub t: Vec<f64>,
-    /// Displacements of the support from where it starts, in σ.
+    /// Displacements of the support from its initial position, in σ.
     #[serde(rename = "R")]
     pub displacement: Vec<f64>,
 }
@@ -176,50 +177,51 @@ pub struct SupportPathParameters {
 pub struct Profile {
     /// Positions, ascending, in σ.
     pub x: Vec<f64>,
-    /// Heights there, in kσ²/a.
+    /// Heights at these positions, in kσ²/a.
     pub u: Vec<f64>,
 }
 
-/// amplitude · exp(-(t-time)²/(2 width²)).
+/// A pulse, amplitude · exp(-(t-time)²/(2 width²)).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PulseParameters {
     /// Largest force, in kσ.
     pub amplitude: f64,
-    /// When it is largest, in Γ/k.
+    /// Time of the largest force, in Γ/k.
     pub time: f64,
     /// Standard deviation in time, in Γ/k.
     pub width: f64,
 }
 
-/// External force against time.
+/// External force as a function of time.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForceTable {
     /// Times, ascending, in Γ/k.
     pub t: Vec<f64>,
-    /// Forces then, in kσ.
+    /// Forces at these times, in kσ.
     pub force: Vec<f64>,
 }
 
-/// What the tip finds at the start.
+/// The initial condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StartName {
-    /// The steady state, as after an infinite past.
+    /// The steady state, as after infinitely long motion.
     Steady,
     /// A flat surface, the spring relaxed, the support above the tip.
     Flat,
-    /// As the paper's simulations start: noise of 1e-4 on a grid of 0.05 where no other is given, the spring stretched
-    /// by r + alpha/r; the surface flat for a tip whose f has no volume (beta = 1), else that of steady motion.
+    /// The initial condition of the paper's simulations: noise of 1e-4 on a grid of 0.05 if no other is given, and
+    /// the spring stretched by r + alpha/r; the surface is flat for a tip whose f has no volume (beta = 1), else that
+    /// of steady motion.
     Paper,
 }
 
-/// How the past is remembered.
+/// The memory: the algorithm for the history integral.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MemoryName {
-    /// The cheapest: direct while few points lie within reach of the tip, then modes, or fft where no
+    /// The cheapest memory: direct while few points lie within reach of the tip, then modes, or fft if no
     /// exponentials fit.
     #[default]
     Auto,
@@ -227,13 +229,13 @@ pub enum MemoryName {
     Direct,
     /// FFT convolution with the residence density: the same cost for any history.
     Fft,
-    /// A sum of few exponentials, for tip functions that fade: a step costs the same for ever, and less
-    /// than with fft.
+    /// A sum of few exponentials, for tip functions that decay: the cost of a step stays constant and is below that
+    /// of fft.
     Modes,
 }
 
 impl Run {
-    /// A run of a footprint at an indentation rate and a support velocity to a time, from steady motion, under the basic law.
+    /// A run from steady motion to a given time, for the basic model.
     pub fn new(tip: Tip, indentation: Indentation, r: f64, until: f64) -> Self {
         Self {
             tip,
@@ -259,7 +261,8 @@ impl Run {
         }
     }
 
-    /// The question that a scenario answers to; its force is given as what it was made of, pulses and a table (t, force).
+    /// The question that corresponds to a scenario; its force is given as its components, pulses and a table (t,
+    /// force).
     pub fn of(scenario: &Scenario, pulses: &[Pulse], force: Option<(Vec<f64>, Vec<f64>)>) -> Self {
         let model = &scenario.model;
         let (tip, alpha) = (Tip(model.tip().clone()), Indentation::given(model.alpha()));
@@ -280,12 +283,12 @@ impl Run {
         }
     }
 
-    /// Footprint, law, α and r as other documents hold them.
+    /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r.unwrap_or(f64::NAN), self.law)
     }
 
-    /// The law, which a footprint that never fades needs healing for, and the velocity of the support.
+    /// The law and the velocity of the support; a footprint without decay requires healing.
     fn velocity(&self) -> Result<f64, Refused> {
         if self.law.no_spring {
             return match self.r.filter(|r| r.abs() > 0.0) {
@@ -299,7 +302,7 @@ impl Run {
         self.r.ok_or_else(|| Refused::whole("r", "is needed: the support velocity r, (12)"))
     }
 
-    /// With the α of αc(r) + D.
+    /// The question with the α of αc(r) + D computed.
     fn indented(self) -> Result<Self, Refused> {
         let r = self.velocity()?;
         if let Some(above) = self.indentation.alpha_above.filter(|_| self.law.no_spring) {
@@ -310,7 +313,7 @@ impl Run {
         Ok(Self { indentation, r: Some(r), ..self })
     }
 
-    /// Footprint, law, α and r of a question whose α is known.
+    /// The model of a question whose α is known.
     ///
     /// # Errors
     /// A number is out of its range.
@@ -318,8 +321,9 @@ impl Run {
         self.indentation.model(&self.tip.0, self.law.into(), self.velocity()?)
     }
 
-    /// With the start of the paper in the terms of others. The paper sets its tip down at X with the spring stretched by
-    /// r + α/r on the steady surface, which it takes for flat where f has no volume (docs/corrections.md, 13).
+    /// The question with the paper's initial condition expressed by the other parameters. The paper sets the tip down
+    /// at X with the spring stretched by r + α/r on the steady surface, which it takes as flat if f has no volume
+    /// (docs/corrections.md, 13).
     fn started(self, model: &Model) -> Self {
         let usual = if model.wider().spring { StartName::Steady } else { StartName::Flat };
         let start = self.start.unwrap_or(usual);
@@ -336,10 +340,10 @@ impl Run {
         Self { start: Some(StartName::Flat), noise, start_position, kick, ..self }
     }
 
-    /// When a run with a steady start begins.
+    /// The start time of a run with a steady start.
     ///
     /// # Errors
-    /// That is not before its end, or a parameter is out of its range.
+    /// The start is not before the end, or a parameter is out of its range.
     pub(crate) fn started_at(&self) -> Result<f64, Failure> {
         Ok(Self { start: Some(StartName::Steady), ..self.clone() }.prepared()?.start_time())
     }
@@ -354,7 +358,7 @@ impl Run {
         Ok(scenario)
     }
 
-    /// The same, whether or not a run can be made of it.
+    /// The scenario, without a check that it can be run.
     fn assembled(&self) -> Result<Scenario, Refused> {
         let pulses = self.pulses.iter().map(Into::into).collect();
         let table = self.force.clone().map(|table| (table.t, table.force));
@@ -378,19 +382,20 @@ impl Run {
         })
     }
 
-    /// The same of a document, which somebody may have changed.
+    /// The scenario of a question that was read from a document and may be invalid.
     ///
     /// # Errors
-    /// No run can be that of these parameters.
+    /// The parameters define no run.
     pub fn scenario(&self) -> Result<Scenario, Unusable> {
         let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
         self.prepared().map_err(unusable)
     }
 
-    /// The same where the tip gives way across the scan, whose model has f(x,y); `None` where it is held on its line.
+    /// The scenario of a tip that is free to move across the scan, whose model has f(x,y); `None` if the tip is held
+    /// on its line.
     ///
     /// # Errors
-    /// As [`prepared`](Self::prepared); what is not available in two coordinates.
+    /// As [`prepared`](Self::prepared); or an option is not available in two coordinates.
     pub fn prepared_across(&self) -> Result<Option<PlanarScenario>, Failure> {
         let Some(stiffness) = self.stiffness_across else {
             let given = [("kick_across", self.kick_across), ("width_y", self.width_y)];
@@ -411,7 +416,7 @@ impl Run {
         Ok(Some(scenario))
     }
 
-    /// What a run in two coordinates was refused for, by its parameter; or what failed.
+    /// The rejection of the parameter that caused an error of a run in two coordinates; or the failure.
     fn refused_across(&self, error: PlanarError) -> Failure {
         let stiffness = self.stiffness_across.unwrap_or_default();
         let number = |name: &'static str, value: f64| Refused::number(name, value, &error).into();
@@ -427,7 +432,7 @@ impl Run {
         }
     }
 
-    /// Refuses what no run can do justice to, for want of digits.
+    /// Rejects runs whose positions need more digits than a number has.
     fn judge_distances(&self, scenario: &Scenario) -> Result<(), Refused> {
         let model = &scenario.model;
         // Without a spring there is none.
@@ -457,7 +462,7 @@ impl Run {
         }
     }
 
-    /// The parameter that makes r + α f(0)/r what it is: the one farthest from 1.
+    /// The parameter that determines the size of r + α f(0)/r: the one farthest from 1.
     fn behind_the_lag(&self, model: &Model) -> (&'static str, f64) {
         let (alpha, r, height) = (model.alpha(), model.r(), model.tip().value(0.0).abs());
         match self.indentation.alpha_above {
@@ -468,7 +473,7 @@ impl Run {
         }
     }
 
-    /// What a run was refused for, by its parameter; or what failed.
+    /// The rejection of the parameter that caused this error; or the failure.
     pub fn refused(&self, error: &RunError) -> Failure {
         let number = |name: &'static str, value: f64| Refused::number(name, value, error);
         let named = |name: &'static str, value: &str| {
@@ -503,7 +508,7 @@ impl Run {
         refused.into()
     }
 
-    /// The document of a run that became what `end` says.
+    /// The document of a run with the result `end`.
     pub fn document(
         self,
         samples: &[SampleLine],
@@ -516,7 +521,8 @@ impl Run {
     }
 }
 
-/// A run and the question that it answers. `remarks` say where round-off, the start, the tolerance or a disturbance decides.
+/// A run and the question that it answers. `remarks` are warnings: the result depends on round-off, on the initial
+/// condition, on the tolerance or on a disturbance.
 pub type RunDocument = Document<Run>;
 
 impl Question for Run {
@@ -543,7 +549,7 @@ impl Ask for Run {
         Ok(question)
     }
 
-    /// With its dense history.
+    /// The answer, with the dense history.
     fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
         if let Some(scenario) = self.prepared_across()? {
             let span = (scenario.along.start_time(), scenario.along.until);
@@ -578,7 +584,7 @@ impl Ask for Run {
         Ok((found, remarks))
     }
 
-    /// A run that is cancelled ends where it is.
+    /// The document of a run; a cancelled run ends at the time that it has reached.
     fn answered(self, context: &Context) -> Result<RunDocument, Failure> {
         let (answer, remarks) = context.keeping(|| self.answer(context))?;
         Ok(Document::new(self, answer, remarks))

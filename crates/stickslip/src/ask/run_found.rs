@@ -1,4 +1,4 @@
-//! What becomes of a run.
+//! The result of a run.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{
@@ -16,42 +16,42 @@ use stickslip_tip::{InitialSurface, Scenario, Step, Support, Trajectory, Wider};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunFound {
-    /// The steady motion at these parameters, whether or not it is stable; null without a spring.
+    /// The steady motion at these parameters, stable or not; null without a spring.
     pub steady_state: Option<SteadyState>,
-    /// l, lag, x0 and x0' at the times asked for.
+    /// l, lag, x0 and x0' at the sample times.
     pub samples: Samples,
-    /// The dense history; null where it was not asked for.
+    /// The dense history; null if it was not requested.
     pub history: Option<History>,
-    /// The kind of motion at the end of the run.
+    /// The regime at the end of the run.
     pub regime: RegimeName,
-    /// Period and amplitudes, where the regime is stick-slip.
+    /// Period and amplitudes, if the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
-    /// Period and amplitudes, where the regime is snaking.
+    /// Period and amplitudes, if the regime is snaking.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub snaking: Option<SwingDocument>,
-    /// The closed loops of a support on a path, and the work done in each; where the run keeps its history.
+    /// The closed loops of a support that follows a path, and the work of each; null if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loops: Option<Vec<LoopDocument>>,
-    /// The rate of creep, where the regime is trapped.
+    /// The rate of creep, if the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
-    /// The velocity, where the regime is drifting.
+    /// The velocity, if the regime is drifting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drifting: Option<DriftDocument>,
-    /// What it seems to go to, where the regime is transient.
+    /// The predicted regime, if the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
     /// Whether a signal stopped the run before `until`.
     pub interrupted: bool,
-    /// The run against a repetition, where that was asked for.
+    /// Comparison with a repetition of the run, if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verification: Option<VerificationDocument>,
-    /// What it took.
+    /// Cost of the run.
     pub work: WorkDocument,
 }
 
 impl RunFound {
-    /// A run that became what `end` says; `samples` in the order asked for.
+    /// The answer of a run with the result `end`; `samples` are in the order of the request.
     pub fn new(
         steady_state: Option<SteadyState>,
         samples: &[SampleLine],
@@ -75,17 +75,18 @@ impl RunFound {
         }
     }
 
-    /// The loops of a support on a path.
+    /// The loops of a support that follows a path.
     pub fn loops_of(scenario: &Scenario, trajectory: &Trajectory) -> Option<Vec<LoopDocument>> {
         let has_path = scenario.path.is_some();
         has_path.then(|| loops(trajectory).into_iter().map(Into::into).collect())
     }
 }
 
-/// What a run that took so many seconds has come to. Once it is stopped, only what is known without further work is found.
+/// The result of a run that took this many seconds. For a cancelled run only quantities that need no further
+/// computation are included.
 ///
 /// # Errors
-/// It has no steps.
+/// The run has no steps.
 pub fn became(
     scenario: &Scenario,
     initial: &InitialSurface,
@@ -103,7 +104,7 @@ pub fn became(
     Ok(RunEnd::of(running.t(), outcome, oscillation, work))
 }
 
-/// The motion at these times as far as it goes, in the order asked for.
+/// The motion at these times, as far as it was computed, in the order of the request.
 pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Vec<SampleLine> {
     let (support, wider) = (trajectory.support(), trajectory.wider());
     let (steps, end) = (trajectory.steps(), trajectory.end());
@@ -122,7 +123,7 @@ pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Vec<SampleLine>
 pub struct SampleLine {
     /// Time, in Γ/k.
     pub t: f64,
-    /// l = rt - r - x0, in σ; null for a support on a path of its own, or none.
+    /// l = rt - r - x0, in σ; null without a support, or if the support follows a path.
     pub l: Option<f64>,
     /// R - x0, the extension of the spring, in σ; null without a spring.
     #[serde(default)]
@@ -131,22 +132,22 @@ pub struct SampleLine {
     pub x0: f64,
     /// x0', in kσ/Γ, one order less accurate than x0.
     pub velocity: f64,
-    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    /// Height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
-    /// w, the rate of indentation relative to α, where there is a depth limit.
+    /// w, the rate of indentation relative to α, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
-    /// y0, the position of the tip across the scan, in σ, where it gives way there.
+    /// y0, the position of the tip across the scan, in σ, if it is free to move there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<f64>,
-    /// y0', in kσ/Γ.
+    /// y0', the velocity across the scan, in kσ/Γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_y: Option<f64>,
 }
 
 impl SampleLine {
-    /// Of a motion at a time within one of its steps.
+    /// The motion at a time within one of its steps.
     pub fn of(step: &Step, (support, wider): (&Support, &Wider), t: f64) -> Self {
         let height = step.height(t);
         Self {
@@ -166,36 +167,37 @@ impl SampleLine {
     }
 }
 
-/// What became of the run.
+/// The result of a run, in its last line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunEnd {
     /// Time reached, in Γ/k.
     pub end: f64,
-    /// The kind of motion at the end of the run.
+    /// The regime at the end of the run.
     pub regime: RegimeName,
-    /// Period and amplitudes, where the regime is stick-slip.
+    /// Period and amplitudes, if the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
-    /// The rate of creep, where the regime is trapped.
+    /// The rate of creep, if the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
-    /// The velocity, where the regime is drifting.
+    /// The velocity, if the regime is drifting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drifting: Option<DriftDocument>,
-    /// What it seems to go to, where the regime is transient.
+    /// The predicted regime, if the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
-    /// Where round-off, the start, the tolerance or a disturbance decides; empty if nothing does.
+    /// Warnings: the result depends on round-off, on the initial condition, on the tolerance or on a disturbance; may
+    /// be empty.
     #[serde(default)]
     pub remarks: Vec<String>,
     /// Whether a signal stopped the run before `until`.
     pub interrupted: bool,
-    /// What it took.
+    /// Cost of the run.
     pub work: WorkDocument,
 }
 
 impl RunEnd {
-    /// What became of a run that nobody stopped, at the time `end`.
+    /// The result of a run that was not interrupted and reached the time `end`.
     pub fn of(
         end: f64,
         outcome: Outcome,
@@ -240,7 +242,7 @@ impl From<Loop> for LoopDocument {
 pub struct Samples {
     /// Times, in Γ/k.
     pub t: Vec<f64>,
-    /// l = rt - r - x0, in σ; null for a support on a path of its own, or none.
+    /// l = rt - r - x0, in σ; null without a support, or if the support follows a path.
     pub l: Option<Vec<f64>>,
     /// R - x0, the extension of the spring, in σ: the lateral force, in kσ; null without a spring.
     #[serde(default)]
@@ -249,22 +251,22 @@ pub struct Samples {
     pub x0: Vec<f64>,
     /// x0', in kσ/Γ, the derivative of the dense history: one order less accurate than x0.
     pub velocity: Vec<f64>,
-    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    /// Height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<f64>>,
-    /// w, the rate of indentation relative to α, where there is a depth limit.
+    /// w, the rate of indentation relative to α, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<Vec<f64>>,
-    /// y0, the position of the tip across the scan, in σ, where it gives way there.
+    /// y0, the position of the tip across the scan, in σ, if it is free to move there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<Vec<f64>>,
-    /// y0', in kσ/Γ.
+    /// y0', the velocity across the scan, in kσ/Γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_y: Option<Vec<f64>>,
 }
 
 impl Samples {
-    /// Row by row, as far as all columns that are there go.
+    /// The samples row by row, up to the length of the shortest column.
     pub fn lines(&self) -> impl Iterator<Item = SampleLine> {
         let at =
             |column: &Option<Vec<f64>>, i: usize| column.as_ref().and_then(|c| c.get(i).copied());
@@ -282,7 +284,7 @@ impl Samples {
         })
     }
 
-    /// Whether all columns that are there have an entry for each time.
+    /// Whether every column that is present has an entry for each time.
     pub fn are_even(&self) -> bool {
         let optional = [&self.l, &self.lag, &self.height, &self.weight, &self.y0, &self.velocity_y];
         let optional = optional.into_iter().flatten();
@@ -327,7 +329,7 @@ impl Tabular for RunFound {
         there.filter_map(|(name, column)| Some((name, Column::of(column?)))).collect()
     }
 
-    /// The samples, and the history where it is there.
+    /// The samples, and the history if it is present, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let samples = self.columns().into_iter();
         let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));

@@ -5,10 +5,10 @@ use crate::parameter::option;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// When a motion is sampled; without either at 2,000 even intervals.
+/// Times at which a motion is sampled; by default 2,001 times at even intervals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sampling {
-    /// Time between two samples, in Γ/k; without it a 2,000th of the motion.
+    /// Time between two samples, in Γ/k; by default a 2,000th of the motion.
     #[schemars(extend("x-option" = option("DT", "Output", 60)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample_every: Option<f64>,
@@ -19,9 +19,10 @@ pub struct Sampling {
 }
 
 const DEFAULT_INTERVALS: u64 = 2000;
-/// Rows, columns and what is written of them are 240 MB; there is no limit to lines.
+/// Largest number of samples kept in memory: with their columns and text they take 240 MB. There is no limit for
+/// lines.
 const MOST_SAMPLES: f64 = 2.5e6;
-/// A petabyte of lines.
+/// Largest number of lines: a petabyte.
 const MOST_LINES: f64 = 1e13;
 
 fn most(are_kept: bool) -> f64 {
@@ -29,10 +30,11 @@ fn most(are_kept: bool) -> f64 {
 }
 
 impl Sampling {
-    /// The times, all between the start and the end of `what`; where the samples are kept in memory, no more than fit there.
+    /// The sample times, all between the start and the end of `what`; if samples are kept in memory, their number is
+    /// limited.
     ///
     /// # Errors
-    /// A time outside, an interval that is not above 0, more samples than are kept.
+    /// A time is out of range, an interval is not above 0, or there are too many samples.
     pub fn times(
         &self,
         (start, end): (f64, f64),
@@ -72,7 +74,7 @@ impl Sampling {
     }
 }
 
-/// Whole ones. The end itself is a sample where the interval divides the run, round-off aside.
+/// The number of whole intervals. The end is a sample if the interval divides the run up to round-off.
 fn intervals(count: f64) -> u64 {
     (count + 1e-9).floor() as u64
 }
@@ -81,23 +83,23 @@ fn intervals(count: f64) -> u64 {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Times {
-    /// start, start + every, … `intervals` times, and not beyond end.
+    /// The times start, start + every, …: `intervals` steps, none beyond `end`.
     Every {
-        /// The first, in Γ/k.
+        /// The first time, in Γ/k.
         start: f64,
-        /// From one to the next, in Γ/k.
+        /// Interval, in Γ/k.
         every: f64,
-        /// None is beyond this time, in Γ/k.
+        /// Upper limit of the times, in Γ/k.
         end: f64,
-        /// Samples but the first.
+        /// Number of intervals.
         intervals: u64,
     },
-    /// As given.
+    /// A list of times.
     At(Vec<f64>),
 }
 
 impl Times {
-    /// Whether they go on in time, and end.
+    /// Whether the times ascend, and their number is finite.
     pub fn are_usable(&self) -> bool {
         match self {
             Self::Every { every, .. } => *every > 0.0,
@@ -105,12 +107,12 @@ impl Times {
         }
     }
 
-    /// All of them, as far as they go.
+    /// All of the times, as a list.
     pub fn all(&self) -> Vec<f64> {
         (0..self.count()).map_while(|i| self.at(i)).collect()
     }
 
-    /// How many there are.
+    /// Number of times.
     pub fn count(&self) -> u64 {
         match self {
             Self::Every { intervals, .. } => intervals.saturating_add(1),
@@ -118,7 +120,7 @@ impl Times {
         }
     }
 
-    /// The i-th of them.
+    /// The time with index i.
     pub fn at(&self, i: u64) -> Option<f64> {
         match self {
             Self::Every { start, every, end, intervals } => {
@@ -128,8 +130,8 @@ impl Times {
         }
     }
 
-    /// In the order in which a run passes them, and the place of each in the order asked for; no places where the
-    /// two are the same.
+    /// The times in ascending order, and for each its index in the order of the request; no indices if the two orders
+    /// agree.
     pub fn in_order(self) -> (Self, Vec<usize>) {
         let Self::At(times) = self else { return (self, vec![]) };
         let mut places: Vec<usize> = (0..times.len()).collect();
@@ -137,7 +139,7 @@ impl Times {
         (Self::At(places.iter().map(|place| times[*place]).collect()), places)
     }
 
-    /// Whether a motion over this span can have been asked for these times.
+    /// Whether these can be sample times of a motion over this span.
     pub fn are_of(&self, (start, end): (f64, f64), are_kept: bool) -> bool {
         match *self {
             Self::At(ref times) => times.iter().all(|t| (start..=end).contains(t)),

@@ -1,4 +1,5 @@
-//! The question `stability`: where steady motion loses its stability, and how small deviations grow.
+//! The question `stability`: the point at which steady motion loses its stability, and the growth of small
+//! deviations.
 
 use super::exponents::{failed, judge_count, leftmost, remarks};
 use super::lines::footprint;
@@ -14,7 +15,7 @@ use stickslip_stability as theory;
 use stickslip_stability::{Creep, Critical, Onset, OnsetKind, Snaking, Spectrum, StabilityError};
 use stickslip_tip::{Model, Wider};
 
-/// Remark where the law has its corner at steady motion.
+/// Warning for steady motion at the kink of the extended model, u = 0.
 const CORNER: &str = "critical: the height under the tip is 0 in steady motion, where |h| of the depth \
      limit has a corner: small deviations obey no linear law and have no exponents; at alpha of critical a small \
      oscillation keeps its amplitude, and at finite amplitude onset moves";
@@ -29,18 +30,18 @@ pub struct Stability {
     /// α, or αc(r) + D. Without either, α is the critical one.
     #[serde(flatten)]
     pub indentation: Indentation,
-    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0. May be left out with `solve_for` "r": r is the critical one
-    /// then.
+    /// Dimensionless support velocity r = Γ v0/(k σ), (12); above 0. Optional with `solve_for` "r": r is then the
+    /// critical one.
     #[schemars(extend("x-option" = option("R", "Model", 2)))]
     pub r: Option<f64>,
-    /// What is added to the basic law.
+    /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// Which of α and r the critical point is solved for, at the given value of the other.
+    /// Parameter for which the critical point is solved, α or r, at the given value of the other.
     #[schemars(extend("x-option" = option("NAME", "Critical point", 20)))]
     #[serde(default)]
     pub solve_for: SolveFor,
-    /// Whether α and r are those of the critical point, for want of one of them.
+    /// Whether α and r are those of the critical point, because one of them was not given.
     #[serde(default)]
     pub at_critical_point: bool,
     /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where a line begins to
@@ -48,16 +49,17 @@ pub struct Stability {
     #[schemars(extend("x-option" = option("K", "Across the scan", 25)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip that has no f(x,y) of its own; without it the width of the tip's
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
     /// Gaussians.
     #[schemars(extend("x-option" = option("V", "Across the scan", 26)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
-    /// Least number of growth exponents: all those right of a line chosen so; 10 where no bound is given.
+    /// Smallest number of growth exponents: all those to the right of a suitable vertical line are listed; 10 if no
+    /// bound is given.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]
     pub roots: Option<usize>,
-    /// All growth exponents whose real part is at least this, in k/Γ; in place of a number of them.
+    /// All growth exponents whose real part is at least this, in k/Γ; replaces their number.
     #[schemars(extend("x-option" = option("BOUND", "Growth exponents", 41)))]
     #[serde(default)]
     pub re_above: Option<f64>,
@@ -72,10 +74,10 @@ impl Question for Stability {
 }
 
 impl Stability {
-    /// Growth exponents where neither their number nor a bound is given.
+    /// Default number of growth exponents.
     pub const DEFAULT_ROOTS: usize = 10;
 
-    /// At the critical point of a footprint at one r, under the basic law.
+    /// The question about the critical point of a footprint at one r, for the basic model.
     pub fn new(tip: Tip, r: f64) -> Self {
         Self {
             tip,
@@ -91,7 +93,7 @@ impl Stability {
         }
     }
 
-    /// Footprint, law, α and r of a resolved question.
+    /// Footprint, law, α and r of a resolved question, as a model.
     ///
     /// # Errors
     /// A number is out of its range.
@@ -100,7 +102,7 @@ impl Stability {
         self.indentation.model(&self.tip.0, law, self.velocity()?)
     }
 
-    /// The same as documents hold it.
+    /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         let r = self.r.unwrap_or(f64::NAN);
         ModelParameters::asked(&self.tip, self.indentation, r, self.law)
@@ -111,7 +113,7 @@ impl Stability {
         self.r.ok_or_else(|| Refused::whole("r", why))
     }
 
-    /// The critical point of a question with α or r, whichever is not solved for.
+    /// The critical point at the given α or r, solved for the other.
     fn critical(&self, law: &Wider) -> Result<Result<Critical, StabilityError>, Refused> {
         let tip = &self.tip.0;
         match self.solve_for {
@@ -135,7 +137,7 @@ impl Stability {
         }
     }
 
-    /// Refuses what r cannot be solved for.
+    /// Rejects models whose critical r cannot be solved for.
     fn judge_solved_for(&self, law: &Wider) -> Result<(), Refused> {
         if self.solve_for == SolveFor::Alpha {
             return Ok(());
@@ -157,7 +159,7 @@ impl Stability {
         }
     }
 
-    /// With α and r.
+    /// The question with α and r computed.
     fn placed(self, law: Wider) -> Result<Self, Refused> {
         self.judge_solved_for(&law)?;
         let (has_alpha, has_r) = (self.indentation != Indentation::default(), self.r.is_some());
@@ -177,7 +179,7 @@ impl Stability {
         Ok(Self { indentation, r: Some(at.r), at_critical_point: true, ..self })
     }
 
-    /// Refuses a number of exponents, or a bound of them, that cannot be listed.
+    /// Rejects a number of exponents, or a lower bound on their real parts, that is too large to list.
     fn judge_extent(&self, model: &Model) -> Result<(), Refused> {
         let Some(bound) = self.re_above else {
             return judge_count("roots", self.roots.unwrap_or(Self::DEFAULT_ROOTS));
@@ -206,7 +208,7 @@ impl Stability {
         })
     }
 
-    /// The line with its spring across the scan; `None` where the tip is held on it.
+    /// The scan line with its spring across the scan; `None` if the tip cannot leave it.
     fn snaking(&self) -> Result<Option<Snaking>, Refused> {
         let Some(stiffness) = self.stiffness_across else { return Ok(None) };
         let law = self.law.dragged(&self.tip.0)?;
@@ -215,7 +217,7 @@ impl Stability {
         line.map(Some).map_err(|error| Refused::number("stiffness_across", stiffness, error))
     }
 
-    /// The width across the scan that is used, where the tip gives way there.
+    /// The width across the scan, if the tip is free to move there.
     fn width_across(&self) -> Result<Option<f64>, Refused> {
         match (self.stiffness_across, self.width_y) {
             (Some(_), width) => Ok(footprint(width, &self.tip.0)?.1),
@@ -228,7 +230,7 @@ impl Stability {
         }
     }
 
-    /// Whether steady motion is stable; at a corner small oscillations grow above αc, whatever their amplitude.
+    /// Whether steady motion is stable. At the kink u = 0 small oscillations grow above αc, however small they are.
     fn is_stable(&self, model: &Model, critical: Option<&Critical>) -> Result<bool, Failure> {
         if self.at_critical_point {
             return Ok(false);
@@ -304,7 +306,7 @@ impl Ask for Stability {
     }
 }
 
-/// What keeps a line from being judged across the scan.
+/// The failure if stability across the scan cannot be computed.
 fn uncertain(error: StabilityError) -> Failure {
     match error {
         StabilityError::AcrossGaussiansOnly => Refused::whole("tip", error).into(),
@@ -312,13 +314,13 @@ fn uncertain(error: StabilityError) -> Failure {
     }
 }
 
-/// A remark on what is null.
+/// A warning that explains a null.
 fn why(name: &str, error: Option<StabilityError>) -> Option<String> {
     error.map(|error| format!("{name}: {error}"))
 }
 
-/// Where tips are trapped, and how they creep: with inertia as without, but under a depth limit, or where the
-/// surface heals, none is held for ever.
+/// The trapping threshold and the rates of creep, which inertia does not change. With a depth limit or healing no tip
+/// stays trapped permanently.
 fn trapping(model: &Model) -> (Result<f64, StabilityError>, Result<Creep, StabilityError>) {
     let basic = Model::new(model.tip().clone(), model.alpha(), model.r());
     match basic.ok().filter(|_| model.wider().traps()) {
@@ -330,7 +332,7 @@ fn trapping(model: &Model) -> (Result<f64, StabilityError>, Result<Creep, Stabil
     }
 }
 
-/// What leaves nothing unstable; `None` under the basic law.
+/// Conditions under which steady motion is stable at every α; `None` for the basic model.
 fn limits(model: &Model) -> Option<LimitsDocument> {
     let (law, tip) = (model.wider(), model.tip());
     (!law.is_papers()).then(|| LimitsDocument {
@@ -339,7 +341,7 @@ fn limits(model: &Model) -> Option<LimitsDocument> {
     })
 }
 
-/// What is born at the critical point, to leading order.
+/// The small oscillation at the critical point, to leading order.
 fn onset(model: &Model, critical: Critical) -> Result<Onset, StabilityError> {
     if !model.wider().is_papers() {
         return Err(StabilityError::PapersLawOnly("the leading order of small cycles"));

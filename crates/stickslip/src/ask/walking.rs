@@ -1,4 +1,4 @@
-//! The question `walking`: the speeds of a tip that no spring drags.
+//! The question `walking`: the speeds of a tip without a spring.
 
 use super::exponents::{failed, judge_count, remarks};
 use crate::documents::table::{Column, Named, Tabular};
@@ -12,17 +12,18 @@ use serde::{Deserialize, Serialize};
 use stickslip_stability::{self as theory, Walk};
 use stickslip_tip::Model;
 
-/// Steady walks of a tip that no spring drags, x0 = vt. Lengths in σ, times in Γ/k.
+/// Steady walks x0 = vt of a tip without a spring. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WalkingFound {
-    /// 1/(T² f''(0)): below this α, which is negative, a tip at rest begins to walk. Null where the surface does not heal.
+    /// 1/(T² f''(0)): below this α, which is negative, a tip at rest begins to walk. Null if the surface does not
+    /// heal.
     pub walking_alpha: Option<f64>,
-    /// All of them by rising speed, each with its mirror image to the other side left out.
+    /// All walks by rising speed; of each walk and its mirror image only one is listed.
     pub walks: Vec<WalkDocument>,
 }
 
-/// The document of that.
+/// Walks and the question that they answer.
 pub type WalkingDocument = Document<Walking>;
 
 impl Question for Walking {
@@ -40,13 +41,13 @@ pub struct Walking {
     /// α, of either sign.
     #[serde(flatten)]
     pub indentation: Indentation,
-    /// 0: there is no support.
+    /// Support velocity, always 0: there is no support.
     #[serde(default)]
     pub r: f64,
-    /// What is added to the basic law; it has no spring.
+    /// Extensions of the basic model; there is no spring.
     #[serde(flatten)]
     pub law: Law,
-    /// Least number of growth exponents of each walk.
+    /// Smallest number of growth exponents of each walk.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default = "default_roots")]
     pub roots: usize,
@@ -57,7 +58,7 @@ fn default_roots() -> usize {
 }
 
 impl Walking {
-    /// The same as documents hold it.
+    /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
     }
@@ -119,12 +120,12 @@ pub struct WalkDocument {
     pub speed: f64,
     /// Rate of indentation relative to α: below 1 under a depth limit.
     pub weight: f64,
-    /// Whether every deviation decays, but for a shift along the way.
+    /// Whether every deviation decays, except a shift along the scan.
     pub stable: bool,
-    /// Growth exponents λ by falling real part, in k/Γ, the one above the real axis first of each pair; the 0 of a shift is
-    /// among them.
+    /// Growth exponents λ by falling real part, in k/Γ; of each pair the one above the real axis comes first. The 0
+    /// of a shift is included.
     pub roots: Vec<ComplexDocument>,
-    /// That none is missing.
+    /// Evidence that none is missing.
     pub certificate: CertificateDocument,
 }
 
@@ -142,7 +143,7 @@ impl From<&Walk> for WalkDocument {
 }
 
 impl Tabular for WalkingFound {
-    /// The growth exponents of each speed.
+    /// The growth exponents of each speed, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let column = |of: fn(&WalkDocument, &ComplexDocument) -> f64| {
             let rows =

@@ -5,26 +5,26 @@ use crate::{Document, Question, Run};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The closed equation against the full PDE. Lengths in σ, times in Γ/k, heights in kσ²/a.
+/// Comparison of the closed equation with the full PDE. Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompareFound {
     /// Times of the motions below, in Γ/k.
     pub t: Vec<f64>,
-    /// Positions of the surfaces below, which are those at the last time, in σ.
+    /// Positions of the surfaces below, in σ; the surfaces are those at the last time.
     pub x: Vec<f64>,
-    /// The closed delay equation.
+    /// Results of the closed delay equation.
     pub closed: ClosedDocument,
-    /// The PDE on a grid.
+    /// Results of the PDE on a grid.
     pub grid: GridDocument,
-    /// How far they are apart.
+    /// Largest differences between the two.
     pub max_difference: DifferenceDocument,
-    /// Seconds of the grid over seconds of the closed equation, each per unit of time simulated. It
-    /// differs from run to run, as `work.seconds` does.
+    /// Seconds of the grid over seconds of the closed equation, each per unit of simulated time. It differs from run
+    /// to run, as `work.seconds` does.
     pub speedup: f64,
 }
 
-/// The document of that.
+/// A comparison and the question that it answers.
 pub type CompareDocument = Document<CompareParameters>;
 
 impl Question for CompareParameters {
@@ -32,19 +32,19 @@ impl Question for CompareParameters {
     type Answer = CompareFound;
 }
 
-/// What was asked for.
+/// The parameters of the comparison.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct CompareParameters {
-    /// The run of the closed equation; the grid is given the same.
+    /// The run of the closed equation; the grid has the same model and initial condition.
     #[serde(flatten)]
     pub run: Run,
     /// Discretisation.
     pub grid: GridName,
     /// Δx, in σ.
     pub spacing: f64,
-    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null where all steps have one length.
+    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null if the step is constant.
     pub grid_tolerance: Option<f64>,
-    /// That length, in Γ/k; null where steps are adaptive.
+    /// Constant length of all steps, in Γ/k; null if steps are adaptive.
     pub step: Option<f64>,
     /// Time at which the grid ends, in Γ/k.
     pub grid_until: f64,
@@ -54,13 +54,13 @@ pub struct CompareParameters {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum GridName {
-    /// The paper's: heights on a uniform grid, all of them advanced at every stage; order 2.
+    /// The paper's method: heights on a uniform grid, all of them advanced at every stage; order 2.
     Uniform,
-    /// The same heights, but only those within reach of the tip are touched; order 2.
+    /// The same grid, but only heights within reach of the tip are updated; order 2.
     Windowed,
-    /// A lattice that writes and reads with narrower Gaussians: exact to round-off in space.
+    /// A lattice with narrower Gaussians for writing and reading: exact to round-off in space.
     Spectral,
-    /// Samples read by a regularised sinc: exact to round-off in space, another way.
+    /// Samples interpolated by a regularised sinc: a second method that is exact to round-off in space.
     Sinc,
 }
 
@@ -72,26 +72,26 @@ pub struct ClosedDocument {
     pub x0: Vec<f64>,
     /// u at the positions `x`, at the last time, in kσ²/a.
     pub u: Vec<f64>,
-    /// What it took, from its start to `until`.
+    /// Cost of the run from its start to `until`.
     pub work: ClosedWork,
 }
 
-/// Counts that depend on the input alone, and the time that it took.
+/// Counts that depend on the input alone, and the time of the computation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClosedWork {
     /// Memory in use at the end.
     pub memory: String,
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]
     pub series: u64,
-    /// How often collocation took over from series.
+    /// Number of changes from Taylor steps to collocation.
     #[serde(default)]
     pub switches: u64,
     /// Shortest time of several repetitions, in seconds.
@@ -106,11 +106,11 @@ pub struct GridDocument {
     pub x0: Vec<f64>,
     /// u at the positions `x`, at the last time, in kσ²/a.
     pub u: Vec<f64>,
-    /// What it took, from its start to `grid_until`.
+    /// Cost of the grid from its start to `grid_until`.
     pub work: GridWork,
 }
 
-/// Counts that depend on the input alone, and the time that it took.
+/// Counts that depend on the input alone, and the time of the computation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GridWork {
@@ -118,26 +118,26 @@ pub struct GridWork {
     pub steps: u64,
     /// Steps repeated with a smaller length.
     pub rejected: u64,
-    /// Evaluations of the right-hand side of (10).
+    /// Number of evaluations of the right-hand side of (10).
     pub right_hand_sides: u64,
-    /// Evaluations of the right-hand side of (11), summed over the cells.
+    /// Number of evaluations of the right-hand side of (11), summed over the cells.
     pub cells_updated: u64,
-    /// Shortest time of as many repetitions as half a second allows, at least one, in seconds.
+    /// Shortest time in seconds of repetitions during half a second, at least one.
     pub seconds: f64,
 }
 
-/// Largest differences.
+/// Largest differences between closed equation and grid.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DifferenceDocument {
-    /// In x0, over the times `t`, in σ.
+    /// Difference of x0, over the times `t`, in σ.
     pub x0: f64,
-    /// In u, over the positions `x` at the last time, in kσ²/a.
+    /// Difference of u, over the positions `x` at the last time, in kσ²/a.
     pub u: f64,
 }
 
 impl Tabular for CompareFound {
-    /// Both motions.
+    /// Both motions as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         vec![
             ("t", Column::of(&self.t)),
@@ -146,7 +146,7 @@ impl Tabular for CompareFound {
         ]
     }
 
-    /// Motions and surfaces.
+    /// Motions and surfaces as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         vec![
             ("t", Array::vector(&self.t)),

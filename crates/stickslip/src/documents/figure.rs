@@ -1,15 +1,14 @@
-//! `stickslip/figure`: figures as data, from which they are drawn.
+//! `stickslip/figure`: figures as data.
 
 use crate::documents::table::{Named, Tabular};
 use crate::{FORMAT_VERSION, ModelParameters, Software};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// All that a figure shows, in the order in which it is drawn. Lengths in σ, times in Γ/k, heights in
-/// kσ²/a.
+/// The content of a figure, in drawing order. Lengths in σ, times in Γ/k, heights in kσ²/a.
 ///
-/// In texts `_` sets the next character, or what stands in braces, below the line and `^` above it; `\_` and
-/// `\^` are the characters themselves.
+/// In texts `_` makes the next character, or the content of braces, a subscript, and `^` a superscript; `\_` and `\^`
+/// are the characters themselves.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureDocument {
@@ -19,17 +18,17 @@ pub struct FigureDocument {
     pub format_version: u32,
     /// The program that wrote it.
     pub software: Software,
-    /// Of its files.
+    /// Name of the figure's files, without extension.
     pub name: String,
-    /// Above all panels.
+    /// Title above all panels.
     pub title: String,
-    /// What was drawn.
+    /// The models from which the figure was computed.
     pub parameters: FigureParameters,
-    /// What differs from the paper's figure, and why.
+    /// Differences from the paper's figure, and their reasons.
     pub remarks: Vec<String>,
-    /// From left to right and from top to bottom.
+    /// Panels, from left to right and from top to bottom.
     pub panels: Vec<PanelDocument>,
-    /// How many panels of span 1 make a row; 1 where it is left out.
+    /// Number of panels of span 1 in a row; 1 by default.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub columns: usize,
 }
@@ -53,7 +52,7 @@ impl FigureDocument {
         }
     }
 
-    /// r, where it is the same in all that is drawn.
+    /// The value of r, if all models have the same.
     pub fn one_r(&self) -> Option<f64> {
         let is_axis = |label: &str| label == "r" || label.starts_with("r = ");
         let mut labels = self.panels.iter().flat_map(|panel| [&panel.x_label, &panel.y_label]);
@@ -64,17 +63,17 @@ impl FigureDocument {
 }
 
 impl Tabular for FigureDocument {
-    /// None: what is drawn has its numbers curve by curve.
+    /// No columns: each curve has its own numbers.
     fn columns(&self) -> Vec<Named<'_>> {
         vec![]
     }
 }
 
-/// What a figure was computed from.
+/// The models from which a figure was computed.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FigureParameters {
-    /// The model of each panel; where α or r is varied, that of the first point.
+    /// The model of each panel; if α or r varies, that of the first point.
     pub models: Vec<ModelParameters>,
 }
 
@@ -82,47 +81,47 @@ pub struct FigureParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PanelDocument {
-    /// Above the axes; may be empty.
+    /// Heading above the axes; may be empty.
     pub heading: String,
-    /// Of the abscissas, with their unit if they have one.
+    /// Label of the abscissas, with their unit if they have one.
     pub x_label: String,
-    /// Of the ordinates, with their units if they have any.
+    /// Label of the ordinates, with their unit if they have one.
     pub y_label: String,
-    /// In the order in which they are drawn.
+    /// Curves, in drawing order.
     pub curves: Vec<CurveDocument>,
-    /// Fills the axes, if there is one.
+    /// A map that fills the axes, if there is one.
     pub map: Option<MapDocument>,
-    /// First and last y shown, in the unit of `y_label`; null where they are fitted to the curves.
+    /// First and last y shown, in the unit of `y_label`; null to fit the curves.
     pub y_range: Option<[f64; 2]>,
-    /// First and last x shown, in the unit of `x_label`; fitted to the curves where it is left out.
+    /// First and last x shown, in the unit of `x_label`; by default fitted to the curves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_range: Option<[f64; 2]>,
-    /// Of the abscissas; linear where it is left out.
+    /// Scale of the abscissas; linear by default.
     #[serde(default, skip_serializing_if = "ScaleName::is_linear")]
     pub x_scale: ScaleName,
-    /// Of the ordinates; linear where it is left out.
+    /// Scale of the ordinates; linear by default.
     #[serde(default, skip_serializing_if = "ScaleName::is_linear")]
     pub y_scale: ScaleName,
-    /// Kinds over a grid, drawn as coloured cells.
+    /// Categories over a grid, drawn as coloured cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cells: Option<CellsDocument>,
     /// Texts within the axes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<NoteDocument>,
-    /// Stretches of the abscissas, in the unit of `x_label`, with a light ground.
+    /// Intervals of the abscissas, in the unit of `x_label`, with a shaded background.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shades: Vec<[f64; 2]>,
-    /// Size that the ordinates have by nature, in the unit of `y_label`: a variation a million times smaller is
-    /// taken for round-off and not magnified. Unknown where it is left out.
+    /// Typical size of the ordinates, in the unit of `y_label`: a variation a million times smaller counts as
+    /// round-off and is not magnified. Unknown by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub natural: Option<f64>,
-    /// How many columns it takes; 1 where it is left out.
+    /// Number of columns that the panel takes; 1 by default.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub span: usize,
 }
 
 impl PanelDocument {
-    /// Axes without curves.
+    /// A panel with empty axes.
     pub fn new(heading: &str, (x_label, y_label): (&str, &str)) -> Self {
         Self {
             heading: heading.into(),
@@ -143,14 +142,14 @@ impl PanelDocument {
     }
 }
 
-/// How values lie along an axis.
+/// The scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ScaleName {
-    /// By their differences.
+    /// Linear.
     #[default]
     Linear,
-    /// By their ratios.
+    /// Logarithmic.
     Logarithmic,
 }
 
@@ -164,39 +163,39 @@ impl ScaleName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StyleName {
-    /// What the panel is about.
+    /// Solid line, for the main result.
     Line,
-    /// Thin, black.
+    /// Thin black line.
     Thin,
-    /// To compare with.
+    /// Dashed line, for comparison.
     Dashed,
-    /// What was before.
+    /// Dotted line, for an earlier state.
     Dotted,
     /// An area between `low` and `y`.
     Band,
     /// Discs.
     Dots,
-    /// Smaller ones.
+    /// Smaller discs.
     SmallDots,
-    /// Small, many of them.
+    /// Points, for large data sets.
     Points,
     /// Triangles.
     Triangles,
-    /// Smaller ones.
+    /// Smaller triangles.
     SmallTriangles,
-    /// Outlines of discs, which hide nothing.
+    /// Outlines of discs, which do not cover other curves.
     OpenDots,
     /// Outlines of triangles.
     OpenTriangles,
     /// Outlines of squares.
     OpenSquares,
-    /// Outlines of squares on a corner.
+    /// Outlines of squares that stand on a corner.
     OpenDiamonds,
-    /// A line with all above it shaded.
+    /// A line, with the area above it shaded.
     Boundary,
 }
 
-/// Colours that the colour-blind can tell apart.
+/// Colours that colour-blind readers can distinguish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ColourName {
@@ -220,31 +219,31 @@ pub enum ColourName {
     Silver,
 }
 
-/// Points of equal number in x and y.
+/// A curve: equally many values of x and y.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurveDocument {
-    /// In the legend; null if it has none.
+    /// Name in the legend; null if it is not listed.
     pub name: Option<String>,
     /// How it is drawn.
     pub style: StyleName,
     /// Abscissas, in the unit of `x_label`.
     pub x: Vec<f64>,
-    /// Ordinates, in the unit of `y_label`; null where there is no value.
+    /// Ordinates, in the unit of `y_label`; null marks a gap.
     pub y: Vec<Option<f64>>,
     /// Lower ordinates of a band.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub low: Option<Vec<Option<f64>>>,
-    /// That of its style where it is left out.
+    /// Colour of the curve; by default that of its style.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<ColourName>,
-    /// Whether a smooth line is drawn through the points rather than straight ones between them.
+    /// Whether the points are joined by a smooth line instead of straight segments.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub smooth: bool,
 }
 
 impl CurveDocument {
-    /// A curve in the colour of its style; without a name it is not in the legend.
+    /// A curve in the colour of its style; an empty name keeps it out of the legend.
     pub fn new(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> Self {
         Self {
             name: (!name.is_empty()).then(|| name.into()),
@@ -258,15 +257,15 @@ impl CurveDocument {
     }
 }
 
-/// The colours of a map.
+/// The colour scale of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ColoursName {
-    /// Black is low.
+    /// Black for low values.
     Grey,
-    /// Blue is low, yellow is high.
+    /// Blue for low values, yellow for high ones.
     Cividis,
-    /// 0 is white, blue below and red above.
+    /// White for 0, blue below and red above.
     BlueRed,
 }
 
@@ -280,16 +279,16 @@ pub struct MapDocument {
     pub y: Vec<f64>,
     /// Values, in the unit of `z_label`: a row for each y.
     pub z: Vec<Vec<f64>>,
-    /// Of the values, with their unit.
+    /// Label of the values, with their unit.
     pub z_label: String,
-    /// How values are coloured.
+    /// Colour scale.
     pub colours: ColoursName,
-    /// Values of the first and the last colour; fitted to z where it is left out.
+    /// Values of the first and the last colour; by default fitted to z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_range: Option<[f64; 2]>,
 }
 
-/// One of a few kinds at every point of a grid.
+/// Categories at every point of a grid.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellsDocument {
@@ -297,43 +296,43 @@ pub struct CellsDocument {
     pub x: Vec<f64>,
     /// Positions of the rows, ascending, in the unit of `y_label`.
     pub y: Vec<f64>,
-    /// Place in `names` and `colours`: a row for each y; null where nothing is known.
+    /// Index into `names` and `colours`: a row for each y; null for unknown.
     pub kinds: Vec<Vec<Option<usize>>>,
-    /// Of the kinds, in the legend.
+    /// Names of the categories, in the legend.
     pub names: Vec<String>,
-    /// A colour for each kind.
+    /// A colour for each category.
     pub colours: Vec<ColourName>,
 }
 
-/// A text at a place of a panel.
+/// A text at a position in a panel.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NoteDocument {
-    /// What it says.
+    /// The text.
     pub text: String,
-    /// Its middle, in the unit of `x_label`.
+    /// x of its middle, in the unit of `x_label`.
     pub x: f64,
-    /// Its middle, in the unit of `y_label`.
+    /// y of its middle, in the unit of `y_label`.
     pub y: f64,
-    /// Points to what lies beyond the axes; none where it is left out.
+    /// An arrow that points to something outside the axes; none by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrow: Option<ArrowName>,
 }
 
 impl NoteDocument {
-    /// A text alone.
+    /// A text without an arrow.
     pub fn new(text: &str, (x, y): (f64, f64)) -> Self {
         Self { text: text.into(), x, y, arrow: None }
     }
 }
 
-/// Where an arrow at the edge of the axes points.
+/// Direction of an arrow at the edge of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ArrowName {
-    /// At the lower edge.
+    /// Down, at the lower edge.
     Down,
-    /// At the upper edge.
+    /// Up, at the upper edge.
     Up,
 }
 

@@ -6,38 +6,38 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{Alternative, Data, Fit, FittedNumber, Name, Part, Scan};
 
-/// Numbers of the law as measured data have them, with 95 % intervals by profile likelihood.
+/// Parameters of the model estimated from measured data, with 95 % intervals by profile likelihood.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitFound {
-    /// Each number fitted.
+    /// The fitted parameters.
     pub numbers: Vec<NumberFitted>,
-    /// Correlations of the logarithms of these, a row each.
+    /// Correlation matrix of the logarithms of the fitted parameters.
     pub correlations: Vec<Vec<f64>>,
-    /// αc at the r fitted, dimensionless; null for a series, or where r is unknown.
+    /// αc at the fitted r, dimensionless; null for a series, or if r is unknown.
     pub critical_alpha: Option<f64>,
-    /// Each of the data beside the model.
+    /// Each data set with its fit.
     pub data: Vec<DataFitted>,
-    /// Rows in all.
+    /// Total number of rows.
     pub rows: usize,
-    /// Numbers fitted, offsets, slopes, gains and phases among them.
+    /// Number of fitted parameters, including offsets, slopes, gains and phases.
     pub parameters_fitted: usize,
-    /// Whether the model explains the data; where it does not, no number has an interval.
+    /// Whether the model explains the data; if it does not, no parameter has an interval.
     #[serde(default = "yes")]
     pub explained: bool,
-    /// Of several data, the probability of as large a deviation from one common model by chance.
+    /// For several data sets, the probability of an equally large deviation from one common model by chance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_misfit: Option<f64>,
     /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<AlternativeDocument>,
-    /// The best fit with a depth limit, where the request leaves that out, the data do not exclude it at 95 %, and it changes
-    /// the numbers.
+    /// The best fit with a depth limit; present if the request has no depth limit, the data do not exclude one at 95
+    /// %, and it changes the parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_depth_limit: Option<AlternativeDocument>,
 }
 
-/// The document of that.
+/// A fit and the question that it answers.
 pub type FitDocument = Document<FitParameters>;
 
 impl Question for FitParameters {
@@ -45,94 +45,94 @@ impl Question for FitParameters {
     type Answer = FitFound;
 }
 
-/// Of documents written before this was judged.
+/// Default of `explained` in documents of older versions.
 fn yes() -> bool {
     true
 }
 
-/// Another motion.
+/// Another minimum of χ².
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AlternativeDocument {
-    /// The numbers there, the held ones too.
+    /// The parameters at this minimum, including the fixed ones.
     pub numbers: Vec<NumberHeld>,
-    /// "right" or "left", for each of the data.
+    /// Direction of the scan, "right" or "left", for each data set.
     pub scans: Vec<String>,
-    /// By how much χ² is higher than at the best fit.
+    /// Excess of χ² over the best fit.
     pub behind: f64,
 }
 
-/// What was given.
+/// The parameters of a fit.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitParameters {
-    /// Footprint f in its own σ; with the β fitted where that is free.
+    /// Footprint f in its own σ; with the fitted β if β is free.
     pub tip: TipDocument,
-    /// Numbers that were held, by their names.
+    /// Fixed parameters, by name.
     pub known: Vec<NumberHeld>,
-    /// Whether rows far off count less.
+    /// Whether outliers have a reduced weight.
     pub robust: bool,
-    /// Unit of lengths, such as "nm"; null for one that is not known.
+    /// Unit of lengths, such as "nm"; null if unknown.
     pub unit: Option<String>,
-    /// "right" or "left" if the direction of the scan was given; null where both were tried.
+    /// Direction of the scan, "right" or "left", if given; null if both were tried.
     #[serde(default)]
     pub scan: Option<String>,
-    /// Footprints by which the error of a measured one was carried along.
+    /// Number of footprints used to propagate the error of a measured footprint.
     #[serde(default)]
     pub footprints: usize,
 }
 
-/// A number that was held.
+/// A parameter at a fixed value.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumberHeld {
-    /// Such as "alpha".
+    /// Name, such as "alpha".
     pub name: String,
-    /// Its value.
+    /// Value of the parameter.
     pub value: f64,
 }
 
-/// A number with its interval.
+/// A fitted parameter with its interval.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumberFitted {
     /// "alpha" and "r", dimensionless; "width", σ in the unit of lengths; "beta"; "depth_limit" in kσ²/a, "healing_time"
     /// in Γ/k, "inertia" in Γ²/k; "alpha_per_load" and "r_per_velocity" of a series.
     pub name: String,
-    /// With its interval.
+    /// Estimate and interval.
     pub estimate: EstimateDocument,
-    /// Values at which it was held, ascending.
+    /// Values at which the parameter was held in the profile likelihood, ascending.
     pub profile_values: Vec<f64>,
-    /// Of each the signed root of what that leaves over the least: ±1.96 or so are the ends of the interval.
+    /// Signed root of the excess of χ² over its minimum at each of these values: the interval ends at about ±1.96.
     pub profile_roots: Vec<f64>,
 }
 
-/// What was measured, in its own units, and what the model makes of it.
+/// Measured data, in their own units, with the fitted model.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DataFitted {
     /// "ripple", "friction", "loop", "onsets" or "wavelengths".
     pub kind: String,
-    /// The file as it was named.
+    /// Name of the file as given.
     pub source: String,
-    /// Positions, or the velocities of a series.
+    /// Positions, or velocities for a series.
     pub x: Vec<f64>,
-    /// Heights, forces (of a loop forwards, then backwards), loads at onset or wavelengths.
+    /// Heights, forces (trace of a loop, then retrace), loads at onset or wavelengths.
     pub y: Vec<f64>,
-    /// The model at each of these.
+    /// The model at each of these positions.
     pub model: Vec<f64>,
-    /// Standard deviation of what is left, relative for a series.
+    /// Standard deviation of the residuals, relative for a series.
     pub residual: f64,
-    /// Of the ground at position 0.
+    /// Height of the background at position 0.
     pub offset: Option<f64>,
-    /// Of the ground, per length.
+    /// Slope of the background.
     pub slope: Option<f64>,
-    /// Of an unknown one: k/a for heights, k for forces.
+    /// Fitted scale factor, if the scale is unknown: k/a for heights, k for forces.
     pub gain: Option<f64>,
-    /// Probability of so large a periodic residual by chance; below 0.005 the model does not explain the data. Null where
-    /// too few rows say.
+    /// Probability of an equally large periodic residual by chance; below 0.005 the model does not explain the data.
+    /// Null if there are too few rows.
     pub misfit: Option<f64>,
-    /// Probability by chance of the part that repeats with twice the wavelength; below 0.001 the ripples are period-doubled.
+    /// Probability by chance of the component of twice the wavelength; below 0.001 the ripples are period-doubled.
     #[serde(default)]
     pub doubling: Option<f64>,
     /// Probability by chance of a change of the ripples along the track; below 0.001 the motion has not settled.
@@ -141,18 +141,18 @@ pub struct DataFitted {
     /// Standard deviation of the noise, from the scatter between wavelengths, in the unit of `y`.
     #[serde(default)]
     pub noise: Option<f64>,
-    /// Independent rows that contain as much as these.
+    /// Number of independent rows with the same information as these rows.
     #[serde(default)]
     pub effective_rows: Option<f64>,
-    /// Direction of the scan over `x`: "right" or "left"; null for a series.
+    /// Direction of the scan along `x`: "right" or "left"; null for a series.
     #[serde(default)]
     pub scan: Option<String>,
-    /// Rows of the file of which each of these is the mean.
+    /// Number of rows of the file averaged into each of these.
     #[serde(default = "one")]
     pub averaged: usize,
 }
 
-/// Of documents written before rows were averaged.
+/// Default of `averaged` in documents of older versions.
 fn one() -> usize {
     1
 }
@@ -175,7 +175,7 @@ impl From<&Alternative> for AlternativeDocument {
 }
 
 impl FitFound {
-    /// Of a fit to these data, [reduced](Data::reduced), each from the file named.
+    /// The document of a fit to these data, [reduced](Data::reduced), each with the name of its file.
     pub fn of(found: &Fit, data: &[(String, Data)], critical_alpha: Option<f64>) -> Self {
         let each = data.iter().zip(&found.parts);
         Self {
@@ -242,7 +242,7 @@ impl DataFitted {
 }
 
 impl Tabular for FitFound {
-    /// The numbers, a row each.
+    /// The parameters as a table, with a row for each.
     fn columns(&self) -> Vec<Named<'_>> {
         let names = self.numbers.iter().map(|n| n.name.clone()).collect();
         let of = |of: fn(&EstimateDocument) -> Option<f64>| -> Vec<Option<f64>> {

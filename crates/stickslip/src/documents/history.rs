@@ -1,4 +1,4 @@
-//! The dense history of a motion in a document.
+//! The dense history of a motion, as stored in a document.
 
 use crate::Unusable;
 use crate::documents::table::Array;
@@ -6,36 +6,35 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights};
 
-/// Positions beyond this are rounded by a thousandth of σ and more, a tenth of the largest tolerance.
+/// Farthest position, in σ: beyond it round-off exceeds a thousandth of σ, a tenth of the largest tolerance.
 pub const FARTHEST: f64 = 1e13;
 
-/// No accepted step leaves the way between its ends by so many times that way, or so many σ.
+/// Largest excursion within a step, in distances between its ends or in σ, by which damaged histories are recognised.
 const LEAP: f64 = 1000.0;
 
 /// The accepted steps, each a polynomial: x0(t) at every t of the run.
 ///
-/// In step i, from t[i] to t[i+1], x0(t) = R(t[i]) - extension[i] + p(τ), τ = (t - t[i])/(t[i+1] - t[i]),
-/// where R = rt, or the path of the support, and p is the polynomial through 0 at τ = 0 and displacement[i][j] at τ = nodes[j]. The tip's
-/// residence, from which `surface` works, is the time weights[j] (t[i+1] - t[i]) spent at each of the
-/// nodes.
+/// In step i, from t[i] to t[i+1], x0(t) = R(t[i]) - extension[i] + p(τ), τ = (t - t[i])/(t[i+1] - t[i]), where R =
+/// rt, or the path of the support, and p is the polynomial through 0 at τ = 0 and displacement[i][j] at τ = nodes[j].
+/// `surface` uses the residence of the tip: the time weights[j] (t[i+1] - t[i]) at each of the nodes.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct History {
-    /// Collocation nodes (Radau IIA), as parts of a step.
+    /// Collocation nodes (Radau IIA), as fractions of a step.
     pub nodes: Vec<f64>,
-    /// Quadrature weights of the nodes, as parts of a step.
+    /// Quadrature weights of the nodes, as fractions of a step.
     pub weights: Vec<f64>,
     /// Start of each step, and the end of the last, in Γ/k.
     pub t: Vec<f64>,
     /// R - x0 at the start of each step, in σ.
     pub extension: Vec<f64>,
-    /// x0 less its value at the start of the step, at the nodes, in σ.
+    /// x0 at the nodes minus x0 at the start of the step, in σ.
     pub displacement: Vec<Vec<f64>>,
-    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, where there is a
-    /// depth limit.
+    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, if there is a depth
+    /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<Vec<f64>>>,
-    /// y0 at the start of each step and at its nodes, in σ, where the tip gives way across the scan.
+    /// y0 at the start of each step and at its nodes, in σ, if the tip is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<Vec<Vec<f64>>>,
 }
@@ -56,13 +55,13 @@ impl From<&Trajectory> for History {
     }
 }
 
-/// Start and nodes.
+/// The values at the start and at the nodes.
 fn row(heights: Heights) -> Vec<f64> {
     [heights.start].into_iter().chain(heights.nodes).collect()
 }
 
 impl History {
-    /// The trajectory that it tells of, under the paper's law, r being the velocity of the support.
+    /// The trajectory of this history in the basic model, with support velocity r.
     ///
     /// # Errors
     /// As [`under`](Self::under).
@@ -70,11 +69,10 @@ impl History {
         self.under(Wider::default(), Support::Moving(r))
     }
 
-    /// The trajectory that it tells of.
+    /// The trajectory of this history in an extended model.
     ///
     /// # Errors
-    /// It was not written by this program, or was damaged since: it is no sequence of steps each of which begins
-    /// where the last one ended.
+    /// The history is invalid: its steps do not follow each other, or a number is out of range.
     pub fn under(&self, wider: Wider, support: Support) -> Result<Trajectory, Unusable> {
         let steps = self.steps()?;
         let far = |step: &Step| {
@@ -158,7 +156,7 @@ fn unusable(message: impl std::fmt::Display) -> Unusable {
 }
 
 impl History {
-    /// Its arrays, each named after its field.
+    /// The arrays of the history, each named after its field.
     pub(crate) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let height = self.height.iter();
         let height = height.map(|height| ("history_height", Array::matrix(height)));

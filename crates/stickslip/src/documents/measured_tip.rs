@@ -6,54 +6,56 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{Across, Candidate, Estimate, MeasuredTip};
 
-/// A footprint from a measured profile, which is a tip file too: `gaussians` is f with f(0) = 1, lengths in σ.
+/// A footprint from a measured profile. The document is also a tip file: `gaussians` is f with f(0) = 1, lengths in
+/// σ.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredTipFound {
-    /// f, with f(0) = 1 and lengths in σ.
+    /// f as a sum of Gaussians, with f(0) = 1 and lengths in σ.
     pub gaussians: Vec<GaussianDocument>,
-    /// σ in the unit of the positions: the width of the Gaussian that is as wide at half of f(0), unless it was given.
+    /// σ in the unit of the positions: the width of the Gaussian with the same full width at half of f(0), unless it
+    /// was given.
     pub sigma: EstimateDocument,
-    /// σ in m; null where the unit of the positions is not known.
+    /// σ in m; null if the unit of the positions is unknown.
     pub sigma_metres: Option<f64>,
-    /// What f(0) = 1 is, in the unit of the heights; negative for a pit.
+    /// Height that corresponds to f(0) = 1, in the unit of the heights; negative for a pit.
     pub apex: f64,
-    /// Where f is even about, in the unit of the positions.
+    /// Centre of symmetry of f, in the unit of the positions.
     pub centre: f64,
-    /// Of the ground at position 0, in the unit of the heights.
+    /// Height of the background at position 0, in the unit of the heights.
     pub offset: f64,
-    /// Of the ground, in units of heights over positions.
+    /// Slope of the background, in units of heights over positions.
     pub tilt: f64,
-    /// Of a curved ground, the coefficients of x² and x³; empty for a straight one.
+    /// Coefficients of x² and x³ of a curved background; empty for a straight one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bend: Vec<f64>,
-    /// Standard deviation of what is not smooth from row to row, in the unit of the heights.
+    /// Standard deviation of the noise from row to row, in the unit of the heights.
     pub noise: f64,
-    /// Standard deviation of what the fit leaves, in the unit of the heights.
+    /// Standard deviation of the residuals, in the unit of the heights.
     pub residual: f64,
-    /// Correlation of what it leaves in neighbouring rows.
+    /// Correlation of the residuals of neighbouring rows.
     pub correlation: f64,
-    /// Gaussians, a pair of twins counted once.
+    /// Number of Gaussians, where a symmetric pair counts as one.
     pub terms: usize,
-    /// Sums of other numbers of Gaussians.
+    /// Fits with other numbers of Gaussians.
     pub candidates: Vec<CandidateDocument>,
     /// αc at the r of the parameters, dimensionless.
     pub critical_alpha: EstimateDocument,
-    /// ω there, in k/Γ.
+    /// ω at this critical point, in k/Γ.
     pub critical_omega: EstimateDocument,
-    /// The least α of trapping at that r, dimensionless; null where there is none.
+    /// Trapping threshold αt at that r, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
     pub profile: FittedDocument,
-    /// Footprints like `gaussians`, drawn from what the noise leaves possible: `fit` carries the error of the shape by them.
+    /// Footprints compatible with the noise, drawn at random: `fit` uses them to propagate the error of the shape.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub draws: Vec<Vec<GaussianDocument>>,
-    /// What an image tells beside the profile through its middle: f(x,y).
+    /// Results for f(x,y) from an image, in addition to the profile through its middle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<AcrossDocument>,
 }
 
-/// The document of that.
+/// A measured tip and the question that it answers.
 pub type MeasuredTipDocument = Document<MeasuredTipParameters>;
 
 impl Question for MeasuredTipParameters {
@@ -61,41 +63,41 @@ impl Question for MeasuredTipParameters {
     type Answer = MeasuredTipFound;
 }
 
-/// What a tip was made of.
+/// The parameters of a measured tip.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredTipParameters {
-    /// The file as it was named.
+    /// Name of the file as given.
     pub source: String,
-    /// Unit of the positions, such as "nm"; null for one that is not known.
+    /// Unit of the positions, such as "nm"; null if unknown.
     pub unit: Option<String>,
     /// Whether the profile is one half of an even one, about position 0.
     pub half: bool,
-    /// Where f is even about, if that was given.
+    /// Centre of symmetry of f, if given.
     pub centre: Option<f64>,
-    /// σ, if that was given.
+    /// σ, if given.
     pub sigma: Option<f64>,
-    /// Gaussians, if their number was given.
+    /// Number of Gaussians, if given.
     pub terms: Option<usize>,
-    /// r at which onset and trapping are told, dimensionless.
+    /// r at which onset and trapping threshold are computed, dimensionless.
     pub r: f64,
-    /// Profiles drawn anew for the intervals.
+    /// Number of resampled profiles for the intervals.
     pub resamples: usize,
-    /// Of the draws.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// f(x,y): each Gaussian of f(x) times exp(-y²/(2v²)), as all pixels of an image have it.
+/// f(x,y), fitted to all pixels of an image: each Gaussian of f(x) times exp(-y²/(2v²)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AcrossDocument {
     /// v of each of `gaussians`, in σ.
     pub widths: Vec<f64>,
-    /// Where f is even about across, in the unit of the positions.
+    /// Centre of symmetry of f across the scan, in the unit of the positions.
     pub centre: f64,
-    /// Standard deviation of what the fit leaves of all pixels, in the unit of the heights.
+    /// Standard deviation of the residuals of all pixels, in the unit of the heights.
     pub residual: f64,
-    /// Standard deviation of what is not smooth from pixel to pixel along the rows, in the unit of the heights.
+    /// Standard deviation of the noise from pixel to pixel along the rows, in the unit of the heights.
     pub noise: f64,
 }
 
@@ -110,27 +112,27 @@ impl From<&Across> for AcrossDocument {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EstimateDocument {
-    /// As estimated.
+    /// The estimate.
     pub value: f64,
-    /// Lower end; null where nothing is excluded below.
+    /// Lower end; null if the data exclude no small value.
     pub low: Option<f64>,
-    /// Upper end; null where nothing is excluded above.
+    /// Upper end; null if the data exclude no large value.
     pub high: Option<f64>,
 }
 
-/// A sum of so many Gaussians.
+/// The fit with a given number of Gaussians.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CandidateDocument {
-    /// Gaussians, a pair of twins counted once.
+    /// Number of Gaussians, where a symmetric pair counts as one.
     pub terms: usize,
-    /// Numbers fitted.
+    /// Number of fitted parameters.
     pub parameters: usize,
-    /// Standard deviation of what it leaves, in the unit of the heights.
+    /// Standard deviation of the residuals, in the unit of the heights.
     pub residual: f64,
-    /// Schwarz' criterion, n ln(S/n) + p ln n, less that of the chosen sum.
+    /// Schwarz' criterion, n ln(S/n) + p ln n, minus that of the chosen sum.
     pub criterion: f64,
-    /// αc of this sum; null where it has none.
+    /// αc of this sum; null if it has none.
     pub critical_alpha: Option<f64>,
 }
 
@@ -140,9 +142,9 @@ pub struct CandidateDocument {
 pub struct FittedDocument {
     /// Position.
     pub x: Vec<f64>,
-    /// As measured.
+    /// Measured heights.
     pub f: Vec<f64>,
-    /// As fitted, ground and all.
+    /// Fitted heights, including the background.
     pub fit: Vec<f64>,
 }
 
@@ -155,7 +157,7 @@ impl From<Estimate> for EstimateDocument {
 }
 
 impl MeasuredTipFound {
-    /// Of a tip of which one unit of the positions is so many metres, if that is known.
+    /// The document of a measured tip; `metres` is the unit of the positions in m, if known.
     pub fn of(found: &MeasuredTip, metres: Option<f64>) -> Self {
         let least = found.candidates[found.chosen].criterion;
         let candidate = |c: &Candidate| CandidateDocument {
@@ -199,7 +201,7 @@ impl MeasuredTipFound {
 }
 
 impl MeasuredTipDocument {
-    /// With what the image tells that the profile is of.
+    /// Adds the results of the image to which the profile belongs.
     #[must_use]
     pub fn with_image(mut self, across: &Across) -> Self {
         if across.residual > ABOVE_NOISE * across.noise {
@@ -214,11 +216,11 @@ impl MeasuredTipDocument {
     }
 }
 
-/// A residual so many times the noise is remarked on.
+/// Ratio of residual to noise above which a warning is given.
 const ABOVE_NOISE: f64 = 1.3;
 
 impl MeasuredTipFound {
-    /// The ground at a position.
+    /// Height of the background at a position.
     pub fn ground(&self, x: f64) -> f64 {
         let curved = self.bend.iter().rev().fold(0.0, |sum, c| sum * x + c);
         self.offset + (self.tilt + curved * x) * x
@@ -226,14 +228,14 @@ impl MeasuredTipFound {
 }
 
 impl FittedDocument {
-    /// What the fit leaves.
+    /// The residuals of the fit.
     pub fn residuals(&self) -> Vec<f64> {
         self.f.iter().zip(&self.fit).map(|(f, fit)| f - fit).collect()
     }
 }
 
 impl Tabular for MeasuredTipFound {
-    /// The profile, the fit and what it leaves.
+    /// The profile, the fit and the residuals, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let FittedDocument { x, f, fit } = &self.profile;
         vec![

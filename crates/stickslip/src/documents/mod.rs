@@ -1,5 +1,5 @@
-//! What is written and read: documents field by field, their schemas, and their way from and to the types of the
-//! subjects.
+//! Input and output: documents field by field, their schemas, and conversions to and from the types of the other
+//! crates.
 
 pub(crate) mod checkpoint;
 pub(crate) mod compare;

@@ -1,25 +1,25 @@
-//! What the motion at the end of a run is, in its documents.
+//! The regime at the end of a run, as stored in documents.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime, Snaking};
 use stickslip_surface::Ripple;
 
-/// Kinds of motion.
+/// Regimes of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RegimeName {
-    /// l stays at l0, and linear theory has it that it does; without a spring, the tip stays at rest.
+    /// l stays at l0, in agreement with linear theory; without a spring, the tip stays at rest.
     Steady,
-    /// A periodic motion that repeats itself.
+    /// A periodic motion.
     StickSlip,
-    /// The tip creeps logarithmically in its own pit and will not come out.
+    /// The tip creeps logarithmically in its own pit and never slips.
     Trapped,
-    /// A tip without a spring moves on at one velocity.
+    /// A tip without a spring moves at a constant velocity.
     Drifting,
-    /// The tip swings periodically across the scan, and so along it.
+    /// The tip oscillates periodically across the scan, and therefore along it.
     Snaking,
-    /// None of these yet.
+    /// The motion has not settled.
     Transient,
 }
 
@@ -48,8 +48,8 @@ impl std::fmt::Display for RegimeName {
     }
 }
 
-/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak. What the motion goes to lies within
-/// the error of each figure.
+/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak. The limit of the motion lies within
+/// the error of each number.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillationDocument {
@@ -63,16 +63,16 @@ pub struct OscillationDocument {
     /// Error of the wavelength, in σ.
     #[serde(default)]
     pub wavelength_error: Option<f64>,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance, in σ.
+    /// Half peak-to-peak of l (the oscillation of x0 about its steady advance), in σ.
     pub amplitude_x0: f64,
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface left behind, (35), in kσ²/a; null where less than one wavelength lies out
-    /// of reach of the tip, or f never fades. Where the surface heals, u at the distance D behind the support is
-    /// U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; null if less than one wavelength lies out
+    /// of reach of the tip, or if f does not decay. On a healing surface u at the distance D behind the support is
+    /// U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
     pub amplitude_u: Option<f64>,
-    /// Error of `amplitude_u`, in kσ²/a; null where that is.
+    /// Error of `amplitude_u`, in kσ²/a; null if that is null.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
     /// Maxima of l in one period.
@@ -82,7 +82,7 @@ pub struct OscillationDocument {
 }
 
 impl OscillationDocument {
-    /// The motion, and the ripple that it leaves behind where that could be told.
+    /// The periodic motion, with the ripple behind the tip if it could be computed.
     pub fn of(motion: &Oscillation, ripple: Option<Ripple>) -> Self {
         let amplitude_u = ripple.map(|ripple| ripple.amplitude);
         Self {
@@ -106,7 +106,7 @@ impl OscillationDocument {
 pub struct CreepDocument {
     /// p at the end of the run, the rate at which 1/x0' grows with time, in 1/σ.
     pub rate: f64,
-    /// The p that it goes to, in 1/σ: `stability` lists it with all others.
+    /// The stable creep rate p that the motion approaches, in 1/σ: one of those that `stability` lists.
     pub attracting: f64,
 }
 
@@ -120,9 +120,9 @@ impl From<Creeping> for CreepDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DriftDocument {
-    /// x0' at the end of the run, in kσ/Γ; below 0 to the left.
+    /// x0' at the end of the run, in kσ/Γ; negative to the left.
     pub velocity: f64,
-    /// Its error, in kσ/Γ: the velocity that the run goes to lies within it.
+    /// Error of the velocity, in kσ/Γ: the limit of the velocity lies within it.
     pub velocity_error: f64,
 }
 
@@ -132,12 +132,12 @@ impl From<Drift> for DriftDocument {
     }
 }
 
-/// The periodic motion of a tip that swings across the scan. Amplitudes are half peak-to-peak. What the motion goes to lies
-/// within the error of each figure, as far as its changes from period to period fade geometrically.
+/// The periodic motion of a tip that oscillates across the scan. Amplitudes are half peak-to-peak. The limit of the
+/// motion lies within the error of each number, provided that its changes from period to period decay geometrically.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SwingDocument {
-    /// Of y0, in Γ/k; along the scan the tip swings twice in it.
+    /// Period of y0, in Γ/k; the motion along the scan has half this period.
     pub period: f64,
     /// Error of the period, in Γ/k.
     pub period_error: f64,
@@ -156,7 +156,7 @@ pub struct SwingDocument {
 }
 
 impl SwingDocument {
-    /// Of a motion behind a support of velocity r.
+    /// The document of a motion behind a support of velocity r.
     pub(crate) fn of(motion: &Snaking, r: f64) -> Self {
         Self {
             period: motion.period,
@@ -171,13 +171,13 @@ impl SwingDocument {
     }
 }
 
-/// What a run that has not settled seems to go to.
+/// Prediction for a run that has not settled.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TransientDocument {
-    /// The regime; null where it cannot be told.
+    /// The predicted regime; null if there is no prediction.
     pub towards: Option<RegimeName>,
-    /// How much longer that would take, in Γ/k; null where it cannot be told.
+    /// Predicted time until then, in Γ/k; null if there is no prediction.
     pub time: Option<f64>,
 }
 
@@ -187,13 +187,13 @@ impl From<Prospect> for TransientDocument {
     }
 }
 
-/// Significant digits of a double, less one.
+/// Number of significant digits of a double, minus one.
 const DIGITS: i32 = 14;
 /// Powers of ten that are written without an exponent.
 const PLAIN: std::ops::Range<i32> = -5..15;
 
-/// A value to the digits that hold, with what the last of them may be off by in parentheses: 6.6936889(2). What is too
-/// small or too large to be read so has an exponent: 2.5(3)e-12.
+/// A value rounded to its certain digits, with the error of the last one in parentheses: 6.6936889(2). Very small and
+/// very large values have an exponent: 2.5(3)e-12.
 ///
 /// ```
 /// use stickslip::to_its_digits;
@@ -223,7 +223,7 @@ pub fn to_its_digits(value: f64, error: f64) -> String {
     format!("{}e{exponent}", plainly(scaled(value), scaled(error.abs())))
 }
 
-/// The power of ten of its first digit.
+/// The power of ten of the first digit.
 #[expect(clippy::cast_possible_truncation, reason = "an exponent of ten")]
 fn place(size: f64) -> i32 {
     size.abs().max(f64::MIN_POSITIVE).log10().floor() as i32
@@ -244,7 +244,7 @@ fn plainly(value: f64, error: f64) -> String {
     format!("{value:.*}({off:.0})", last.unsigned_abs() as usize)
 }
 
-/// A value with `count` significant digits, without zeros at its end.
+/// A value with `count` significant digits, without trailing zeros.
 ///
 /// ```
 /// use stickslip::digits;

@@ -1,4 +1,4 @@
-//! Which documents can be told in nm, s and nN, and their tables so.
+//! Documents with results in nm, s and nN, and their tables.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{Dimension, InUnits, KnownScales, dimension};
@@ -6,17 +6,17 @@ use serde::Serialize;
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// A document that may hold its numbers in physical units too.
+/// A document that may contain its numbers in physical units too.
 pub trait Physical: Serialize + Sized {
-    /// Where these are.
+    /// The field with the physical units.
     fn physical_mut(&mut self) -> &mut Option<InUnits>;
 
-    /// Of what they are taken; what they do not mirror may be left out.
+    /// The document as JSON, without large parts that are not converted to physical units.
     fn lean(&mut self) -> serde_json::Result<Value> {
         serde_json::to_value(&*self)
     }
 
-    /// With these, by the scales that are known.
+    /// Adds the numbers in physical units, as far as the scales are known.
     #[must_use]
     fn in_units(mut self, scales: Option<&KnownScales>) -> Self {
         *self.physical_mut() = None;
@@ -28,11 +28,11 @@ pub trait Physical: Serialize + Sized {
     }
 }
 
-/// A column under its name, in the document's unit.
+/// A column under its name, in the unit of the document.
 pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
 
-/// The columns of a table: those with a dimension in nm, s and nN, and named so, as far as the document knows the
-/// scales.
+/// The columns of a table; those with a dimension are converted to nm, s and nN and named accordingly, as far as the
+/// document contains the scales.
 pub fn columns<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<InUnit<'a>> {
     let columns = table.columns();
     let Some(physical) = table.physical() else {
@@ -53,7 +53,7 @@ fn in_unit<'a>((name, column): Named<'a>, scales: &KnownScales) -> InUnit<'a> {
     }
 }
 
-/// The arrays of a document, in the same way.
+/// The arrays of a document, converted in the same way.
 pub fn arrays<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<(Cow<'static, str>, Array<'a>)> {
     let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
     let in_unit = |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {

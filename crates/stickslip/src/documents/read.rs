@@ -1,4 +1,4 @@
-//! From text to a document.
+//! Reading of documents from text.
 
 use crate::FORMAT_VERSION;
 use serde::de::{DeserializeOwned, Error as _, IgnoredAny, MapAccess, Visitor};
@@ -8,32 +8,32 @@ use std::fmt::{self, Display};
 use std::io::{self, BufReader, Cursor, Read};
 use thiserror::Error;
 
-/// What is wrong with a document, or with a part of it.
+/// An error in a document or in a part of it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct Unusable(String);
 
 impl Unusable {
-    /// `reason` as the message.
+    /// An error with `reason` as its message.
     pub fn new(reason: impl Display) -> Self {
         Self(reason.to_string())
     }
 }
 
-/// What every document begins with.
+/// The fields with which every document begins.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Kind {
-    /// Such as "stickslip/run".
+    /// Format, such as "stickslip/run".
     pub format: Option<String>,
     /// Version of that format.
     pub format_version: Option<u32>,
 }
 
 impl Kind {
-    /// Refuses all but the format wanted, in the version that this program reads.
+    /// Rejects every format except the one wanted, in the version that this program reads.
     ///
     /// # Errors
-    /// Names what was found instead.
+    /// The document has another format or version; the message names it.
     pub fn judge(&self, wanted: &str) -> Result<(), Unusable> {
         match (self.format.as_deref(), self.format_version) {
             (Some(format), Some(FORMAT_VERSION)) if format == wanted => Ok(()),
@@ -51,18 +51,18 @@ impl Kind {
     }
 }
 
-/// The document of the format wanted, such as [`RunDocument::FORMAT`](crate::RunDocument::FORMAT), that a text holds.
+/// Reads a document of the format wanted, such as [`RunDocument::FORMAT`](crate::RunDocument::FORMAT), from a text.
 ///
 /// # Errors
-/// The text is no JSON, a document of another format or version, or damaged.
+/// The text is not JSON, is a document of another format or version, or is damaged.
 pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable> {
     read_from(text.as_bytes(), wanted)
 }
 
-/// The same from a stream, of which no more is read than it takes to tell that it is something else.
+/// Reads a document from a stream. A stream of another kind is read only as far as necessary to recognise that.
 ///
 /// # Errors
-/// As [`read`]; the stream fails.
+/// As [`read`]; or the stream fails.
 pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result<D, Unusable> {
     let (kind, whole) = told(source, wanted)?;
     kind.judge(wanted)?;
@@ -75,7 +75,7 @@ pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result
     })
 }
 
-/// What a stream says it is, and the stream again from its beginning.
+/// The kind of document in a stream, and the stream again from its beginning.
 ///
 /// # Errors
 /// As [`kind_of`].
@@ -87,7 +87,8 @@ pub fn told<R: Read>(source: R, wanted: &str) -> Result<(Kind, impl Read), Unusa
 }
 
 const BLOCK: usize = 1 << 16;
-/// Within so many bytes a document must say what it is: half of what one number per point of the largest table takes.
+/// Length of the beginning of a document, in bytes, within which its format must be found: half the size of one
+/// column of the largest table.
 const LARGEST_BEGINNING: u64 = 64 << 20;
 
 fn unreadable(error: &serde_json::Error) -> Unusable {
@@ -101,11 +102,10 @@ fn no_document(error: &serde_json::Error, wanted: &str) -> Unusable {
     ))
 }
 
-/// What a document, or its beginning, says it is, which it does first unless somebody has put its fields in another
-/// order.
+/// The kind of a document, from its beginning. The format is the first field unless the fields were reordered.
 ///
 /// # Errors
-/// It is no JSON, or ends before it has said so.
+/// It is not JSON, or ends before the format.
 pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
     let mut kind = Kind { format: None, format_version: None };
     let source = BufReader::new(source.take(LARGEST_BEGINNING));
@@ -119,7 +119,7 @@ pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
     }
 }
 
-/// Reads the fields of a document until it is known what it is.
+/// Reads the fields of a document until its kind is known.
 struct Fields<'a>(&'a mut Kind);
 
 impl<'de> Visitor<'de> for Fields<'_> {
@@ -144,7 +144,7 @@ impl<'de> Visitor<'de> for Fields<'_> {
     }
 }
 
-/// A stream that remembers what was read of it.
+/// A stream that keeps a copy of the bytes read from it.
 struct Seen<'a, R> {
     source: &'a mut R,
     seen: &'a mut Vec<u8>,

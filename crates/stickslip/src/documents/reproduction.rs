@@ -4,7 +4,7 @@ use crate::{Document, Question};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The numbers printed in the paper beside ours.
+/// Comparison of the numbers printed in the paper with ours.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReproductionFound {
@@ -12,7 +12,7 @@ pub struct ReproductionFound {
     pub numbers: Vec<NumberDocument>,
 }
 
-/// The document of that.
+/// The comparison and the question that it answers.
 pub type ReproductionDocument = Document<ReproductionParameters>;
 
 impl Question for ReproductionParameters {
@@ -20,7 +20,7 @@ impl Question for ReproductionParameters {
     type Answer = ReproductionFound;
 }
 
-/// None.
+/// No parameters.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReproductionParameters {}
@@ -29,26 +29,26 @@ pub struct ReproductionParameters {}
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumberDocument {
-    /// What it is the value of.
+    /// Name of the quantity.
     pub quantity: String,
-    /// For which tip and parameters.
+    /// Tip and parameters.
     pub case: String,
     /// Section, equation or figure of the paper.
     pub place: String,
-    /// As printed.
+    /// The number as printed.
     pub printed: String,
     /// Its value, in the dimensionless units of the paper.
     pub value: f64,
     /// Half a unit of its last digit; 1e-9 for whole numbers, which are exact, 0.005 for exponents.
     pub precision: f64,
-    /// Our number for it, in the same unit.
+    /// Our value, in the same unit.
     pub ours: f64,
     /// ours/value - 1; null where the printed value is 0.
     pub relative_difference: Option<f64>,
-    /// Whether ours lies within the precision of the printed value.
+    /// Whether our value lies within the precision of the printed one.
     pub agrees: bool,
     /// Number of the entry in docs/corrections.md that explains a difference.
     pub correction: Option<u32>,
-    /// What explains it, in a line.
+    /// Explanation of a difference, in one line.
     pub remark: Option<String>,
 }

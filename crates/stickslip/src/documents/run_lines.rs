@@ -5,8 +5,8 @@ use crate::{FORMAT_VERSION, Run, RunEnd, SampleLine, Software, SteadyState};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A line of a run written as it goes on (`.jsonl`): the first says what is run, one follows for each
-/// sample, the last says what became of it. Without a last line the run did not come to an end.
+/// A line of a run written during the run (`.jsonl`): the first defines the run, one follows for each sample, the
+/// last contains the result. A file without a last line is incomplete.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RunLine {
@@ -18,7 +18,7 @@ pub enum RunLine {
     End(Box<RunEnd>),
 }
 
-/// What is run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
+/// The definition of a run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunHead {
@@ -31,12 +31,12 @@ pub struct RunHead {
     /// Everything that defines the run.
     #[serde(deserialize_with = "strictly")]
     pub parameters: Run,
-    /// The steady motion at these parameters, whether or not it is stable; null without a spring.
+    /// The steady motion at these parameters, stable or not; null without a spring.
     pub steady_state: Option<SteadyState>,
 }
 
 impl RunHead {
-    /// Its `format`.
+    /// The value of the field `format`.
     pub const FORMAT: &'static str = "stickslip/run-lines";
 
     /// The first line of a run with these parameters.

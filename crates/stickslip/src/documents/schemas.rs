@@ -14,7 +14,7 @@ use schemars::{Schema, schema_for};
 /// The name of a document, which follows "stickslip/" in its `format`, and its schema.
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
-/// Every document that has a schema.
+/// All documents with a schema.
 pub const SCHEMAS: [NamedSchema; 24] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
@@ -42,7 +42,7 @@ pub const SCHEMAS: [NamedSchema; 24] = [
     ("reproduction", ReproductionDocument::schema),
 ];
 
-/// The JSON Schema (draft 2020-12) of the document of this name.
+/// The JSON Schema (draft 2020-12) of the document with this name.
 pub fn schema(name: &str) -> Option<Schema> {
     SCHEMAS.iter().find(|(other, _)| *other == name).map(|(_, schema)| schema())
 }

@@ -1,9 +1,9 @@
-//! Who wrote a document, and in which version of its format.
+//! The program that wrote a document, and the version of its format.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Version of all documents; it changes when a reader of the old ones would misread the new.
+/// Version of all documents; it changes when a reader of the old version would misread the new one.
 pub const FORMAT_VERSION: u32 = 1;
 
 /// The program that wrote a document.
@@ -12,7 +12,7 @@ pub const FORMAT_VERSION: u32 = 1;
 pub struct Software {
     /// "stickslip"
     pub name: String,
-    /// Of the program, as `stickslip --version` says.
+    /// Version of the program, as printed by `stickslip --version`.
     pub version: String,
 }
 

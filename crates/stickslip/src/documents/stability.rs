@@ -11,46 +11,46 @@ use stickslip_stability::{
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StabilityFound {
-    /// Where the first root reaches the imaginary axis; null where none does, see `remarks`.
+    /// The critical point, at which the first root reaches the imaginary axis; null if none does, see `remarks`.
     pub critical: Option<CriticalDocument>,
-    /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the
-    /// critical point itself, false.
+    /// Whether every deviation from steady motion decays at the α and r of `parameters`. At the critical point
+    /// itself, false.
     pub stable: bool,
-    /// The logarithmic creep of a tip that never gets free.
+    /// The logarithmic creep of a trapped tip.
     pub trapping: TrappingDocument,
-    /// Growth exponents λ at the α and r of `parameters`, by falling real part, the one above the real
-    /// axis first of each pair.
+    /// Growth exponents λ at the α and r of `parameters`, by falling real part; of each pair the one above the real
+    /// axis comes first.
     pub roots: Vec<ComplexDocument>,
-    /// That none is missing.
+    /// Evidence that no growth exponent is missing.
     pub certificate: CertificateDocument,
-    /// What is born at the critical point; null where the leading order says nothing, see `remarks`.
+    /// The oscillation at onset; null if the leading order is not available, see `remarks`.
     pub onset: Option<OnsetDocument>,
-    /// Under a wider law: what leaves nothing unstable.
+    /// Extended model only: conditions under which steady motion is stable at every α.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsDocument>,
-    /// Where the line begins to snake, with a spring across the scan; null where it never does.
+    /// Onset of snaking, with a spring across the scan; null if the tip never snakes.
     #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "present")]
     pub snaking: Option<Option<SnakingDocument>>,
 }
 
-/// Where a single line of a tip that gives way across the scan begins to snake.
+/// Onset of snaking of a tip on a single line that is free to move across the scan.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SnakingDocument {
-    /// α_y, the smallest α with a deviation across the scan that does not fade.
+    /// α_y, the smallest α at which some deviation across the scan does not decay.
     pub alpha: f64,
-    /// Its frequency ω in time, in k/Γ.
+    /// Frequency ω of this deviation, in k/Γ.
     pub omega: f64,
     /// 2πr/ω, in σ.
     pub wavelength: f64,
 }
 
-/// null where there is a null, in place of nothing.
+/// Deserialises an explicit null as `Some(None)`, to distinguish it from a missing field.
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Option<T>, D::Error> {
     T::deserialize(d).map(Some)
 }
 
-/// Which of α and r is varied to find a critical point.
+/// The parameter that is varied to find a critical point.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolveFor {
@@ -71,7 +71,7 @@ pub struct ComplexDocument {
     pub im: f64,
 }
 
-/// A point of the stability boundary with the oscillation that is born there.
+/// A point of the stability boundary with the oscillation that bifurcates there.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalDocument {
@@ -85,52 +85,53 @@ pub struct CriticalDocument {
     pub period: f64,
     /// 2πr/ω, in σ.
     pub wavelength: f64,
-    /// Under the wider law: whether linear theory decides there.
+    /// Extended model only: whether linear theory decides at this point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<OnsetKindName>,
 }
 
-/// Depth limit and memory under which no α makes steady motion unstable.
+/// Depth limit and memory length below which steady motion is stable at every α.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsDocument {
     /// b_c(r), in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and the
-    /// inertia of `parameters`. Null where nothing is unstable at any b, or where the height under the steady tip
-    /// is 0, the corner of |h|.
+    /// inertia of `parameters`. Null if steady motion is stable at every b, or if the height under the steady tip is
+    /// 0, the kink of |u|.
     pub least_depth_limit: Option<f64>,
-    /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit.
-    /// Null where there is none for this tip.
+    /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit. Null
+    /// if this tip has none.
     pub memory_length: Option<f64>,
 }
 
-/// What small deviations obey at the critical point.
+/// The equation of small deviations at the critical point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OnsetKindName {
-    /// A linear law.
+    /// A linear equation.
     Smooth,
-    /// A law with the corner of |h| in it: alpha is where a small oscillation keeps its amplitude.
+    /// A piecewise linear equation with the kink of |u|: alpha is the value at which a small oscillation keeps its
+    /// amplitude.
     NonSmooth,
 }
 
-/// The motion x0 ~ (1/p) ln t for ever.
+/// Permanent creep, x0 ~ (1/p) ln t.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrappingDocument {
-    /// The smallest α at which there is such a motion at this r; null if there is none at any α.
+    /// The smallest α at which such creep exists at this r; null if there is none at any α.
     pub alpha: Option<f64>,
-    /// All such p at the α and r of `parameters`, in 1/σ, ascending; null where there is none.
+    /// All rates p at the α and r of `parameters`, in 1/σ, ascending; null if there are none.
     pub creep_rates: Option<Vec<f64>>,
-    /// The one of them that a trapped tip comes to, in 1/σ; null where there is none, or where a complex root lies
-    /// right of them all: there every stick ends in a slip.
+    /// The stable rate, which a trapped tip approaches, in 1/σ; null if there is none, or if a complex root lies to
+    /// the right of all rates: then every stick ends in a slip.
     pub attracting: Option<f64>,
-    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null where they
-    /// could not be had, see `remarks`.
+    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null if they could
+    /// not be computed, see `remarks`.
     pub creep_roots: Option<Vec<ComplexDocument>>,
 }
 
-/// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, outside of which no root has a real part
-/// above re_min, and how many roots it holds.
+/// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max, and the number of roots in it. No root outside has a real
+/// part above re_min.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateDocument {
@@ -138,13 +139,13 @@ pub struct CertificateDocument {
     pub re_min: f64,
     /// Right edge, in k/Γ.
     pub re_max: f64,
-    /// Upper edge, and the lower one with its sign changed, in k/Γ.
+    /// Upper edge, in k/Γ; the lower edge is its negative.
     pub im_max: f64,
-    /// By the argument principle.
+    /// Number of roots by the argument principle.
     pub counted: usize,
-    /// Different ones among those listed that solve the equation.
+    /// Number of different listed roots that solve the equation.
     pub found: usize,
-    /// Whether the two agree, and every listed root solves the equation.
+    /// Whether the two numbers agree, and every listed root solves the equation.
     pub complete: bool,
     /// Largest residual of a listed root, relative to the terms of the equation.
     pub largest_residual: f64,
@@ -152,13 +153,13 @@ pub struct CertificateDocument {
     pub largest_error: f64,
 }
 
-/// On which side of the boundary the small oscillation exists.
+/// The side of the boundary on which the small oscillation exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CriticalityName {
-    /// Stable and small, above the critical α.
+    /// Above the critical α, where it is stable.
     Supercritical,
-    /// Unstable, below it.
+    /// Below the critical α, where it is unstable.
     Subcritical,
 }
 
@@ -166,9 +167,10 @@ pub enum CriticalityName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OnsetDocument {
-    /// Whether the oscillation is born with amplitude 0, beyond αc, or is there before.
+    /// Whether the oscillation starts with amplitude 0 beyond αc (supercritical) or exists already below it
+    /// (subcritical).
     pub criticality: CriticalityName,
-    /// d(a²)/dα, a half the peak-to-peak of l, in σ².
+    /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: f64,
     /// dT/dα along the branch, in Γ/k.
     pub period_slope: f64,
@@ -181,14 +183,14 @@ pub struct OnsetDocument {
 }
 
 impl ComplexDocument {
-    /// By its parts.
+    /// The complex number with these parts.
     pub fn new(re: f64, im: f64) -> Self {
         Self { re, im }
     }
 }
 
 impl TrappingDocument {
-    /// The threshold of trapping and the rates of creep; and a remark where a trapped tip comes to none of them.
+    /// The trapping threshold and the creep rates; and a warning if a trapped tip approaches none of them.
     pub(crate) fn of(alpha: Option<f64>, creep: Option<&Creep>) -> (Self, Option<String>) {
         let rates = creep.map(Creep::rates).unwrap_or_default();
         let attracting = creep.and_then(Creep::attracting);
@@ -205,7 +207,7 @@ impl TrappingDocument {
 }
 
 impl CriticalDocument {
-    /// A critical point, and of which kind it is under the wider law.
+    /// A critical point, with its kind in an extended model.
     pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
         let Critical { alpha, r, omega, period, wavelength, .. } = *critical;
         Self { alpha, r, omega, period, wavelength, kind: kind.map(OnsetKindName::from) }
@@ -266,7 +268,7 @@ impl From<&Onset> for OnsetDocument {
 }
 
 impl Tabular for StabilityFound {
-    /// The growth exponents.
+    /// The growth exponents as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let column = |of: fn(&ComplexDocument) -> f64| {
             Column::from(self.roots.iter().map(of).collect::<Vec<_>>())

@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceFound {
-    /// One curve per time; none where images were asked for.
+    /// One curve per time; empty if images were requested.
     pub surfaces: Vec<SurfaceCurve>,
     /// One image per time, in three dimensions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub images: Vec<SurfaceImage>,
 }
 
-/// The document of that.
+/// A surface and the question that it answers.
 pub type SurfaceDocument = Document<SurfaceParameters>;
 
 impl Question for SurfaceParameters {
@@ -24,27 +24,27 @@ impl Question for SurfaceParameters {
     type Answer = SurfaceFound;
 }
 
-/// What was reconstructed.
+/// The parameters of a reconstructed surface.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SurfaceParameters {
     /// Footprint, α and r of the run.
     #[serde(flatten)]
     pub model: ModelParameters,
-    /// Whether the initial surface was left out, (35).
+    /// Whether the initial surface was omitted, (35).
     pub far_behind: bool,
-    /// Of images.
+    /// Parameters of images.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub across: Option<AcrossParameters>,
 }
 
-/// What images depend on besides the run.
+/// Parameters of images besides those of the run.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AcrossParameters {
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null if the tip has its own f(x,y).
     pub width_y: Option<f64>,
-    /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring (52);
-    /// null where no k' is certain to do.
+    /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring constant (52); null if
+    /// no k' is known to be sufficient.
     pub transverse_stiffness_needed: Option<f64>,
 }
 
@@ -54,9 +54,9 @@ pub struct AcrossParameters {
 pub struct SurfaceImage {
     /// Time, in Γ/k.
     pub t: f64,
-    /// Positions along the way of the tip, in σ.
+    /// Positions along the scan, in σ.
     pub x: Vec<f64>,
-    /// Positions across it, in σ.
+    /// Positions across the scan, in σ.
     pub y: Vec<f64>,
     /// Heights, in kσ²/a: a row for each y.
     pub u: Vec<Vec<f64>>,
@@ -70,12 +70,12 @@ pub struct SurfaceCurve {
     pub t: f64,
     /// Positions, in σ.
     pub x: Vec<f64>,
-    /// Heights there, in kσ²/a.
+    /// Heights at these positions, in kσ²/a.
     pub u: Vec<f64>,
 }
 
 impl Tabular for SurfaceFound {
-    /// A row for each place, of all times one after the other.
+    /// A row for each position, one time after the other.
     fn columns(&self) -> Vec<Named<'_>> {
         let Self { surfaces, images, .. } = self;
         let Some(first) = images.first() else {

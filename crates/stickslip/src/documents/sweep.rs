@@ -18,27 +18,27 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
 
-/// What the tip settles into, over a grid of parameters.
+/// The motion that the tip settles into, over a grid of parameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepFound {
     /// The points, by rising index.
     pub points: Vec<SweepPoint>,
-    /// Points that differ in the seed of their noise alone, taken together, in the order of the points; where seeds vary and
-    /// all parts are here.
+    /// Ensembles of points that differ only in the seed of their noise, in the order of the points; present if seeds
+    /// vary and all parts are included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensembles: Option<Vec<EnsembleDocument>>,
-    /// How the machine that computed the points rounds, such as "x86_64+sse4.1+avx+fma-1c291ca3": one that rounds otherwise
-    /// gives other last digits. Null where parts came from machines that do not agree.
+    /// Floating-point arithmetic of the machine that computed the points, such as "x86_64+sse4.1+avx+fma-1c291ca3":
+    /// other arithmetic changes the last digits. Null if parts come from machines with different arithmetic.
     #[serde(default)]
     pub arithmetic: Option<String>,
-    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, without spaces and with the shortest digits: tells `merge`
-    /// whether anything was changed.
+    /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, without spaces and with the shortest digits:
+    /// `merge` uses it to detect changes.
     #[serde(default)]
     pub crc32: Option<u32>,
 }
 
-/// The document of that.
+/// A sweep and the question that it answers.
 pub type SweepDocument = Document<SweepParameters>;
 
 impl Question for SweepParameters {
@@ -50,76 +50,76 @@ impl Question for SweepParameters {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepParameters {
-    /// Footprints f: widths times β, where they vary.
+    /// Footprints f: widths times β, if they vary.
     pub tips: Vec<TipDocument>,
-    /// Widths of the footprints, where several were given.
+    /// Widths of the footprints, if several were given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<Vec<f64>>,
-    /// Side lobes of the footprints, where they were given.
+    /// Side-lobe weights β of the footprints, if given.
     pub beta: Option<Vec<f64>>,
     /// Dimensionless support velocities r (12).
     pub r: Vec<f64>,
-    /// Dimensionless indentation rates α (13), where they were given as such.
+    /// Dimensionless indentation rates α (13), if given as such.
     pub alpha: Option<Vec<f64>>,
-    /// D, where they were given as αc(r) + D.
+    /// D, if they were given as αc(r) + D.
     pub alpha_above: Option<Vec<f64>>,
     /// Largest residual of (18) on a cycle, kσ/Γ.
     pub tolerance: f64,
-    /// Part of the points that is here, all without.
+    /// Part of the points in this document; by default all.
     pub shard: Option<ShardDocument>,
-    /// b of (61), in kσ²/a, where there is a depth limit.
+    /// b of (61), in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_limit: Option<f64>,
-    /// T, in Γ/k, where the surface heals.
+    /// T, in Γ/k, if the surface heals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub healing_time: Option<f64>,
-    /// M, in Γ²/k, where the tip has inertia.
+    /// M, in Γ²/k, if the tip has inertia.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
-    /// What else varies.
+    /// Further parameters that vary.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub axes: Vec<AxisDocument>,
-    /// The run that each point is, where it is one.
+    /// Parameters of the runs, if each point is a run from its own initial condition.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run: Option<SweepRunParameters>,
 }
 
 impl SweepParameters {
-    /// What a wider law adds.
+    /// The extensions of the basic model.
     #[must_use]
     pub fn wider(&self) -> Wider {
         let Self { depth_limit, healing_time, inertia, .. } = *self;
         Wider { depth_limit, healing_time, inertia, spring: true }
     }
 
-    /// The one r of all points, if there is one.
+    /// The value of r, if all points have the same.
     pub fn velocity(&self) -> Option<f64> {
         if let [r] = self.r.as_slice() { Some(*r) } else { None }
     }
 
-    /// The part that is here, be it the whole.
+    /// The part in this document; by default the whole.
     pub fn part(&self) -> ShardDocument {
         self.shard.unwrap_or(ShardDocument::WHOLE)
     }
 
-    /// Whether the point of this index is one of this part.
+    /// Whether the point with this index belongs to this part.
     pub fn has(&self, index: usize) -> bool {
         index < self.points() && self.part().has(index)
     }
 
-    /// Points of the whole grid.
+    /// Number of points of the whole grid.
     pub fn points(&self) -> usize {
         let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
         let points = self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas);
         points.saturating_mul(self.inner())
     }
 
-    /// Points of one footprint, r and α.
+    /// Number of points for each footprint, r and α.
     pub fn inner(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
     }
 
-    /// Values of the further axes at a point, by its index.
+    /// Values of the further axes at the point with this index.
     pub fn at(&self, index: usize) -> Vec<f64> {
         let mut rest = index;
         let last_first = self.axes.iter().rev().map(|axis| {
@@ -139,7 +139,7 @@ impl Tabular for SweepDocument {
         self.physical.as_ref()
     }
 
-    /// A row for each point. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
+    /// The points as a table. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
     fn columns(&self) -> Vec<Named<'_>> {
         let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
             self.points.iter().map(of).collect::<Vec<_>>().into()

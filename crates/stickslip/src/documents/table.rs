@@ -1,4 +1,4 @@
-//! What a document holds as columns and arrays, declared once: for CSV, for NumPy archives, for whoever wants numbers.
+//! Columns and arrays of a document, declared in one place for CSV and NumPy archives.
 
 use crate::InUnits;
 use std::borrow::Cow;
@@ -8,16 +8,16 @@ use std::borrow::Cow;
 pub enum Column<'a> {
     /// A number in each row.
     Numbers(Cow<'a, [f64]>),
-    /// A number, or none: an empty cell, NaN in an array.
+    /// A number or nothing: an empty cell, or NaN in an array.
     Optional(Cow<'a, [Option<f64>]>),
-    /// Each of `values` for `each` rows, and over again to the end of the table.
+    /// Each of `values` repeated for `each` rows, and the whole repeated to the end of the table.
     Repeated {
-        /// From the first row on.
+        /// Values, from the first row on.
         values: Cow<'a, [f64]>,
-        /// Rows that have the same.
+        /// Number of consecutive rows with the same value.
         each: usize,
     },
-    /// Words, and the numbers that stand for them in an array if there are any.
+    /// Words, and if defined the numbers that represent them in an array.
     Words(Vec<String>, Option<Vec<f64>>),
 }
 
@@ -29,26 +29,26 @@ pub type Named<'a> = (&'static str, Column<'a>);
 pub struct Array<'a> {
     /// Lengths of its axes.
     pub shape: Vec<usize>,
-    /// As many values as the product of these.
+    /// Values; their number is the product of these lengths.
     pub values: Cow<'a, [f64]>,
 }
 
-/// What can be had as a table, and as arrays.
+/// A document that can be written as a table (CSV) or as arrays (NPZ).
 pub trait Tabular {
-    /// The columns of its table; none where it is no table.
+    /// The columns of the table; empty if the document has no table.
     fn columns(&self) -> Vec<Named<'_>>;
 
-    /// What a reader of the table should know and no column says; a comment below it.
+    /// A comment below the table, for information that no column contains.
     fn note(&self) -> Option<String> {
         None
     }
 
-    /// Its numbers in physical units, where it was asked for these.
+    /// The numbers in physical units, if requested.
     fn physical(&self) -> Option<&InUnits> {
         None
     }
 
-    /// Its arrays: the columns, unless it has more, or others.
+    /// The arrays; by default the columns.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns();
         columns.into_iter().filter_map(|(name, column)| Some((name, column.array()?))).collect()
@@ -61,12 +61,12 @@ impl<'a> Column<'a> {
         Self::Numbers(values.into())
     }
 
-    /// A column of numbers that need not be there.
+    /// A column of numbers, some of which may be missing.
     pub fn optional(values: &'a [Option<f64>]) -> Self {
         Self::Optional(values.into())
     }
 
-    /// Every number of it times a factor.
+    /// The column multiplied by a factor.
     pub(crate) fn times(self, factor: f64) -> Column<'static> {
         let times = |values: &[f64]| values.iter().map(|v| v * factor).collect::<Vec<_>>();
         match self {
@@ -81,7 +81,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// The column as an array, if words do not stand in the way; a repeated one without its repetitions.
+    /// The column as an array, without repetitions; `None` for words without numbers.
     pub fn array(self) -> Option<Array<'a>> {
         let values = match self {
             Self::Numbers(values) | Self::Repeated { values, .. } => values,
@@ -105,7 +105,7 @@ impl From<Vec<Option<f64>>> for Column<'_> {
 }
 
 impl<'a> Array<'a> {
-    /// Every number of it times a factor.
+    /// The array multiplied by a factor.
     pub(crate) fn times(self, factor: f64) -> Array<'static> {
         let values: Vec<f64> = self.values.iter().map(|v| v * factor).collect();
         Array { shape: self.shape, values: values.into() }

@@ -17,7 +17,7 @@ pub struct UnitsDocument {
     pub format_version: u32,
     /// The program that wrote it.
     pub software: Software,
-    /// What was given.
+    /// The quantities given.
     pub parameters: UnitsParameters,
     /// α = Γ N a/(σ² k²), dimensionless, (13).
     pub alpha: f64,
@@ -25,23 +25,23 @@ pub struct UnitsDocument {
     pub r: f64,
     /// All six quantities.
     pub physical: PhysicalDocument,
-    /// By how much the tip lags behind the support in steady motion.
+    /// Steady lag of the tip behind the support.
     pub lag: LagDocument,
-    /// What one unit of the model is.
+    /// Units of the model in SI.
     pub scales: ScalesDocument,
-    /// Where stick-slip sets in.
+    /// Onset of stick-slip.
     pub critical: CriticalUnits,
     /// Whether steady motion is stable.
     pub stable: bool,
-    /// Why something is null; empty if nothing is.
+    /// Reasons for each null; may be empty.
     pub remarks: Vec<String>,
 }
 
 impl UnitsDocument {
-    /// Its `format`.
+    /// The value of the field `format`.
     pub const FORMAT: &'static str = "stickslip/units";
 
-    /// The model that these quantities make.
+    /// The document of these quantities.
     pub fn new(
         parameters: UnitsParameters,
         physical: &Physical,
@@ -70,7 +70,7 @@ impl UnitsDocument {
     }
 }
 
-/// What was given; null for what was solved for.
+/// The quantities given; null for a quantity that was solved for.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UnitsParameters {
@@ -90,7 +90,7 @@ pub struct UnitsParameters {
     pub velocity: Option<f64>,
     /// α, dimensionless.
     pub alpha: Option<f64>,
-    /// D, where α was given as αc(r) + D; dimensionless.
+    /// D, if α was given as αc(r) + D; dimensionless.
     pub alpha_above: Option<f64>,
     /// r, dimensionless.
     pub r: Option<f64>,
@@ -114,7 +114,7 @@ pub struct PhysicalDocument {
     pub velocity: f64,
 }
 
-/// D of (23).
+/// The steady lag D of (23).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LagDocument {
@@ -138,7 +138,7 @@ pub struct ScalesDocument {
     pub force: f64,
 }
 
-/// The onset of stick-slip, one quantity varied and all else as it is. Null where there is none.
+/// The onset of stick-slip if one quantity is varied and all others are fixed. Null if there is none.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalUnits {
@@ -150,7 +150,7 @@ pub struct CriticalUnits {
     pub period: Option<f64>,
     /// Wavelength at that N, in m.
     pub wavelength: Option<f64>,
-    /// rc(α), the largest, dimensionless.
+    /// rc(α), the largest one, dimensionless.
     pub r: Option<f64>,
     /// v0 in m/s below which there is stick-slip.
     pub velocity: Option<f64>,
@@ -181,7 +181,7 @@ impl From<Scales> for ScalesDocument {
 }
 
 impl UnitsDocument {
-    /// Every quantity: its name, its value where it has one, and its unit.
+    /// All quantities: name, value if there is one, and unit.
     pub fn quantities(&self) -> [(&'static str, Option<f64>, &'static str); 20] {
         let Self { physical, lag, scales, critical, .. } = self;
         [
@@ -210,7 +210,7 @@ impl UnitsDocument {
 }
 
 impl Tabular for UnitsDocument {
-    /// A row for each quantity, an empty value where there is none.
+    /// The quantities as a table; a missing value is an empty cell.
     fn columns(&self) -> Vec<Named<'_>> {
         let quantities = self.quantities();
         let words = |of: fn(&(&'static str, Option<f64>, &'static str)) -> String| {

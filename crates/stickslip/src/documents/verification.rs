@@ -1,35 +1,35 @@
-//! A run against a repetition.
+//! Comparison of a run with a repetition.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_verify::{Difference, Verification};
 
-/// The run against a repetition with another memory and a tighter tolerance.
+/// Comparison of a run with a repetition by another memory and a tighter tolerance.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VerificationDocument {
-    /// Whether all differences are allowed.
+    /// Whether all differences are within their limits.
     pub kept: bool,
     /// Memory of the repetition.
     pub memory: String,
-    /// Its tolerance, in σ.
+    /// Tolerance of the repetition, in σ.
     pub tolerance: f64,
-    /// In l, over all of the run: ten tolerances are allowed. Of a run without its history, in l and x0 of its
-    /// samples.
+    /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, difference of
+    /// l and x0 at its samples.
     pub l: LargestDifferenceDocument,
-    /// In the surface at the end; null for a run without its history. Allowed is what an allowed error of x0
-    /// does to it.
+    /// Difference of the surface at the end; null for a run without its history. The limit is the effect of an
+    /// allowed error of x0.
     pub u: Option<LargestDifferenceDocument>,
-    /// The first time, in Γ/k, at which l differs by more than is allowed; null where it never does.
+    /// The first time, in Γ/k, at which the difference of l exceeds its limit; null if it never does.
     pub trusted_until: Option<f64>,
-    /// What a small error of the start is amplified by, at most, in the course of the run.
+    /// Largest amplification of a small initial error during the run.
     pub amplification: f64,
-    /// The leading Lyapunov exponent, in k/Γ, as far as this run shows it: small errors grow (or die out)
-    /// like exp(exponent t). Null where the run is too short to tell.
+    /// Estimate of the leading Lyapunov exponent from this run, in k/Γ: small errors grow (or decay) like
+    /// exp(exponent t). Null if the run is too short for an estimate.
     pub lyapunov_exponent: Option<f64>,
 }
 
-/// A difference where it is largest against what is allowed there.
+/// The largest difference, relative to its limit.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LargestDifferenceDocument {
@@ -37,38 +37,38 @@ pub struct LargestDifferenceDocument {
     pub largest: f64,
     /// Time (of l, in Γ/k) or position (of u, in σ).
     pub at: f64,
-    /// What is allowed there, in the unit of the difference.
+    /// The limit at this place, in the unit of the difference.
     pub allowed: f64,
 }
 
-/// How much of a run written as lines there was, and which of them say what was found.
+/// Number of samples in a run written as lines, and the lines with differences.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LinesDocument {
-    /// Samples compared: all that there were.
+    /// Number of samples compared; all are.
     pub samples: u64,
-    /// Time of the last of them, in Γ/k.
+    /// Time of the last sample, in Γ/k.
     pub verified_until: f64,
-    /// How the run ended.
+    /// The end of the file.
     pub ending: EndingName,
-    /// Line, from 1, of the difference reported of l.
+    /// Number of the line, from 1, with the reported difference of l.
     pub line: u64,
-    /// Samples whose difference is not allowed: few where lines were damaged, most of those that follow where
-    /// the motion amplifies errors.
+    /// Number of samples with a difference beyond its limit: few if lines were damaged, most of the later ones if the
+    /// motion amplifies errors.
     pub wrong: u64,
-    /// The line of the first of these.
+    /// Number of the first of these lines.
     pub first_wrong_line: Option<u64>,
 }
 
-/// How the lines of a run end.
+/// The end of the lines of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EndingName {
-    /// The run came to its end.
+    /// The run is complete.
     Complete,
-    /// A signal stopped it, which its last line says.
+    /// A signal stopped the run, as reported in its last line.
     Interrupted,
-    /// They break off: the run was killed, or the file was cut.
+    /// The lines break off: the run was killed, or the file was truncated.
     CutOff,
 }
 

@@ -20,38 +20,39 @@ pub struct VerifyDocument {
     /// Everything that defines the run.
     #[serde(deserialize_with = "strictly")]
     pub parameters: Run,
-    /// What was found.
+    /// Comparison of the run with its repetition.
     pub verification: VerificationDocument,
-    /// What the run says of itself and a recomputation does not; empty where all of it follows.
+    /// Values in the document that differ from recomputed ones; empty if all agree.
     #[serde(default)]
     pub differences: Vec<ClaimDocument>,
-    /// How much of a run written as lines there was; null for a document.
+    /// Extent of a run written as lines; null for a document.
     pub lines: Option<LinesDocument>,
 }
 
-/// A value of a run that does not follow from its parameters and its motion.
+/// A value in the document of a run that differs from the recomputed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimDocument {
-    /// Such as `samples.lag` or `oscillation.period`.
+    /// The field, such as `samples.lag` or `oscillation.period`.
     pub field: String,
-    /// Time of the sample whose difference is largest against what is allowed, in Γ/k; null where it is no sample.
+    /// Time of the sample with the largest difference relative to its limit, in Γ/k; null for a field that is not
+    /// sampled.
     pub t: Option<f64>,
-    /// What stands there.
+    /// The value in the document.
     pub claimed: Value,
-    /// What was computed.
+    /// The recomputed value.
     pub computed: Value,
-    /// By how much a number may differ, in its unit; null for what is no number.
+    /// Allowed difference of a number, in its unit; null for other values.
     pub allowed: Option<f64>,
-    /// Entries of the field that differ by more than is allowed.
+    /// Number of entries of the field with a difference beyond its limit.
     pub count: u64,
 }
 
 impl VerifyDocument {
-    /// Its `format`.
+    /// The value of the field `format`.
     pub const FORMAT: &'static str = "stickslip/verify";
 
-    /// What was found of the run with these parameters.
+    /// The document of a verified run.
     pub fn new(
         parameters: Run,
         verification: VerificationDocument,
@@ -71,7 +72,7 @@ impl VerifyDocument {
 }
 
 impl Tabular for VerifyDocument {
-    /// None: there are no columns to what was found.
+    /// No columns: the result is not a table.
     fn columns(&self) -> Vec<Named<'_>> {
         vec![]
     }

@@ -1,4 +1,4 @@
-//! What a run took, and the steady motion that it is seen beside.
+//! Cost of a run, and the steady motion at its parameters.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,20 +10,20 @@ use stickslip_tip::{Model, Work};
 pub struct SteadyState {
     /// l0 = α f(0)/r, in σ.
     pub l: f64,
-    /// r + l0, the distance by which the tip lags behind the support, in σ.
+    /// r + l0, the lag of the tip behind the support, in σ.
     pub lag: f64,
-    /// Height far behind the tip, (25), in kσ²/a; null where ∫f is not finite.
+    /// Height far behind the tip, (25), in kσ²/a; null if ∫f is not finite.
     pub surface_behind: Option<f64>,
-    /// h0, the height under the tip, in kσ²/a, where there is a depth limit.
+    /// u0, the height under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
-    /// w0, the rate of indentation relative to α, where there is a depth limit.
+    /// w0, the rate of indentation relative to α, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
 }
 
 impl SteadyState {
-    /// That of a model; `None` where nothing drags the tip, or where its past has no end.
+    /// The steady motion of a model; `None` without a spring, or if the history integral diverges.
     pub fn of(model: &Model) -> Option<Self> {
         let there = model.wider().spring && model.steady_l().is_finite();
         there.then(|| Self::from(model))
@@ -44,13 +44,13 @@ impl From<&Model> for SteadyState {
     }
 }
 
-/// Counts that depend on the input alone, and the time that it took.
+/// Counts that depend on the input alone, and the time of the computation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkDocument {
     /// Memory in use at the end.
     pub memory: String,
-    /// Why that one.
+    /// Reason for the choice of this memory.
     pub memory_reason: String,
     /// Accepted steps.
     pub steps: u64,
@@ -58,18 +58,18 @@ pub struct WorkDocument {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]
     pub series: u64,
-    /// How often collocation took over from series.
+    /// Number of changes from Taylor steps to collocation.
     #[serde(default)]
     pub switches: u64,
-    /// Time of the integration alone, in seconds: the one field that differs from run to run.
+    /// Time of the integration alone, in seconds: the only field that differs between identical runs.
     pub seconds: f64,
 }
 
 impl WorkDocument {
-    /// What a run took in so many seconds with a memory of this name, chosen for that reason.
+    /// The cost of a run, with its time in seconds, the name of its memory and the reason for that choice.
     pub fn of(work: &Work, (memory, memory_reason): (&str, String), seconds: f64) -> Self {
         Self {
             memory: memory.into(),

@@ -1,12 +1,12 @@
-//! What a dimensionless number is a multiple of.
+//! Dimensions: the units of which a dimensionless number is a multiple.
 
 use super::KnownScales;
 
-/// Nanometres in a metre, nanonewtons in a newton.
+/// Number of nanometres in a metre, and of nanonewtons in a newton.
 const NANO: f64 = 1e9;
 
-/// Powers of σ, Γ/k, kσ²/a and kσ, the model's units of length, time, height and force. Heights are lengths, but in a
-/// unit of their own.
+/// Exponents of σ, Γ/k, kσ²/a and kσ, the model's units of length, time, height and force. Heights are lengths with
+/// their own unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dimension {
     length: i32,
@@ -31,12 +31,12 @@ impl Dimension {
     pub(super) const WORK: Self = of(1, 0, 0, 1);
     pub(super) const VOLUME: Self = of(2, 0, 1, 0);
     pub(super) const LYAPUNOV: Self = of(-2, -1, 0, 0);
-    /// Γ²/k is (kσ) (Γ/k)²/σ.
+    /// Dimension of inertia: Γ²/k = (kσ) (Γ/k)²/σ.
     pub(super) const INERTIA: Self = of(-1, 2, 0, 1);
-    /// αs are rates of indentation: N is α in units of (kσ²/a)/(Γ/k).
+    /// Dimension of the indentation rate: N is α in units of (kσ²/a)/(Γ/k).
     pub(super) const INDENTATION: Self = of(0, -1, 1, 0);
 
-    /// Of a unit as labels and descriptions write it, such as `kσ²/a`.
+    /// The dimension of a unit as written in labels and descriptions, such as `kσ²/a`.
     pub fn of_unit(unit: &str) -> Option<Self> {
         Some(match unit {
             "σ" => Self::LENGTH,
@@ -56,7 +56,7 @@ impl Dimension {
         })
     }
 
-    /// One of the model's unit in nm, s and nN; `None` where a scale that it needs is not known.
+    /// The model's unit of this dimension in nm, s and nN; `None` if a scale that it needs is unknown.
     pub fn factor(self, scales: &KnownScales) -> Option<f64> {
         let KnownScales { length, time, height, force } = *scales;
         let parts = [
@@ -70,12 +70,12 @@ impl Dimension {
         factor.product::<Option<f64>>().filter(|factor| factor.is_finite() && *factor > 0.0)
     }
 
-    /// Powers of nm, s and nN.
+    /// Exponents of nm, s and nN.
     fn powers(self) -> [(&'static str, i32); 3] {
         [("nN", self.force), ("nm", self.length + self.height), ("s", self.time)]
     }
 
-    /// What a name ends with that holds such a number, such as `nm_per_s`.
+    /// The suffix of names of such numbers, such as `nm_per_s`.
     pub fn suffix(self) -> String {
         let written = |(unit, power): (&str, i32)| match power.abs() {
             1 => unit.to_owned(),
@@ -87,7 +87,7 @@ impl Dimension {
         above.chain(below).collect::<Vec<_>>().join("_")
     }
 
-    /// Its unit as people write it, such as `nm/s`.
+    /// The unit in its usual notation, such as `nm/s`.
     pub fn unit(self) -> String {
         let written = |(unit, power): (&str, i32)| match power.abs() {
             1 => unit.to_owned(),

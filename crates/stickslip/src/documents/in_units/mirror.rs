@@ -1,10 +1,10 @@
-//! The numbers of a document again, in nm, s and nN.
+//! A copy of the numbers of a document in nm, s and nN.
 
 use super::names::{DIMENSIONLESS, dimension};
 use super::{Dimension, KnownScales};
 use serde_json::{Map, Number, Value};
 
-/// The part called `part`, with what has a dimension alone, under names with units.
+/// The numbers with a dimension in the part called `part`, under names with units.
 pub(super) fn mirror(
     part: &str,
     fields: &Map<String, Value>,
@@ -33,7 +33,7 @@ pub(super) fn mirror(
     values
 }
 
-/// v0 and N, where r and α are one number each.
+/// v0 and N, for parameters with a single r and α.
 pub(super) fn of_parameters(
     fields: &Map<String, Value>,
     scales: &KnownScales,
@@ -50,7 +50,7 @@ pub(super) fn of_parameters(
     named.into_iter().filter_map(one).collect()
 }
 
-/// Of what has parts of its own; `None` where no number in it has a dimension.
+/// The numbers of a part with sub-parts; `None` if none has a dimension.
 fn below(name: &str, value: &Value, scales: &KnownScales) -> Option<Value> {
     match value {
         Value::Object(fields) => {
@@ -69,7 +69,7 @@ fn below(name: &str, value: &Value, scales: &KnownScales) -> Option<Value> {
     }
 }
 
-/// A number, or nothing but numbers and gaps between them.
+/// Whether a value is a number or a list of numbers and nulls.
 fn is_numbers(value: &Value) -> bool {
     match value {
         Value::Number(_) => true,

@@ -1,9 +1,8 @@
-//! Documents in nm, s and nN: beside the dimensionless numbers, which stay, the same ones times the scales of an
+//! Documents in nm, s and nN: the dimensionless numbers are kept, and copies are multiplied by the scales of an
 //! experiment, σ for lengths, Γ/k for times, kσ²/a for heights and kσ for forces.
 //!
-//! One rule for all documents, tables and figures: what each number is a multiple of is said once, by its name, in
-//! [`dimension`]; how a multiple becomes a number with a unit, by [`Dimension`]. A scale that is not known leaves
-//! what needs it out.
+//! All documents, tables and figures follow one rule: [`dimension`] defines the dimension of each number by its name,
+//! and [`Dimension`] converts it to a number with a unit. Numbers whose scale is unknown are omitted.
 
 mod dimension;
 mod mirror;
@@ -16,33 +15,33 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// SI values of one of the model's units; null where they are not known.
+/// SI values of the model's units; null if unknown.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KnownScales {
-    /// σ in m, of lengths.
+    /// σ in m, the unit of length.
     pub length: Option<f64>,
-    /// Γ/k in s, of times.
+    /// Γ/k in s, the unit of time.
     pub time: Option<f64>,
-    /// kσ²/a in m, of heights.
+    /// kσ²/a in m, the unit of height.
     pub height: Option<f64>,
-    /// kσ in N, of forces.
+    /// kσ in N, the unit of force.
     pub force: Option<f64>,
 }
 
-/// Numbers of a document in nm, s and nN: each as there, with its unit behind its name, in parts of the same names.
+/// Numbers of a document in nm, s and nN, under the same names followed by the unit, in parts of the same names.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InUnits {
-    /// By what they are multiplied.
+    /// Scales of the conversion.
     pub scales: KnownScales,
-    /// Such as `period_s`, or `samples` with its `x0_nm`; `support_velocity_nm_per_s` is v0 and
-    /// `indentation_rate_nm_per_s` N, of r and α. `lateral_force_nN` is k times the lag.
+    /// The numbers, such as `period_s`, or `samples` with its `x0_nm`; `support_velocity_nm_per_s` is v0 and
+    /// `indentation_rate_nm_per_s` N, from r and α. `lateral_force_nN` is k times the lag.
     #[serde(flatten)]
     pub values: Map<String, Value>,
 }
 
 impl InUnits {
-    /// Those of a document.
+    /// The converted numbers of a document.
     pub(crate) fn of(document: &Value, scales: &KnownScales) -> Self {
         let none = Map::new();
         let fields = document.as_object().unwrap_or(&none);

@@ -1,18 +1,18 @@
-//! Which number of a document, or column of a table, has which dimension.
+//! The dimension of each number of a document and of each column of a table.
 
 use super::Dimension;
 
-/// Parts of documents that stay as they are: what was asked for, what is there to compute with, what it took.
+/// Parts of documents that are not converted: parameters, histories, cost.
 pub(super) const DIMENSIONLESS: [&str; 7] =
     ["parameters", "history", "work", "software", "verification", "physical", "floquet"];
 
 /// The dimension of the number, or of the numbers, called `name` in the part called `part` (empty for a column of a
-/// table); `None` where it has none.
+/// table); `None` if it has none.
 pub fn dimension(part: &str, name: &str) -> Option<Dimension> {
     of_part(part, name).or_else(|| of_name(name))
 }
 
-/// Where the name alone does not tell.
+/// The dimension of a number whose name alone is ambiguous.
 fn of_part(part: &str, name: &str) -> Option<Dimension> {
     Some(match (part, name) {
         ("residue", "re" | "im") => Dimension::LENGTH,

@@ -6,32 +6,32 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
 
-/// A raster against the full PDE on rows of cells. Lengths in σ, times in Γ/k, heights in kσ²/a; times are counted from
-/// the start of each line.
+/// Comparison of a raster with the full PDE on rows of cells. Lengths in σ, times in Γ/k, heights in kσ²/a; times
+/// count from the start of each line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterCompareFound {
     /// The lines in the order in which they were scanned.
     pub lines: Vec<ComparedLine>,
-    /// Positions of the surfaces below, which are those after the last line, in σ.
+    /// Positions of the surfaces below, in σ; the surfaces are those after the last line.
     pub x: Vec<f64>,
     /// The rows, one at the y of every line, ascending, in σ.
     pub y: Vec<f64>,
-    /// Heights by the closed equation, in kσ²/a: a row for each y.
+    /// Heights from the closed equation, in kσ²/a: a row for each y.
     pub closed_u: Vec<Vec<f64>>,
-    /// Heights of the cells, in kσ²/a.
+    /// Heights from the grid, in kσ²/a.
     pub grid_u: Vec<Vec<f64>>,
-    /// How far they are apart.
+    /// Largest differences between the two.
     pub max_difference: DifferenceDocument,
-    /// What the closed equation took.
+    /// Cost of the closed equation.
     pub closed_work: RasterComparedWork,
-    /// What the cells took.
+    /// Cost of the grid.
     pub grid_work: GridWork,
     /// Seconds of the grid over seconds of the closed equation. It differs from run to run, as `seconds` do.
     pub speedup: f64,
 }
 
-/// The document of that.
+/// A comparison of rasters and the question that it answers.
 pub type RasterCompareDocument = Document<RasterCompareParameters>;
 
 impl Question for RasterCompareParameters {
@@ -39,7 +39,7 @@ impl Question for RasterCompareParameters {
     type Answer = RasterCompareFound;
 }
 
-/// What was asked for.
+/// The parameters of the comparison.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct RasterCompareParameters {
     /// The raster.
@@ -49,9 +49,9 @@ pub struct RasterCompareParameters {
     pub grid: GridName,
     /// Δx of the cells, in σ.
     pub spacing: f64,
-    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null where all steps have one length.
+    /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null if the step is constant.
     pub grid_tolerance: Option<f64>,
-    /// That length, in Γ/k; null where steps are adaptive.
+    /// Constant length of all steps, in Γ/k; null if steps are adaptive.
     pub step: Option<f64>,
 }
 
@@ -59,17 +59,17 @@ pub struct RasterCompareParameters {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedLine {
-    /// Where it lies, in σ.
+    /// y of the line, in σ.
     pub y: f64,
-    /// Times since its start, in Γ/k: those asked for, or the ends of the grid's own steps.
+    /// Times since the start of the line, in Γ/k: those requested, or the ends of the grid's steps.
     pub t: Vec<f64>,
-    /// x0 by the closed equation, in σ.
+    /// x0 from the closed equation, in σ.
     pub closed_x0: Vec<f64>,
-    /// x0 by the grid, in σ.
+    /// x0 from the grid, in σ.
     pub grid_x0: Vec<f64>,
 }
 
-/// Counts that depend on the input alone, and the time that it took.
+/// Counts that depend on the input alone, and the time of the computation.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterComparedWork {
@@ -79,26 +79,26 @@ pub struct RasterComparedWork {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Shortest time of as many repetitions as half a second allows, at least one, in seconds.
+    /// Shortest time in seconds of repetitions during half a second, at least one.
     pub seconds: f64,
 }
 
-/// What a grid has to say of a raster.
+/// Results of a grid for a raster.
 pub struct RasterCompared {
     /// Positions along rows.
     pub x: Vec<f64>,
-    /// Times since the start of each line, and x0.
+    /// For each line, times since its start with x0.
     pub motions: Vec<Vec<(f64, f64)>>,
-    /// The rows.
+    /// y of the rows.
     pub y: Vec<f64>,
     /// Heights, a row for each y.
     pub u: Vec<Vec<f64>>,
-    /// What it took.
+    /// Cost of the grid.
     pub work: GridWork,
 }
 
 impl RasterCompareFound {
-    /// Of a plan, its lines and the seconds they took, and of what the grid made of it.
+    /// The comparison of a plan, its lines and their computing time in seconds with the result of the grid.
     #[must_use]
     pub fn new((plan, lines, seconds): (&Plan, &[Line], f64), grid: RasterCompared) -> Self {
         let compared = |(line, motion): (&Line, &Vec<(f64, f64)>)| {
@@ -134,14 +134,14 @@ impl RasterCompareFound {
     }
 }
 
-/// NaN where any is.
+/// The largest difference; NaN if any is NaN.
 fn largest<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     let differences = pairs.map(|(a, b)| (a - b).abs());
     differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }
 
 impl Tabular for RasterCompareFound {
-    /// Both motions, line after line.
+    /// Both motions as a table, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&ComparedLine) -> &Vec<f64>| -> Column {
             self.lines.iter().flat_map(of).copied().collect::<Vec<_>>().into()
@@ -156,7 +156,7 @@ impl Tabular for RasterCompareFound {
         ]
     }
 
-    /// Motions one after the other, and both surfaces.
+    /// Motions one after the other, and both surfaces, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns().into_iter();
         let mut arrays: Vec<_> =

@@ -1,4 +1,4 @@
-//! What the lines of a raster have written.
+//! Results of a raster: its lines and their pattern.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{PatternDocument, RasterHistory, RasterLine, RasterRegimeName, RasterSamples};
@@ -6,22 +6,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Written, pattern, volume};
 
-/// Scan lines beside each other on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times are
-/// counted from the start of each line.
+/// Neighbouring scan lines on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times count
+/// from the start of each line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterFound {
     /// The lines in the order in which they were scanned.
     pub lines: Vec<RasterLine>,
-    /// What they have written.
+    /// The regime of the surface.
     pub regime: RasterRegimeName,
     /// The ripple; null where there is none.
     pub pattern: Option<PatternDocument>,
     /// ∫∫ u dx dy, in kσ⁴/a: -α (X/r) ∫∫f for each line.
     pub volume: f64,
-    /// The dense history of all lines: what `surface` works from.
+    /// The dense history of all lines, from which `surface` is computed.
     pub history: RasterHistory,
-    /// What it took.
+    /// Cost of the raster.
     pub work: RasterWork,
 }
 
@@ -35,17 +35,17 @@ pub struct RasterWork {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]
     pub series: u64,
-    /// How often collocation took over from series.
+    /// Number of changes from Taylor steps to collocation.
     #[serde(default)]
     pub switches: u64,
 }
 
 impl RasterFound {
-    /// What these lines of a plan have written, sampled at these times since the start of each line, as far as it lasts; and
-    /// remarks on it.
+    /// The result for these lines of a plan, each sampled at these times since its start, as far as it lasts; and
+    /// warnings.
     pub(crate) fn of(plan: &Plan, lines: &[Line], times: &[f64]) -> (Self, Vec<String>) {
         let Written { regime, pattern: found, doubts } = pattern(plan, lines);
         let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
@@ -68,7 +68,7 @@ impl RasterFound {
 }
 
 impl Tabular for RasterFound {
-    /// A row for each sample, line after line.
+    /// The samples as a table, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
             self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
@@ -88,8 +88,8 @@ impl Tabular for RasterFound {
         ]
     }
 
-    /// `x0`, `lag` and `velocity` have a row for each line, with NaN where one has ended; the history is that of all lines one
-    /// after the other, `history_steps` of them for each.
+    /// `x0`, `lag` and `velocity` have a row for each line, filled with NaN after its end; the histories of all lines
+    /// are concatenated, with `history_steps` steps for each.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let Some(longest) = self.lines.iter().max_by_key(|line| line.samples.t.len()) else {
             return vec![];

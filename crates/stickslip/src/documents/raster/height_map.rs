@@ -4,25 +4,25 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, Line, Path, Plan, Scanned};
 
-/// u(x,y).
+/// The height map u(x,y).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightMap {
     /// Positions along the lines, in σ.
     pub x: Vec<f64>,
-    /// Positions across them, in σ.
+    /// Positions across the lines, in σ.
     pub y: Vec<f64>,
     /// Heights, in kσ²/a: a row for each y.
     pub u: Vec<Vec<f64>>,
 }
 
-/// Points in a width of the tip,
+/// Points per width of the tip, along a line.
 const POINTS: f64 = 4.0;
-/// but no more along a line than these.
+/// Largest number of points along a line.
 const MOST: f64 = 4000.0;
-/// Heights in a map: 80 MB.
+/// Largest number of heights in a map: 80 MB.
 const MOST_HEIGHTS: f64 = 1e7;
-/// Rows over a line that was scanned again and again, on either side.
+/// Number of rows on either side of a line that was scanned repeatedly.
 const ROWS_BESIDE: usize = 20;
 
 impl HeightMap {
@@ -51,7 +51,7 @@ impl HeightMap {
     }
 }
 
-/// The lines, or evenly spaced rows over them, no more of these than lines.
+/// y of the rows: the lines, or at most as many evenly spaced rows over the same range.
 fn rows(plan: &Plan) -> Vec<f64> {
     let y: Vec<f64> = (0..plan.lines()).map(|n| plan.track(n).y).collect();
     if matches!(plan.area, Area::Rectangle { .. }) || plan.area.pitch(plan.path).is_some() {

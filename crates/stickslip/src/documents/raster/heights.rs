@@ -8,7 +8,7 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Surfaces read off a raster. Lengths in σ, heights in kσ²/a.
+/// Surfaces of a raster. Lengths in σ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterSurfaceDocument {
@@ -18,18 +18,18 @@ pub struct RasterSurfaceDocument {
     pub format_version: u32,
     /// The program that wrote it.
     pub software: Software,
-    /// Those of the raster.
+    /// The parameters of the raster.
     #[serde(deserialize_with = "strictly")]
     pub parameters: Raster,
     /// One surface, after the last line.
     pub surfaces: Vec<HeightMap>,
-    /// Numbers of it in nm, s and nN, where it was asked for these.
+    /// The numbers in nm, s and nN, if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub physical: Option<InUnits>,
 }
 
 impl RasterSurfaceDocument {
-    /// Its `format`.
+    /// The value of the field `format`.
     pub const FORMAT: &'static str = "stickslip/raster-surface";
 
     /// The heights of a raster at every y and every x.
@@ -55,7 +55,7 @@ impl Physical for RasterSurfaceDocument {
 }
 
 impl Tabular for RasterSurfaceDocument {
-    /// A row for each place.
+    /// A row for each position.
     fn columns(&self) -> Vec<Named<'_>> {
         let Some(HeightMap { x, y, u }) = self.surfaces.first() else { return vec![] };
         vec![

@@ -7,31 +7,32 @@ use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
 use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Work, nodes_and_weights};
 
-/// One line.
+/// One scan line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterLine {
-    /// Where it lies, in σ.
+    /// y of the line, in σ.
     pub y: f64,
-    /// The motion at the times asked for.
+    /// The motion at the sample times.
     pub samples: RasterSamples,
-    /// The kind of motion.
+    /// The regime of the motion.
     pub regime: LineRegimeName,
 }
 
-/// Kinds of motion along a line.
+/// Regimes of motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LineRegimeName {
-    /// The lag changes by less than 2 % between a fifth of the line and 85 % of it.
+    /// The lag changes by less than 2 % between 20 % and 85 % of the line.
     Steady,
-    /// It changes by more.
+    /// The lag changes by more.
     StickSlip,
-    /// The tip went less than half of the line: it stayed in a pit at an end of it.
+    /// The tip covered less than half of the line: it stayed in a pit at one of its ends.
     StuckAtTheEdge,
 }
 
-/// Columns of equal length, on the surface: x0 falls and lags are negative where a line goes towards smaller x.
+/// Columns of equal length, in the frame of the surface: on a line towards smaller x, x0 decreases and lags are
+/// negative.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterSamples {
@@ -39,25 +40,25 @@ pub struct RasterSamples {
     pub t: Vec<f64>,
     /// Position of the tip, in σ.
     pub x0: Vec<f64>,
-    /// R - x0, by which the support is ahead in x, in σ; as a force, in kσ.
+    /// R - x0, in σ; as a force, in kσ.
     pub lag: Vec<f64>,
     /// x0', in kσ/Γ: one order less accurate than x0.
     pub velocity: Vec<f64>,
-    /// Height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    /// Height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<f64>>,
 }
 
-/// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and goes to
-/// larger x. On the way back of a zigzag the tip is at X - x0 on the surface.
+/// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and moves to
+/// larger x. On the retrace of a zigzag the position of the tip on the surface is X - x0.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterHistory {
-    /// Collocation nodes (Radau IIA), as parts of a step.
+    /// Collocation nodes (Radau IIA), as fractions of a step.
     pub nodes: Vec<f64>,
-    /// Quadrature weights of the nodes, as parts of a step.
+    /// Quadrature weights of the nodes, as fractions of a step.
     pub weights: Vec<f64>,
-    /// Each as in the history of a run.
+    /// The lines, each in the form of the history of a run.
     pub lines: Vec<LineHistory>,
 }
 
@@ -69,34 +70,34 @@ pub struct LineHistory {
     pub t: Vec<f64>,
     /// rt - x0 at the start of each step, in σ.
     pub extension: Vec<f64>,
-    /// x0 less its value at the start of the step, at the nodes, in σ.
+    /// x0 at the nodes minus x0 at the start of the step, in σ.
     pub displacement: Vec<Vec<f64>>,
-    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, where there is a
-    /// depth limit.
+    /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, if there is a depth
+    /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<Vec<f64>>>,
 }
 
-/// A finished line of a raster under way.
+/// A finished line of an unfinished raster.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptLine {
-    /// Counted from 0.
+    /// Index of the line, from 0.
     pub index: usize,
-    /// Start, duration, extension and displacements of each step, to the last bit.
+    /// Start, duration, extension and displacements of each step, bit by bit.
     pub steps: Vec<[f64; 3 + STAGES]>,
-    /// The heights of each step, where there is a depth limit.
+    /// The heights of each step, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heights: Option<Vec<Vec<f64>>>,
-    /// Accepted steps, rejected ones, and Newton iterations.
+    /// Numbers of accepted steps, rejected steps, and Newton iterations.
     pub work: [u64; 3],
-    /// Taylor series, and how often collocation took over from them.
+    /// Numbers of Taylor expansions and of changes from them to collocation.
     #[serde(default)]
     pub series: [u64; 2],
 }
 
 impl RasterLine {
-    /// Sampled at those of these times at which it lasts.
+    /// The samples of a line, at those of these times at which it lasts.
     pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
         let duration = line.trajectory().end();
         let lasts = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12));
@@ -152,10 +153,10 @@ impl RasterHistory {
         Self { nodes: nodes.to_vec(), weights: weights.to_vec(), lines }
     }
 
-    /// The lines of a plan that it tells of; their counts are not known.
+    /// The lines of a plan with this history; their counts of work are unknown.
     ///
     /// # Errors
-    /// There are not as many as planned, or one was damaged.
+    /// The number of lines differs from the plan, or a line is damaged.
     pub(crate) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
         let (found, wanted) = (self.lines.len(), plan.lines());
         if found != wanted {
@@ -193,7 +194,7 @@ impl RasterHistory {
     }
 }
 
-/// How far the tip was outside of where its support goes, at most, in σ.
+/// Largest distance of the tip from the range of its support, in σ.
 fn outside(line: &Line) -> f64 {
     let motion = line.trajectory();
     let (positions, _) = motion.residence(motion.end());
@@ -201,7 +202,7 @@ fn outside(line: &Line) -> f64 {
 }
 
 impl KeptLine {
-    /// Line `index`, counted from 0.
+    /// The line with this index, from 0.
     #[must_use]
     pub fn of(index: usize, line: &Line) -> Self {
         let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
@@ -216,10 +217,10 @@ impl KeptLine {
         }
     }
 
-    /// The line again.
+    /// The line, reconstructed.
     ///
     /// # Errors
-    /// It is none of this plan.
+    /// The line does not belong to this plan.
     pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
         let steps = self.steps().ok_or_else(|| {
             Unusable::new(format!("line {} has no steps, or no heights of them", self.index + 1))
@@ -233,7 +234,7 @@ impl KeptLine {
         Ok(line)
     }
 
-    /// `None` if there are none, or not as many heights.
+    /// The steps of the line; `None` if there are none, or if the number of heights differs.
     fn steps(&self) -> Option<Vec<Step>> {
         let steps = self.steps.iter().map(step);
         let steps: Vec<Step> = match &self.heights {
@@ -252,7 +253,7 @@ impl KeptLine {
     }
 }
 
-/// All of a step but its heights.
+/// All numbers of a step except its heights.
 fn numbers(step: &Step) -> [f64; 3 + STAGES] {
     let mut numbers = [0.0; 3 + STAGES];
     numbers[..3].copy_from_slice(&[step.t, step.h, step.extension]);
@@ -260,7 +261,7 @@ fn numbers(step: &Step) -> [f64; 3 + STAGES] {
     numbers
 }
 
-/// The step again.
+/// The step with these numbers.
 fn step(numbers: &[f64; 3 + STAGES]) -> Step {
     let [t, h, extension, displacement @ ..] = *numbers;
     Step { t, h, extension, displacement, height: None }

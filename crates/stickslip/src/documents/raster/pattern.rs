@@ -1,62 +1,64 @@
-//! What a raster has written.
+//! The pattern of a raster.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
 
-/// Kinds of surface.
+/// Regimes of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RasterRegimeName {
-    /// No ripples, but for what fades from the edges at which lines begin.
+    /// No ripples, except those that decay from the edges at which lines begin.
     Steady,
-    /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
+    /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
-    /// Crests broken into pits, lines still following each other.
+    /// Crests broken into pits; neighbouring lines are still correlated.
     Pits,
-    /// Neither.
+    /// Neither ripples nor pits.
     Disordered,
-    /// On most lines the tip did not leave the pit at an end of them.
+    /// On most lines the tip did not leave the pit at one end.
     StuckAtTheEdge,
-    /// Too few or too short lines for a regime, or the same line over and over; `remarks` say what would be enough.
+    /// Too few or too short lines for a regime, or one line scanned repeatedly; `remarks` state how many lines would
+    /// be sufficient.
     Unknown,
 }
 
-/// The strongest ripple e^{i(qx + κy)}, the highest maximum of the power spectrum of the last half of the lines. Errors are
-/// halves of 95 % intervals. Where these lines do not determine a number it is null, and `remarks` say why.
+/// The strongest ripple e^{i(qx + κy)}, the highest maximum of the power spectrum of the last half of the lines.
+/// Errors are halves of 95 % intervals. A number that these lines do not determine is null, with the reason in
+/// `remarks`.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PatternDocument {
-    /// Wave number along the lines, in 1/σ; null where several waves are about as strong.
+    /// Wave number along the lines, in 1/σ; null if several waves have about the same power.
     pub q: Option<f64>,
-    /// Wave number κ across the lines, in 1/σ; null as q, and at ±π/pitch, where its sign is undefined.
+    /// Wave number κ across the lines, in 1/σ; null if q is, and at ±π/pitch, where its sign is undefined.
     pub kappa: Option<f64>,
-    /// 2π/√(q² + κ²), in σ; null also where ripples still grow or fade from line to line.
+    /// 2π/√(q² + κ²), in σ; null also if ripples still grow or decay from line to line.
     pub wavelength: Option<f64>,
     /// Error of the wavelength (95 %), in σ.
     #[serde(default)]
     pub wavelength_error: Option<f64>,
-    /// Between crests and scan axis, atan(q/|κ|), in degrees.
+    /// Angle between crests and scan axis, atan(q/|κ|), in degrees.
     pub crest_angle: Option<f64>,
     /// Error of the crest angle (95 %), in degrees.
     #[serde(default)]
     pub crest_angle_error: Option<f64>,
-    /// How far each line is the one before, shifted: 1 where all shifts are the same.
+    /// Coherence: the correlation of each line with the one before, after a shift; 1 if all shifts are equal.
     pub coherence: f64,
     /// Error of the coherence (95 %).
     #[serde(default)]
     pub coherence_error: Option<f64>,
-    /// The same of lines that go the same way, on a zigzag.
+    /// Coherence of lines in the same direction, on a zigzag.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coherence_same_way: Option<f64>,
     /// Half peak-to-peak of the surface, in kσ²/a.
     pub amplitude: f64,
-    /// Places where a crest begins or ends.
+    /// Number of places at which a crest begins or ends.
     pub defects: usize,
 }
 
 impl PatternDocument {
-    /// Such as "4.57 ± 0.33 σ", and "46 ± 3°"; `None` where it is not known.
+    /// Wavelength and crest angle, such as "4.57 ± 0.33 σ" and "46 ± 3°"; `None` if unknown.
     #[must_use]
     pub fn in_words(&self) -> [Option<String>; 2] {
         let of = |value: Option<f64>, error: Option<f64>, unit: &str| {
@@ -73,7 +75,7 @@ impl PatternDocument {
     }
 }
 
-/// With as many places as give the error two digits.
+/// A value with its error, rounded so that the error has two digits.
 fn with_error(value: f64, error: f64) -> String {
     let places = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.places$} ± {error:.places$}")

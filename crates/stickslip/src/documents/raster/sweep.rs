@@ -13,7 +13,7 @@ use stickslip_raster::Written;
 pub struct RasterSweepFound {
     /// The points, by rising index.
     pub points: Vec<RasterSweepPoint>,
-    /// How the machine that computed the points rounds, as for `stickslip/sweep`.
+    /// Floating-point arithmetic of the machine that computed the points, as for `stickslip/sweep`.
     #[serde(default)]
     pub arithmetic: Option<String>,
     /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
@@ -21,7 +21,7 @@ pub struct RasterSweepFound {
     pub crc32: Option<u32>,
 }
 
-/// The document of that.
+/// A sweep of rasters and the question that it answers.
 pub type RasterSweepDocument = Document<RasterSweepParameters>;
 
 impl Question for RasterSweepParameters {
@@ -29,7 +29,7 @@ impl Question for RasterSweepParameters {
     type Answer = RasterSweepFound;
 }
 
-/// Pitches times α, the last varying fastest, and what they share.
+/// A grid of pitches times α, the last varying fastest, and the common parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterSweepParameters {
@@ -40,7 +40,7 @@ pub struct RasterSweepParameters {
     /// b of (61), in kσ²/a.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_limit: Option<f64>,
-    /// T in which the surface heals, in Γ/k.
+    /// Healing time T, in Γ/k.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub healing_time: Option<f64>,
     /// M, in Γ²/k.
@@ -48,7 +48,7 @@ pub struct RasterSweepParameters {
     pub inertia: Option<f64>,
     /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
     pub width_y: Option<f64>,
-    /// How the support goes from one line to the next.
+    /// The path of the support from one line to the next.
     pub path: PathName,
     /// Distances of the lines, in σ.
     pub pitch: Vec<f64>,
@@ -56,56 +56,56 @@ pub struct RasterSweepParameters {
     pub alpha: Vec<f64>,
     /// Lines of each raster.
     pub lines: usize,
-    /// X, how far the support goes along each, in σ.
+    /// X, the distance that the support moves along each line, in σ.
     pub length: f64,
-    /// Error of x0 on each line asked for, in σ.
+    /// Requested error of x0 on each line, in σ.
     pub tolerance: f64,
-    /// Part of the points that is here, all without.
+    /// Part of the points in this document; by default all.
     #[serde(default)]
     pub shard: Option<ShardDocument>,
 }
 
 impl RasterSweepParameters {
-    /// The part that is here, be it the whole.
+    /// The part in this document; by default the whole.
     #[must_use]
     pub fn part(&self) -> ShardDocument {
         self.shard.unwrap_or(ShardDocument::WHOLE)
     }
 
-    /// Points of the whole grid.
+    /// Number of points of the whole grid.
     #[must_use]
     pub fn points(&self) -> usize {
         self.pitch.len().saturating_mul(self.alpha.len())
     }
 }
 
-/// One raster.
+/// One raster of the grid.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterSweepPoint {
-    /// Its place in the grid.
+    /// Index in the grid.
     pub index: usize,
     /// Distance of the lines, in σ.
     pub pitch: f64,
     /// α, dimensionless.
     pub alpha: f64,
-    /// α above which ripples grow from line to line, by linear theory; null where that has none.
+    /// α above which ripples grow from line to line, by linear theory; null if it has no threshold.
     pub critical_alpha: Option<f64>,
-    /// What the lines have written; null where `error` says why.
+    /// The regime of the surface; null if `error` is given.
     pub regime: Option<RasterRegimeName>,
     /// The ripple; null where there is none.
     pub pattern: Option<PatternDocument>,
-    /// Lines on which the tip did not leave the pit at an end of them.
+    /// Number of lines on which the tip did not leave the pit at one end.
     pub stuck_lines: Option<usize>,
-    /// Why something of the pattern is unknown, or may differ after more lines.
+    /// Warnings: a part of the pattern is unknown, or may differ after more lines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
-    /// Why nothing is known.
+    /// The reason why there is no result.
     pub error: Option<String>,
 }
 
 impl RasterSweepPoint {
-    /// Of which nothing is known yet.
+    /// A point without results.
     #[must_use]
     pub fn at(index: usize, (pitch, alpha): (f64, f64), critical_alpha: Option<f64>) -> Self {
         Self {
@@ -121,7 +121,7 @@ impl RasterSweepPoint {
         }
     }
 
-    /// The same with what was found.
+    /// The point with its results.
     #[must_use]
     pub fn written(self, found: &Written, stuck: usize) -> Self {
         Self {

@@ -1,13 +1,13 @@
-//! What a sweep varies beside footprint, r and α.
+//! Further axes of a sweep, besides footprint, r and α.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A parameter by its option, and its values.
+/// A parameter, named by its option, with its values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AxisDocument {
-    /// Which one.
+    /// The parameter.
     pub name: AxisName,
     /// Its values, in its own unit.
     pub values: Vec<f64>,
@@ -17,28 +17,28 @@ pub struct AxisDocument {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxisName {
-    /// b of (61), in kσ²/a.
+    /// Depth limit b of (61), in kσ²/a.
     DepthLimit,
-    /// T, in Γ/k.
+    /// Healing time T, in Γ/k.
     HealingTime,
-    /// M, in Γ²/k.
+    /// Inertia M, in Γ²/k.
     Inertia,
-    /// X, in σ.
+    /// Start position X, in σ.
     StartPosition,
-    /// D, in σ.
+    /// Kick D, in σ.
     Kick,
-    /// V, in kσ/Γ.
+    /// Start velocity V, in kσ/Γ.
     StartVelocity,
     /// Amplitude of the noise on the initial surface, in kσ²/a.
     Noise,
-    /// Of the grid of the noise, in σ.
+    /// Spacing of the grid of the noise, in σ.
     NoiseSpacing,
-    /// Of the noise.
+    /// Seed of the noise.
     Seed,
 }
 
 impl AxisName {
-    /// Its option without hyphens, as a column is named.
+    /// The name of its option without hyphens, used for columns.
     pub fn column(self) -> &'static str {
         match self {
             Self::DepthLimit => "depth_limit",
@@ -53,7 +53,7 @@ impl AxisName {
         }
     }
 
-    /// Its label with its unit.
+    /// The label, with its unit.
     pub fn label(self) -> &'static str {
         match self {
             Self::DepthLimit => "depth limit b (kσ²/a)",

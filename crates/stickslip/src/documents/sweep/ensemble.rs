@@ -1,35 +1,35 @@
-//! Points that differ in the seed of their noise alone, taken together.
+//! Ensembles: points that differ only in the seed of their noise.
 
 use super::{AxisName, SweepParameters, SweepPoint};
 use crate::RegimeName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What points come to that differ in the seed of their noise alone.
+/// Statistics of points that differ only in the seed of their noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EnsembleDocument {
-    /// Index of the first of them; the others follow it.
+    /// Index of the first point; the others follow it.
     pub first: usize,
-    /// How many there are.
+    /// Number of points.
     pub count: usize,
-    /// How many end in each regime.
+    /// Number of points in each regime.
     pub regimes: RegimeCounts,
-    /// Of the periods of those in stick-slip, in Γ/k; null where none is.
+    /// Statistics of the periods of points in stick-slip, in Γ/k; null if there are none.
     pub period: Option<StatisticsDocument>,
-    /// Of their wavelengths, in σ.
+    /// Statistics of the wavelengths of these points, in σ.
     pub wavelength: Option<StatisticsDocument>,
-    /// Of their amplitudes, in σ.
+    /// Statistics of the amplitudes of these points, in σ.
     pub amplitude_x0: Option<StatisticsDocument>,
-    /// Of the amplitudes of the surface that they leave, in kσ²/a.
+    /// Statistics of the amplitudes of the surface far behind the tip, in kσ²/a.
     pub amplitude_u: Option<StatisticsDocument>,
-    /// Of the mean of l over the second half of each run, in σ, whatever its regime.
+    /// Statistics of the mean of l over the second half of each run, in σ, in all regimes.
     pub mean_l: Option<StatisticsDocument>,
-    /// Of its standard deviation there, in σ.
+    /// Statistics of the standard deviation of l over the same time, in σ.
     pub deviation_l: Option<StatisticsDocument>,
 }
 
-/// How many points end in each regime.
+/// Number of points in each regime.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegimeCounts {
@@ -41,34 +41,34 @@ pub struct RegimeCounts {
     pub trapped: usize,
     /// Drifting.
     pub drifting: usize,
-    /// Not settled.
+    /// Transient: not settled.
     pub transient: usize,
-    /// Failed, as their `error` says.
+    /// Failed, with the reason in their `error`.
     pub failed: usize,
 }
 
-/// Of some numbers.
+/// Statistics of a set of numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticsDocument {
-    /// How many.
+    /// How many numbers there are.
     pub count: usize,
-    /// Their mean.
+    /// Mean.
     pub mean: f64,
-    /// Standard deviation of one of them, by N - 1; null of a single one.
+    /// Standard deviation of a single number, with N - 1; null if there is only one.
     pub deviation: Option<f64>,
-    /// Standard error of the mean; null of a single one.
+    /// Standard error of the mean; null if there is only one number.
     pub error: Option<f64>,
-    /// The least.
+    /// Smallest number.
     pub least: f64,
-    /// The median: of an even number, half-way between the two in the middle.
+    /// Median: for an even count, the mean of the middle two.
     pub median: f64,
-    /// The largest.
+    /// Largest number.
     pub largest: f64,
 }
 
 impl EnsembleDocument {
-    /// The ensembles of a whole grid, in which seeds vary fastest; `None` where there are none.
+    /// The ensembles of a whole grid, in which seeds vary fastest; `None` if seeds do not vary.
     pub fn all(parameters: &SweepParameters, points: &[SweepPoint]) -> Option<Vec<Self>> {
         let seeds = parameters.axes.last().filter(|axis| axis.name == AxisName::Seed)?;
         let is_whole = parameters.shard.is_none() && points.len() == parameters.points();
@@ -112,7 +112,7 @@ impl RegimeCounts {
 }
 
 impl StatisticsDocument {
-    /// Of these numbers; `None` of none. By two passes, so that nothing cancels.
+    /// The statistics of these numbers, `None` without any. Computed in two passes, which avoids cancellation.
     fn of(mut numbers: Vec<f64>) -> Option<Self> {
         numbers.sort_by(f64::total_cmp);
         let (least, largest) = (*numbers.first()?, *numbers.last()?);

@@ -1,4 +1,4 @@
-//! A point of a sweep, and how it was found.
+//! A point of a sweep, and the method that found its motion.
 
 use crate::RegimeName;
 use schemars::JsonSchema;
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
 use stickslip_outcome::{Motion, Outcome};
 
-/// How a point was found.
+/// The method that found the motion at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SourceName {
-    /// Steady motion is stable, or as good as: α is below αc.
+    /// Linear theory: steady motion is stable, or nearly so, because α is below αc.
     Stability,
     /// The stable periodic solution of (18).
     Cycle,
@@ -28,16 +28,16 @@ impl std::fmt::Display for SourceName {
     }
 }
 
-/// One point.
+/// One point of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepPoint {
-    /// Its place in the grid.
+    /// Index in the grid.
     pub index: usize,
-    /// Width of the footprint, in σ, where it varies.
+    /// Width of the footprint, in σ, if it varies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Side lobes, where they were given.
+    /// Side-lobe weight β, if given.
     pub beta: Option<f64>,
     /// r, dimensionless.
     pub r: f64,
@@ -48,17 +48,17 @@ pub struct SweepPoint {
     pub at: Vec<f64>,
     /// αc(r), if there is one.
     pub critical_alpha: Option<f64>,
-    /// What the tip settles into; "transient" where a run of thousands of time units did not settle. Null
-    /// where `error` says why.
+    /// The regime that the tip settles into; "transient" if a run of thousands of time units did not settle. Null if
+    /// `error` is given.
     pub regime: Option<RegimeName>,
-    /// How that was found.
+    /// The method that found the regime.
     pub source: Option<SourceName>,
     /// Period of l(t), Γ/k.
     pub period: Option<f64>,
     /// Error of `period`, Γ/k.
     #[serde(default)]
     pub period_error: Option<f64>,
-    /// Wavelength of the surface left behind, σ.
+    /// Wavelength of the surface far behind the tip, σ.
     pub wavelength: Option<f64>,
     /// Error of `wavelength`, σ.
     #[serde(default)]
@@ -68,30 +68,30 @@ pub struct SweepPoint {
     /// Error of `amplitude_x0`, σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface left behind, kσ²/a; of cycles, and of runs that were asked for. Where the surface
-    /// heals, u at the distance D behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and this is half peak-to-peak
-    /// of U.
+    /// Half peak-to-peak of the surface far behind the tip, kσ²/a; for cycles, and for requested runs. On a healing
+    /// surface u at the distance D behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is
+    /// half peak-to-peak of U.
     pub amplitude_u: Option<f64>,
     /// Error of `amplitude_u`, kσ²/a.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
-    /// Mean of l at 2,001 times evenly from the middle of the run to its end, σ; of runs that were asked for.
+    /// Mean of l at 2,001 evenly spaced times in the second half of the run, σ; for requested runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_l: Option<f64>,
-    /// Standard deviation of l at these times, σ: how far the tip swings, be it in stick-slip or on noise.
+    /// Standard deviation of l at these times, σ, a measure of oscillation in stick-slip or by noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviation_l: Option<f64>,
     /// Maxima of l in one period.
     pub slips: Option<usize>,
-    /// Largest modulus of the Floquet multipliers but that of a shift in time, in error by up to 5e-8 above 0.01, by
-    /// up to 1e-6 below; of cycles only.
+    /// Largest modulus of the Floquet multipliers except that of a shift in time; for cycles only. The error is at
+    /// most 5e-8 above 0.01 and at most 1e-6 below.
     pub multiplier: Option<f64>,
-    /// Why nothing was found.
+    /// The reason why there is no result.
     pub error: Option<String>,
 }
 
 impl SweepPoint {
-    /// A point of which nothing is known yet but where it is: its index, β, r and α.
+    /// A point without results: its index, β, r and α.
     pub fn at(index: usize, beta: Option<f64>, r: f64, alpha: Option<f64>) -> Self {
         Self {
             index,
@@ -119,7 +119,7 @@ impl SweepPoint {
         }
     }
 
-    /// With what the tip settles into there.
+    /// Adds the motion that the tip settles into at this point.
     #[must_use]
     pub fn settled(mut self, motion: Motion) -> Self {
         match motion {

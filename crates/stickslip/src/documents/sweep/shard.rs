@@ -1,4 +1,4 @@
-//! Which points of a grid are computed here.
+//! Parts (shards) of a grid that are computed separately.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,23 +7,23 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShardDocument {
-    /// From 1 to `of`.
+    /// Index of the part, from 1 to `of`.
     pub index: usize,
     /// Number of parts.
     pub of: usize,
 }
 
 impl ShardDocument {
-    /// The one part of what is not divided.
+    /// The single part of a grid that is not divided.
     pub const WHOLE: Self = Self { index: 1, of: 1 };
 
-    /// Whether the point of this index is one of this part.
+    /// Whether the point with this index belongs to this part.
     #[must_use]
     pub fn has(self, index: usize) -> bool {
         index.checked_rem(self.of).is_some_and(|rest| rest + 1 == self.index)
     }
 
-    /// The indices of this part of so many points.
+    /// The indices of the points in this part, for the given total number.
     pub fn indices(self, points: usize) -> impl Iterator<Item = usize> + use<> {
         (self.index.saturating_sub(1)..points).step_by(self.of.max(1))
     }

@@ -1,27 +1,28 @@
-//! Points of a sweep that are runs.
+//! Parameters of sweeps whose points are runs.
 
 use crate::StartName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Runs from a start of their own, in place of what the tip settles into; what of it varies is among the axes.
+/// Runs from a given initial condition, instead of the motion that the tip settles into; parameters of it that vary
+/// are among the axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepRunParameters {
-    /// Time at which they end, in Γ/k.
+    /// Time at which the runs end, in Γ/k.
     pub until: f64,
-    /// What the tip finds.
+    /// Initial condition.
     pub start: StartName,
-    /// X, in σ.
+    /// Start position X, in σ.
     pub start_position: f64,
-    /// D, in σ.
+    /// Kick D, in σ.
     pub kick: f64,
-    /// V, in kσ/Γ, where it was given.
+    /// Start velocity V, in kσ/Γ, if given.
     pub start_velocity: Option<f64>,
-    /// Amplitude of the noise, in kσ²/a, where it was given.
+    /// Amplitude of the noise, in kσ²/a, if given.
     pub noise: Option<f64>,
-    /// Spacing of its grid, in σ, where it was given.
+    /// Spacing of the grid of the noise, in σ, if given.
     pub noise_spacing: Option<f64>,
-    /// Its seed, where it was given.
+    /// Seed of the noise, if given.
     pub seed: Option<f64>,
 }

@@ -1,19 +1,20 @@
-//! How this machine rounds: whether what another has begun would come out of this one to the last bit.
+//! Identification of a machine's floating-point arithmetic: whether it can continue work of another machine with
+//! identical bits.
 //!
-//! Sums, products and roots are the same on all. exp, sin and their like are those of the system's library, which has
-//! variants for processors with and without a fused multiply-add; Fourier transforms and products of matrices choose
-//! theirs by the processor, too. A variant shows in the last digit of a few values in a thousand, and a motion that
-//! amplifies errors shows it to everybody.
+//! Sums, products and roots are the same on all machines. exp, sin and similar functions come from the system's
+//! library, which has variants for processors with and without a fused multiply-add; Fourier transforms and matrix
+//! products also choose a variant by the processor. Variants differ in the last digit of a few values in a thousand,
+//! and a motion that amplifies errors makes the difference visible.
 
 use crc32fast::Hasher;
 use std::env::consts::ARCH;
 
-/// The same wherever results are the same to the last bit, such as `x86_64+avx+fma-1c291ca3`.
+/// Name of the arithmetic, such as `x86_64+avx+fma-1c291ca3`; equal names mean identical bits.
 pub(crate) fn arithmetic() -> String {
     format!("{ARCH}{}-{:08x}", variants(), functions())
 }
 
-/// Why what was made under another arithmetic is not gone on with.
+/// The error message for work that was begun under another arithmetic.
 pub(crate) fn foreign(made: Option<&str>) -> String {
     let made = made.unwrap_or("unknown");
     format!(
@@ -23,7 +24,7 @@ pub(crate) fn foreign(made: Option<&str>) -> String {
     )
 }
 
-/// What transforms and products of matrices choose by.
+/// Processor features by which transforms and matrix products choose a variant.
 #[cfg(target_arch = "x86_64")]
 fn variants() -> String {
     let detected = [
@@ -43,7 +44,7 @@ fn variants() -> String {
 
 type Function = fn(f64) -> f64;
 
-/// All that the libraries call.
+/// All library functions in use.
 const FUNCTIONS: [Function; 14] = [
     f64::exp,
     |x| x.abs().ln(),
@@ -60,12 +61,12 @@ const FUNCTIONS: [Function; 14] = [
     f64::tanh,
     |x| x.abs().log10(),
 ];
-/// Enough to meet values at which variants differ.
+/// Number of arguments; sufficient to include values at which variants differ.
 const ARGUMENTS: u32 = 8000;
 
-/// CRC-32 of their values at arguments from -12 to 12.
+/// CRC-32 of the values of these functions at arguments from -12 to 12.
 fn functions() -> u32 {
-    /// Its multiples fill an interval evenly.
+    /// Fraction of the golden ratio: its multiples modulo 1 fill an interval evenly.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let arguments = (1..=ARGUMENTS).map(|i| 24.0 * ((f64::from(i) * GOLDEN).fract() - 0.5));
     let mut hasher = Hasher::new();

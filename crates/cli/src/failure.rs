@@ -1,4 +1,4 @@
-//! Why a command failed, and the exit status that says so.
+//! Errors of commands, with their exit statuses.
 
 use std::fmt::Display;
 use std::io;
@@ -6,50 +6,50 @@ use thiserror::Error;
 
 pub(crate) use stickslip::Typed;
 
-/// A command that did not end as asked.
+/// The error of a command.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
-    /// Unusable input: names the option and the value, and says what would do. Status 2.
+    /// Invalid input: the message names the option and the value, and valid values. Status 2.
     #[error("{option}: {message}")]
     Input {
-        /// As typed, such as `--tolerance 0`.
+        /// The option with its value, such as `--tolerance 0`.
         option: String,
-        /// What is wrong, and what would do.
+        /// The error and the remedy.
         message: String,
     },
-    /// What failed at run time. Status 1.
+    /// An error at run time. Status 1.
     #[error("{0}")]
     Run(String),
-    /// Writing failed after the work was done. Status 1.
+    /// An error of writing, after the work was done. Status 1.
     #[error("cannot write {target}: {error}")]
     Write {
         /// File name or "standard output".
         target: String,
-        /// Why.
+        /// The error of the system.
         error: io::Error,
     },
-    /// The same, but what was to be written is kept in another place. Status 1.
+    /// An error of writing, after which the result was saved elsewhere. Status 1.
     #[error("cannot write {target}: {error}; what it was to hold is in {kept}")]
     Elsewhere {
         /// File name.
         target: String,
-        /// Why.
+        /// The error of the system.
         error: io::Error,
-        /// A file among the system's temporary ones.
+        /// Name of the temporary file with the result.
         kept: String,
     },
-    /// A run of which the end is missing, and nothing else is wrong. Status 3.
+    /// A run that is correct but incomplete. Status 3.
     #[error("{0}")]
     CutOff(String),
-    /// Stopped by a signal, what there was kept to go on from. Status 128 + signal.
+    /// Stopped by a signal; the partial result was saved and can be resumed. Status 128 + signal.
     #[error("interrupted: {message}")]
     Unfinished {
         /// The signal.
         signal: u8,
-        /// How far it came, and how to go on.
+        /// Progress, and the command to resume.
         message: String,
     },
-    /// Stopped by a signal, after writing what there was. Status 128 + signal.
+    /// Stopped by a signal, after writing the partial result. Status 128 + signal.
     #[error("interrupted: the result holds what was computed until then")]
     Interrupted(u8),
     /// Stopped by a signal before there was a result. Status 128 + signal.
@@ -73,7 +73,7 @@ impl Failure {
         }
     }
 
-    /// A reader that closed its end of the pipe has what it wanted.
+    /// Whether the error needs no message, because the reader closed its end of the pipe.
     pub(crate) fn is_silent(&self) -> bool {
         matches!(self, Self::Write { error, .. } if error.kind() == io::ErrorKind::BrokenPipe)
     }

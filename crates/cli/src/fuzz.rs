@@ -1,8 +1,8 @@
-//! Whatever a file or a command line holds, the program answers: no panic, no case longer than a
-//! second, no more than 256 MB. Mutations of a small corpus (`tests/corpus`), and nothing but bytes, go
-//! through every parser and through the judgement of what it returns.
+//! Fuzz tests of parsers: for any file and any command line the program ends without a panic, within a second per
+//! case, and with at most 256 MB. Mutations of a small corpus (`tests/corpus`), and random bytes, pass through every
+//! parser and through the checks of its result.
 //!
-//! `PROPTEST_CASES` sets the number of cases of each target; `make fuzz` runs millions.
+//! `PROPTEST_CASES` sets the number of cases of each parser; `make fuzz` runs millions.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
@@ -29,16 +29,16 @@ use stickslip_surface::Surface;
 use stickslip_tip::{Force, InitialSurface};
 use stickslip_units::Unit;
 
-/// Cases of each target where the environment sets no other number: some seconds in all.
+/// Default number of cases of each parser: some seconds in total.
 const CASES: u32 = 2000;
 const LONGEST: Duration = Duration::from_secs(1);
-/// In kB.
+/// Largest memory of the process, in kB.
 const MOST_MEMORY: u64 = 256 << 10;
 
 const UNITS: [Unit; 5] =
     [Unit::Damping, Unit::Stiffness, Unit::Length, Unit::Velocity, Unit::Force];
 
-/// What bytes are replaced by: numbers at the edges of f64, and the marks of the formats.
+/// Replacements: numbers at the limits of f64, and the delimiters of the formats.
 const TOKENS: [&str; 28] = [
     "0",
     "-0",
@@ -70,7 +70,7 @@ const TOKENS: [&str; 28] = [
     "µ",
 ];
 
-/// One change to a text: where (as a part of its length), how much, and by what.
+/// One change to a text: position (as a fraction of its length), length, and replacement.
 #[derive(Debug, Clone)]
 enum Change {
     Replace(f64, usize, &'static str),
@@ -110,9 +110,9 @@ impl Change {
     }
 }
 
-/// Files of the corpus, changed in a few places, and now and then bytes that no file resembles.
+/// Files of the corpus with a few changes, and sometimes random bytes.
 ///
-/// As text: files that are none are refused as they are read.
+/// The same as text; files that are not text are rejected by the reader.
 fn texts(corpus: &str) -> impl Strategy<Value = String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/corpus").join(corpus);
     let mut names: Vec<_> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -127,8 +127,8 @@ fn texts(corpus: &str) -> impl Strategy<Value = String> {
     bytes.prop_map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Puts the texts of a corpus through a target; true where the text was taken. Some must be, and some
-/// not: a target that refuses all would test nothing but its refusal.
+/// Passes the texts of a corpus to a target, which returns whether it accepts them. The test fails if all texts are
+/// accepted or all are rejected, because it would then test one of the two only.
 fn fuzz(corpus: &str, target: impl Fn(&str) -> bool) {
     let cases = std::env::var("PROPTEST_CASES").map_or(CASES, |cases| cases.parse().unwrap());
     // What fails is printed, shrunk; it belongs into the corpus, not into a file of seeds.
@@ -149,7 +149,7 @@ fn fuzz(corpus: &str, target: impl Fn(&str) -> bool) {
     assert!(peak_memory().is_none_or(|kb| kb < MOST_MEMORY));
 }
 
-/// Of this process so far, in kB, where the system tells.
+/// Peak memory of this process so far, in kB, if the system reports it.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -179,14 +179,15 @@ fn any_columns_are_taken_or_refused() {
     });
 }
 
-/// The table in bytes, as a command reads it.
+/// The table in these bytes, as a command reads it.
 fn table(bytes: Vec<u8>) -> Option<Sheet> {
     let sheet = decoded(bytes).and_then(|text| parse_measured(&text, &[2, 3])).ok()?;
     assert!(sheet.columns.iter().flatten().all(|value| value.is_finite()), "{sheet:?}");
     Some(sheet)
 }
 
-/// One table, damaged, in several forms: where two are taken they hold the same numbers, and lack the same rows.
+/// One table with damage, in several forms: any two forms that are accepted contain the same numbers and omit the
+/// same rows.
 #[test]
 fn any_table_is_the_same_in_every_form_or_refused() {
     fuzz("tables", |text| {
@@ -258,7 +259,7 @@ fn any_lines_are_taken_or_refused() {
     });
 }
 
-/// The bytes of a checkpoint whose checksum is right: the first line, then its words as hexadecimal numbers.
+/// The bytes of a checkpoint with a correct checksum: the first line, then its words from hexadecimal numbers.
 fn checkpoint(text: &str) -> Option<Vec<u8>> {
     let (head, words) = text.split_once('\n')?;
     let words: Vec<u64> =
@@ -307,7 +308,7 @@ fn any_sweep_is_taken_or_refused() {
     });
 }
 
-/// Whether options make a run, as far as they need no file.
+/// Checks whether options define a run, as far as that needs no file.
 fn judge_run<Q: Questions>(options: &Options<Q>) -> bool {
     let question = || options.values().map(parameter::question::<Run>);
     let is_model = || question().is_ok_and(|run| run.is_ok_and(|run| run.model().is_ok()));

@@ -1,8 +1,8 @@
-//! Whatever a document holds, every command that reads it answers: no panic, no more than a gigabyte, and no long work
-//! that cannot be stopped. Documents of every format (`tests/corpus/documents`) are changed as JSON, here and there: numbers
-//! at the edges of f64, lists of other lengths, fields that are gone or of another type.
+//! Fuzz tests of documents: for any document every command ends without a panic, with at most a gigabyte, and without
+//! long work that cannot be interrupted. Documents of every format (`tests/corpus/documents`) are changed as JSON:
+//! numbers at the limits of f64, lists of other lengths, fields removed or of another type.
 //!
-//! `PROPTEST_CASES` sets the number of documents, `FUZZ_SEED` which ones; `make fuzz` takes a million.
+//! `PROPTEST_CASES` sets the number of documents, `FUZZ_SEED` selects them; `make fuzz` runs a million.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
@@ -23,16 +23,16 @@ use std::time::{Duration, Instant};
 use stickslip::{CycleDocument, RasterSweepDocument, SweepDocument, read};
 use stickslip_figures::{self as figures, View};
 
-/// Documents where the environment sets no other number.
+/// Default number of documents.
 const CASES: u32 = 400;
-/// What a run holds at once, on the thread of the command.
+/// Largest memory that the thread of a command holds at a time.
 const MOST_MEMORY: u64 = 1 << 30;
-/// Reading, drawing and merging are over by then; what computes shows its progress, and is stopped.
+/// Time limit of reading, drawing and merging; longer computations are interrupted after it.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// What is stopped has ended by then. The program itself ends at once.
+/// Time limit for the end of interrupted work. The program itself ends immediately.
 const STOPPED: Duration = Duration::from_secs(2);
 
-/// What numbers are replaced by.
+/// Replacements of numbers.
 const NUMBERS: [f64; 24] = [
     0.0, -0.0, 1.0, -1.0, 1e-310, 5e-324, -1e9, 1e10, 1e17, 1e100, -1e100, 1e300, -1e300, 1.7e308,
     1e-9, 1e-5, 0.5, 3.0, 1e3, 1e6, 1e13, -1e13, 1e12, 1e8,
@@ -55,7 +55,7 @@ fn any_value(rng: &mut ChaCha8Rng) -> Value {
     }
 }
 
-/// The places of a document by their names, entries of a list by one name.
+/// The fields of a document by their names; all entries of a list have one name.
 fn places(value: &Value, at: &str, name: &str, found: &mut BTreeMap<String, Vec<String>>) {
     let mut inner = |key: &str, part: &str, value: &Value| {
         let (at, name) = (format!("{at}/{key}"), format!("{name}/{part}"));
@@ -98,7 +98,7 @@ fn changed_list(list: &[Value], rng: &mut ChaCha8Rng) -> Value {
     }
 }
 
-/// One change, of a field chosen by its name.
+/// Makes one change, to a field selected by its name.
 fn change(document: &mut Value, rng: &mut ChaCha8Rng) {
     let mut found = BTreeMap::new();
     places(document, "", "", &mut found);
@@ -125,7 +125,7 @@ fn change(document: &mut Value, rng: &mut ChaCha8Rng) {
     };
 }
 
-/// A checksum that is right, so that more than that is judged.
+/// The document with a corrected checksum, so that later checks are reached.
 fn sealed(text: String) -> String {
     fn of<D: Divided + serde::de::DeserializeOwned>(text: &str, format: &str) -> Option<String> {
         let sealed = read::<D>(text, format).ok()?.sealed().ok()?;
@@ -159,7 +159,7 @@ fn corpus() -> Vec<(String, String)> {
     corpus
 }
 
-/// The commands that read a document of that name; `true` where they compute and may take their time.
+/// The commands that read a document of this name; `true` for those that compute and may take long.
 fn commands(name: &str) -> Vec<(&'static str, bool)> {
     let mut lines = vec![
         ("plot in.json -o OUT.svg", false),
@@ -189,14 +189,14 @@ fn commands(name: &str) -> Vec<(&'static str, bool)> {
     lines
 }
 
-/// Processor time of this thread where the system has it, else the clock: no other work adds to it.
+/// Processor time of this thread if the system measures it, otherwise wall-clock time.
 fn spent(clock: &Instant) -> Duration {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
     nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos)
 }
 
-/// What a case came to, where it did not end well.
+/// Description of a case that ended incorrectly.
 fn flaw(line: &str, may_take_long: bool, text: String, units: &str) -> Result<bool, String> {
     let supply = |name: &str, text: String| (PathBuf::from(name), Supply::Text(text));
     let host =
@@ -265,7 +265,8 @@ fn any_document_is_taken_or_refused_by_every_command_that_reads_it() {
     assert!(taken > cases / 10 && taken < cases, "{taken} of {cases} were taken");
 }
 
-/// Without a change, every document of the corpus is taken by some command; that of a verification no command reads.
+/// Without a change, some command accepts every document of the corpus, except a verification, which no command
+/// reads.
 #[test]
 fn the_documents_that_are_changed_are_whole() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,8 @@
-//! The program inside another, a Python interpreter say: that one takes what is made, hears what is said, sees how far the
-//! work has come, may stop it, and supplies files from its memory.
+//! In-process use of the program by a host, such as a Python interpreter: the host receives results and messages,
+//! observes progress, may cancel the work, and supplies files from memory.
 //!
-//! A thread that was lent no host is a program of its own: results go to files, words to standard error, and
-//! signals stop it.
+//! A thread without a host behaves as the program: results go to files, messages to standard error, and signals stop
+//! it.
 
 use crate::made::{Document, Made};
 use std::any::Any;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What a host shares with the one command that it has asked for.
+/// State shared by a host and its current command.
 #[derive(Default)]
 pub struct Host {
     stop: Arc<AtomicBool>,
@@ -22,20 +22,20 @@ pub struct Host {
     pace: Mutex<Option<Pace>>,
 }
 
-/// A file that is none.
+/// A file in memory.
 pub enum Supply {
-    /// Its text.
+    /// The text of the file.
     Text(String),
-    /// The document that it would hold.
+    /// The document in the file.
     Document(Arc<dyn Document>),
 }
 
-/// How far the work has come.
+/// Progress of the work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pace {
-    /// From 0 to 1, where the end is known.
+    /// Fraction done, from 0 to 1, if the total is known.
     pub part: Option<f64>,
-    /// Such as `12 of 60 points`.
+    /// Count, such as `12 of 60 points`.
     pub counted: String,
 }
 
@@ -48,17 +48,17 @@ pub(crate) fn current() -> Option<Arc<Host>> {
     HOST.with_borrow(Clone::clone)
 }
 
-/// Whether there is one.
+/// Whether this thread has a host.
 pub(crate) fn is_there() -> bool {
     HOST.with_borrow(Option::is_some)
 }
 
-/// From here on this thread works for a host, or for none.
+/// Sets or removes the host of this thread.
 pub(crate) fn set(host: Option<Arc<Host>>) {
     HOST.set(host);
 }
 
-/// Hands over what was made, where there is somebody to take it.
+/// Passes a result to the host, if there is one.
 pub(crate) fn give(made: impl FnOnce() -> Made) {
     if let Some(host) = current() {
         *locked(&host.made) = Some(made());
@@ -73,7 +73,7 @@ pub(crate) fn document<D: Any + Clone>(path: &Path) -> Option<D> {
     }
 }
 
-/// What a file would hold that the host supplies under a name.
+/// The content of the file that the host supplies under a name.
 pub(crate) fn bytes(path: &Path) -> Option<Vec<u8>> {
     match current()?.supplies.get(path)? {
         Supply::Text(text) => Some(text.clone().into_bytes()),
@@ -87,22 +87,22 @@ impl Host {
         Self { supplies: supplies.into_iter().collect(), ..Self::default() }
     }
 
-    /// Raised to stop the command.
+    /// Flag that cancels the command when set.
     pub fn stop(&self) -> &Arc<AtomicBool> {
         &self.stop
     }
 
-    /// What was made, once.
+    /// The result of the command; later calls return `None`.
     pub fn take(&self) -> Option<Made> {
         locked(&self.made).take()
     }
 
-    /// What was said since this was last asked, line by line.
+    /// Messages since the last call, line by line.
     pub fn heard(&self) -> Vec<String> {
         std::mem::take(&mut locked(&self.said))
     }
 
-    /// How far the work has come, where that has changed since this was last asked.
+    /// Progress, if it has changed since the last call.
     pub fn pace(&self) -> Option<Pace> {
         locked(&self.pace).take()
     }

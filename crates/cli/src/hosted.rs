@@ -1,4 +1,4 @@
-//! The program for another that holds it in its memory: the same commands and options, without files and processes.
+//! In-process commands: the same commands and options, without files and processes.
 //!
 //! ```ignore
 //! let host = Arc::new(Host::new([]));
@@ -23,22 +23,22 @@ use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, read_from, tol
 use stickslip_figures::{Drawn, Taker, saved_as};
 use stickslip_tip::stop;
 
-/// Why there is no result.
+/// The reason why there is no result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Refusal {
-    /// Unusable input.
+    /// Invalid input.
     Input(String),
-    /// What failed at run time.
+    /// An error at run time.
     Run(String),
-    /// The host stopped it.
+    /// The host cancelled the command.
     Stopped(String),
 }
 
-/// Carries out a command, such as `["stability", "--r=1"]`, on this thread. `None`: it has written its result to a file and
-/// keeps nothing. What a command has made before it failed, [`Host::take`] has.
+/// Runs a command, such as `["stability", "--r=1"]`, on this thread. Returns `None` if the result was written to a
+/// file and not kept. A result obtained before an error is available from [`Host::take`].
 ///
 /// # Errors
-/// The words of the program.
+/// The messages of the program.
 pub fn call<'a>(
     words: impl IntoIterator<Item = &'a str>,
     host: &Arc<Host>,
@@ -55,7 +55,7 @@ pub fn call<'a>(
     }
 }
 
-/// The host of a thread, until this goes.
+/// Guard: the thread has a host until this is dropped.
 struct Lent;
 
 impl Lent {
@@ -83,7 +83,7 @@ impl From<Failure> for Refusal {
     }
 }
 
-/// The parser, made once: that takes longer than many a command.
+/// The command-line parser, built once because that takes longer than many commands.
 fn parser() -> &'static Mutex<clap::Command> {
     static PARSER: OnceLock<Mutex<clap::Command>> = OnceLock::new();
     PARSER.get_or_init(|| Mutex::new(Cli::command().no_binary_name(true)))
@@ -102,24 +102,25 @@ fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
     Cli::from_arg_matches(&matches).map_err(refused)
 }
 
-/// An option of a command, as its help tells it.
+/// An option of a command, as described in its help.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OptionTold {
-    /// Such as `alpha-above`; of what stands without a name, such as `RUN.json`, its place in small letters: `run`.
+    /// Name, such as `alpha-above`; for a positional argument such as `RUN.json` its placeholder in small letters:
+    /// `run`.
     pub name: String,
-    /// Whether it stands without a name.
+    /// Whether it is a positional argument.
     pub is_positional: bool,
-    /// What stands for its value in help, such as `FILE`; `None` for a switch.
+    /// Placeholder of its value in help, such as `FILE`; `None` for a switch.
     pub value: Option<String>,
-    /// Between several values of one option.
+    /// Separator of several values of one option.
     pub delimiter: Option<char>,
-    /// Whether it may be there several times.
+    /// Whether it may be repeated.
     pub is_repeatable: bool,
-    /// What it means.
+    /// Its description.
     pub help: String,
 }
 
-/// The options of a command, or of one below it, such as `["sweep", "raster"]`; `None` where there is none of that name.
+/// The options of a command or subcommand, such as `["sweep", "raster"]`; `None` if there is no such command.
 pub fn options(path: &[&str]) -> Option<Vec<OptionTold>> {
     let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     parser.build();
@@ -143,7 +144,7 @@ fn value_of(argument: &clap::Arg) -> Option<String> {
     takes.then(|| name.map(ToString::to_string).unwrap_or_default())
 }
 
-/// The names of all commands, and what each does.
+/// The names of all commands, with descriptions.
 pub fn commands() -> Vec<(String, String)> {
     let parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     let told = |command: &clap::Command| {
@@ -153,10 +154,10 @@ pub fn commands() -> Vec<(String, String)> {
     parser.get_subcommands().map(told).collect()
 }
 
-/// The document of any kind that a file holds.
+/// The document in a file, of any format.
 ///
 /// # Errors
-/// It cannot be read, or is no document of this program.
+/// The file cannot be read, or is not a document of this program.
 pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
     let refused = |error: Unusable| {
         Refusal::from(Failure::input(format!("DOCUMENT.json {}", path.display()), error))
@@ -164,10 +165,10 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
     read(open("DOCUMENT.json", path)?).map_err(refused)
 }
 
-/// The document of any kind that a stream holds.
+/// The document in a stream, of any format.
 ///
 /// # Errors
-/// It is no document of this program.
+/// The stream is not a document of this program.
 pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
     let (kind, source) = told(source, "stickslip/COMMAND")?;
     match kind.format.as_deref() {
@@ -181,7 +182,7 @@ pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
     }
 }
 
-/// Keeps a document as it is.
+/// Visitor that keeps a document unchanged.
 struct Keep;
 
 impl Taker for Keep {

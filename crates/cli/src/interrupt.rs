@@ -1,11 +1,11 @@
-//! SIGINT and SIGTERM.
+//! Handling of SIGINT and SIGTERM.
 //!
-//! Every command begins as one that has nothing to keep, and ends [at once](end_at_once), by a thread that waits for
-//! signals and for nothing else. One that keeps what it has [listens](Interrupt::listen): the first signal is remembered, for it
-//! to end at its next step, and the second one ends the program at once. Where all that it keeps is in a file
-//! already, it need not come to its next step: it says [what is told then](Interrupt::or_else). All this holds too
-//! where the program was started with SIGINT ignored, as a job in the background is. Within a [host](crate::host) the
-//! signals are not ours.
+//! A command initially has nothing to save: a thread that waits for signals [ends it immediately](end_at_once). A
+//! command that saves partial results [listens](Interrupt::listen): the first signal is stored and ends the command
+//! at its next step, a second one ends the program immediately. If all partial results are in a file already, the
+//! command need not reach its next step; it registers [its error message](Interrupt::or_else) instead. The same rules
+//! apply if the program was started with SIGINT ignored, like a background job. With a [host](crate::host) the
+//! program does not handle signals.
 
 use crate::failure::Failure;
 use crate::files::temporary::remove_unfinished;
@@ -19,20 +19,20 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// What the waiting thread and the commands share.
+/// State shared by the waiting thread and the commands.
 #[derive(Default)]
 struct State {
     signal: AtomicU8,
     received: Arc<AtomicBool>,
-    /// So many keep what there is.
+    /// Number of active listeners.
     keepers: AtomicUsize,
     farewell: Mutex<Option<Farewell>>,
 }
 
-/// What is told of a signal by a command that need not end by itself.
+/// The error of a command that need not end itself, as a function of the signal.
 type Farewell = Box<dyn Fn(u8) -> Failure + Send>;
 
-/// Time for a command to end by itself.
+/// Time for a command to end itself.
 const PATIENCE: Duration = Duration::from_millis(120);
 
 fn state() -> &'static State {
@@ -40,7 +40,7 @@ fn state() -> &'static State {
     STATE.get_or_init(State::default)
 }
 
-/// From here on the first signal ends the program.
+/// Makes the first signal end the program, from now on.
 pub(crate) fn end_at_once() -> io::Result<()> {
     static WAITS: AtomicBool = AtomicBool::new(false);
     if WAITS.swap(true, Ordering::SeqCst) {
@@ -66,7 +66,7 @@ pub(crate) fn end_at_once() -> io::Result<()> {
     thread::Builder::new().name("signals".into()).spawn(wait).map(drop)
 }
 
-/// What is told of a command that has not ended by itself, and need not. One that finishes what it keeps says so.
+/// The error of a command that has not ended itself and need not; `None` while partial results are being saved.
 fn after_a_while(signal: u8) -> Option<Failure> {
     thread::sleep(PATIENCE);
     if state().keepers.load(Ordering::SeqCst) == 0 {
@@ -82,10 +82,10 @@ fn after_a_while(signal: u8) -> Option<Failure> {
     failure
 }
 
-/// The signals, for as long as there is something to keep; of a host the wish that the work stops.
+/// A listener for signals, or for cancellation by a host, while there are partial results.
 pub(crate) struct Interrupt {
     host: Option<Arc<Host>>,
-    /// Whether there is something to keep.
+    /// Whether there are partial results to save.
     keeps: bool,
 }
 
@@ -93,7 +93,7 @@ impl Interrupt {
     /// Starts listening.
     ///
     /// # Errors
-    /// The system does not let it.
+    /// The system rejects the signal handler.
     pub(crate) fn listen() -> Result<Self, Failure> {
         if let Some(host) = host::current() {
             return Ok(Self { host: Some(host), keeps: true });
@@ -104,19 +104,21 @@ impl Interrupt {
         Ok(Self { host: None, keeps: true })
     }
 
-    /// For work that keeps nothing: a signal ends the program at once, and a host the work.
+    /// A listener for work without partial results: a signal ends the program immediately, and a host can cancel the
+    /// work.
     pub(crate) fn of_host() -> Self {
         Self { host: host::current(), keeps: false }
     }
 
-    /// All that is kept is in a file at any time: the program ends soon after a signal, and tells this.
+    /// Registers the error for a command whose partial results are always in a file: the program ends soon after a
+    /// signal, with this error.
     pub(crate) fn or_else(&self, tell: impl Fn(u8) -> Failure + Send + 'static) {
         if self.host.is_none() {
             *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
         }
     }
 
-    /// The signal received.
+    /// The signal received, if any.
     pub(crate) fn signal(&self) -> Option<u8> {
         match &self.host {
             Some(host) => host.stop().load(Ordering::Relaxed).then_some(SIGINT as u8),
@@ -124,7 +126,7 @@ impl Interrupt {
         }
     }
 
-    /// Raised by the first signal: for work to look at.
+    /// Flag set by the first signal; the work checks it.
     pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
         match &self.host {
             Some(host) => host.stop(),

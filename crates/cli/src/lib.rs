@@ -1,9 +1,9 @@
-//! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line; and [the same](hosted)
-//! within another program.
+//! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line; and [the
+//! same](hosted) in-process.
 //!
-//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit
-//! status is 0, 1 for what failed at run time, 2 for unusable input, 3 for a run to be verified that is
-//! right as far as it goes but has no end, 130 (143) when interrupted by SIGINT (SIGTERM).
+//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit status is 0, 1
+//! for an error at run time, 2 for invalid input, 3 for a verified run that is correct but incomplete, 130 (143) when
+//! interrupted by SIGINT (SIGTERM).
 
 // All that is said goes through `message`.
 #![deny(clippy::print_stderr, clippy::print_stdout)]
@@ -32,13 +32,13 @@ use message::{say, say_lines};
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
-/// What can be typed, for whoever writes of it.
+/// The definition of the command line, for generated documentation.
 #[cfg(feature = "manual")]
 pub fn arguments() -> clap::Command {
     <Cli as clap::CommandFactory>::command()
 }
 
-/// The program, as a shell calls it.
+/// Runs the program, as called from a shell.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -89,7 +89,7 @@ fn done(command: &Command) -> Result<(), Failure> {
     }
 }
 
-/// Help and version, to standard output; or what is wrong with the command line.
+/// Prints help or version to standard output, or the error of the command line.
 fn answered(error: &clap::Error) -> ExitCode {
     if error.kind() == Misread::DisplayHelpOnMissingArgumentOrSubcommand {
         say_lines(FIRST_SCREEN);

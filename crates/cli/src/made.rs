@@ -1,33 +1,33 @@
-//! What a command has made, in hand: a document of any kind, with words for it.
+//! The result of a command in memory: a document of any kind, with a summary.
 
 use serde::Serialize;
 use std::any::Any;
 use stickslip::Tabular;
 use stickslip_figures::Drawn;
 
-/// What a command has made.
+/// The result of a command.
 pub struct Made {
     /// The document.
     pub document: Box<dyn Document>,
-    /// What was found, in a line.
+    /// The main result, in one line.
     pub headline: String,
-    /// The same, and what belongs to it, in aligned lines.
+    /// The summary as aligned lines.
     pub text: String,
 }
 
-/// A document whose kind is known to those alone who ask for it.
+/// A document whose type is not known at compile time.
 pub trait Document: Send + Sync {
-    /// For a serializer.
+    /// The document for a serializer.
     fn serialized(&self) -> &dyn erased_serde::Serialize;
-    /// For tables.
+    /// The document as a table.
     fn table(&self) -> &dyn Tabular;
-    /// For a picture, if there is one of its kind.
+    /// The document as a picture, if its kind has one.
     fn drawn(&self) -> Option<&dyn Drawn>;
-    /// Another of it.
+    /// A copy of the document.
     fn copy(&self) -> Box<dyn Document>;
-    /// For those who know its kind.
+    /// The document for a downcast.
     fn any(&self) -> &dyn Any;
-    /// The same, to be taken apart.
+    /// The document for a mutable downcast.
     fn any_mut(&mut self) -> &mut dyn Any;
 }
 
@@ -36,7 +36,7 @@ struct Held<D> {
     drawn: Option<fn(&D) -> &dyn Drawn>,
 }
 
-/// A document that has no picture.
+/// Wraps a document without a picture.
 pub(crate) fn plain<D>(document: D) -> Box<dyn Document>
 where
     D: Serialize + Tabular + Clone + Send + Sync + 'static,
@@ -44,7 +44,7 @@ where
     Box::new(Held { document, drawn: None })
 }
 
-/// A document that has one.
+/// Wraps a document with a picture.
 pub(crate) fn pictured<D>(document: D) -> Box<dyn Document>
 where
     D: Serialize + Tabular + Drawn + Clone + Send + Sync + 'static,

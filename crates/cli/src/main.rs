@@ -1,4 +1,4 @@
-//! `stickslip`, the program: all of it is in the library beside, which Python runs too.
+//! The program `stickslip`: a call of the library of this crate, which Python uses too.
 
 use std::process::ExitCode;
 

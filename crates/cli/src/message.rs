@@ -1,7 +1,7 @@
-//! What is said to a person, on standard error: harmless to a terminal, short, and never a reason to fail.
+//! Messages on standard error: harmless for a terminal, short, and never a cause of failure.
 //!
-//! File names and the contents of files come back in messages. They may hold what moves a cursor or renames a
-//! window, and megabytes of it.
+//! Messages quote file names and contents of files, which may contain control sequences that move a cursor or rename
+//! a window, and megabytes of text.
 
 use crate::host;
 use crate::sign_of_life::aside;
@@ -10,12 +10,12 @@ use std::fmt::Display;
 use std::io::{Write, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Characters of the longest line; of a longer one the beginning and the end are said.
+/// Largest number of characters of a line; of longer lines the beginning and the end are printed.
 const LONGEST: usize = 2000;
-/// Characters of the end.
+/// Number of characters printed from the end.
 const END: usize = 400;
 
-/// Says a line, to the host if there is one. Where standard error cannot be written there is nobody to be told.
+/// Prints a line, or passes it to the host. Errors of standard error are ignored.
 pub(crate) fn say(line: impl Display) {
     let mut line = harmless(&short(&line.to_string())).into_owned();
     if let Some(host) = host::current() {
@@ -26,37 +26,37 @@ pub(crate) fn say(line: impl Display) {
     aside(|| stderr().lock().write_all(line.as_bytes()).ok());
 }
 
-/// Whether nothing but failures is to be said.
+/// Whether only errors are printed.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on nothing but failures is said.
+/// Prints only errors from now on.
 pub(crate) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Whether only failures are said: no progress is shown either.
+/// Whether only errors are printed; progress is hidden too.
 pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Says a line that is no failure: what was found, what may have been overlooked.
+/// Prints a line that is not an error: a result or a warning.
 pub(crate) fn remark(line: impl Display) {
     if !is_quiet() {
         say(line);
     }
 }
 
-/// The same for each line of a text.
+/// Prints each line of a text that is not an error.
 pub(crate) fn remark_lines(text: &str) {
     text.lines().for_each(remark);
 }
 
-/// Says each line of a text.
+/// Prints each line of a text.
 pub(crate) fn say_lines(text: &str) {
     text.lines().for_each(say);
 }
 
-/// The text with all that is no character to be seen, or turns round what is seen, as an escape: `\u{1b}`.
+/// The text with invisible characters and changes of direction escaped: `\u{1b}`.
 pub(crate) fn harmless(text: &str) -> Cow<'_, str> {
     if !text.contains(is_harmful) {
         return text.into();
@@ -72,14 +72,14 @@ pub(crate) fn harmless(text: &str) -> Cow<'_, str> {
     escaped.into()
 }
 
-/// Controls; marks of direction, of separation and without width.
+/// Whether a character is a control, a mark of direction or of separation, or has no width.
 pub(crate) fn is_harmful(c: char) -> bool {
     let is_invisible = matches!(c,
         '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
     c.is_control() || is_invisible
 }
 
-/// The text, or its beginning and its end.
+/// The text, shortened to its beginning and its end if it is long.
 fn short(text: &str) -> Cow<'_, str> {
     // A character has one byte at least.
     if text.len() <= LONGEST {

@@ -1,4 +1,4 @@
-//! That something is at work, on a terminal, for how long, where a command shows no progress of its own or not yet.
+//! Activity indicator on a terminal: the elapsed time, while a command shows no progress of its own.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -6,15 +6,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Shown after this time.
+/// Delay before it is shown.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(1);
 const TURN: Duration = Duration::from_millis(200);
 
 enum Sign {
-    /// Nothing to be seen yet.
+    /// Not shown yet.
     Waiting,
     Shown(ProgressBar),
-    /// Something else is shown, or the work is over.
+    /// Hidden: something else is shown, or the work is over.
     Over,
 }
 
@@ -24,7 +24,7 @@ fn sign() -> MutexGuard<'static, Sign> {
     SIGN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The work begins.
+/// Starts the indicator.
 pub(crate) fn begin() {
     if !stderr().is_terminal() {
         return;
@@ -45,14 +45,14 @@ pub(crate) fn begin() {
     thread::Builder::new().name("sign of life".into()).spawn(show).map(drop).ok();
 }
 
-/// Something else is shown, or the work is over.
+/// Hides the indicator, at the end of the work or before other output.
 pub(crate) fn end() {
     if let Sign::Shown(bar) = std::mem::replace(&mut *sign(), Sign::Over) {
         bar.finish_and_clear();
     }
 }
 
-/// Says something that stays, beside it.
+/// Prints a permanent line without disturbing the indicator.
 pub(crate) fn aside<T>(say: impl FnOnce() -> T) -> T {
     match &*sign() {
         Sign::Shown(bar) => bar.suspend(say),

@@ -1,4 +1,4 @@
-//! Where an answer goes: the options of every command that answers a question.
+//! Output options of every command that answers a question.
 
 use super::{InUnitsArguments, OutletArguments};
 use clap::Args;

@@ -6,7 +6,8 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::{Boundary, RasterBoundary};
 
-/// The critical α against r, and what is born along it; or that of scan lines against their pitch.
+/// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
+/// against their pitch
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
@@ -16,8 +17,8 @@ pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) answer: AnswerArguments,
 
-    /// Draw how the square of the amplitude grows along the boundary, subcritical where it is below
-    /// 0, to this .svg or .png.
+    /// Draw the slope of the squared amplitude along the boundary, subcritical where it is below 0, to this .svg or
+    /// .png
     #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with = "pitch_range")]
     pub(crate) plot_onset: Option<PathBuf>,
 }

@@ -7,9 +7,10 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::{GridName, Raster, Run};
 
-/// The closed equation against the full PDE on a grid: largest difference and speed.
+/// Compare the closed equation with the full PDE on a grid: largest difference and speed
 ///
-/// A run to --until, or with --lines or --area a raster. The tolerance is that of the closed equation.
+/// The comparison is of a run to --until, or with --lines or --area of a raster. The tolerance is that of the closed
+/// equation.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -33,7 +34,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// Which discretisation of (10), (11); of a raster sinc, which spectral stands for there too, or windowed.
+    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed
     #[arg(
         long,
         value_parser = named::<GridName>(),
@@ -48,7 +49,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) spacing: Option<f64>,
 
-    /// Adaptive steps of local error E, in every unknown [default: as --tolerance].
+    /// Adaptive steps with local error E in every unknown [default: as --tolerance]
     #[arg(
         long,
         value_name = "E",
@@ -58,15 +59,15 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) grid_tolerance: Option<f64>,
 
-    /// Steps of this length throughout instead, at most that of the run; the paper has about 0.04.
+    /// Constant steps of this length instead, at most that of the run; the paper has about 0.04
     #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) step: Option<f64>,
 
-    /// The grid goes only to this time; the speedup is that over the same span of time.
+    /// End time of the grid, if earlier; the speedup is then that over the same span of time
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) grid_until: Option<f64>,
 
-    /// Give up once either side is seen to need more than so many seconds.
+    /// Time limit of either side, in seconds: stop once it is predicted to be exceeded
     #[arg(
         long,
         value_name = "S",
@@ -86,7 +87,7 @@ const USAGE: &str =
            --pitch <D> --lines <N> --length <X> [OPTIONS]
        stickslip compare (--alpha <A> | --alpha-above <D>) --r <R> --area <FILE> [OPTIONS]";
 
-/// What lines of a raster have not: they start flat and end where they do.
+/// Options of runs that do not apply to rasters, whose lines start on a flat surface and have fixed ends.
 const OF_A_RUN: [&str; 6] =
     ["support_path", "noise", "seed", "initial_surface", "force_file", "grid_until"];
 

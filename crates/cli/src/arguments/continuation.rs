@@ -6,18 +6,18 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::Continue;
 
-/// A branch of cycles in α or r, stable or not, with the points where something happens to it.
+/// Follow a branch of cycles in α or r, stable or not, and find its special points
 ///
-/// Begins at the cycle of the α and r given, or of --from; where the one that varies is not given, at the
-/// onset of oscillation. Goes through folds, and ends at --to, in steady motion, where it joins a branch of half
-/// the period, or where the period exceeds --longest-period: towards trapping it has no bound.
+/// The branch begins at the cycle of the given α and r, or of --from; if the continuation parameter is not given, at
+/// the onset of oscillation. It continues through folds, and ends at --to, in steady motion, at a branch of half the
+/// period, or where the period exceeds --longest-period: towards trapping the period has no bound.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct ContinueArguments {
     #[command(flatten)]
     pub(crate) options: Options<Continue>,
 
-    /// Begin with the cycle in a document of `stickslip cycle`, with its tip, r and α where they are not given.
+    /// Begin with the cycle in a document of `stickslip cycle`, with its tip, r and α unless they are given
     #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
     pub(crate) from: Option<PathBuf>,
 

@@ -6,18 +6,18 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::Cycle;
 
-/// The periodic motion at given α and r, and its stability, without waiting for it.
+/// Compute the periodic motion at given α and r, and its stability, without simulating the transient
 ///
-/// Solves for the motion and its period at once; unstable cycles are as good as stable ones. A Floquet
-/// multiplier says by how much a small deviation grows in a period.
+/// Solves for the motion and its period simultaneously, for unstable cycles too. A Floquet multiplier is the factor
+/// by which a small deviation changes in a period.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) options: Options<Cycle>,
 
-    /// Start from the cycle in a document of `stickslip cycle`, with its tip, r and α where they are not
-    /// given; without it, from the oscillation born at αc or from a short run.
+    /// Start from the cycle in a document of `stickslip cycle`, with its tip, r and α unless they are given; by
+    /// default from the oscillation that bifurcates at αc or from a short run
     #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
     pub(crate) from: Option<PathBuf>,
 

@@ -1,10 +1,10 @@
-//! Examples below the help, in lines that a terminal shows whole.
+//! Examples below the help, in lines that fit a terminal.
 
-/// Characters of a line.
+/// Number of characters of a line.
 const WIDTH: usize = 78;
 const INDENTED: &str = "        ";
 
-/// The text with long commands broken before their options, so that a shell still takes them as they are.
+/// The text with long commands broken before their options, in a form that a shell accepts.
 pub(super) fn examples(text: &str) -> String {
     text.lines().map(|line| broken(line) + "\n").collect()
 }

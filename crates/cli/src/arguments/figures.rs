@@ -4,7 +4,7 @@ use super::examples::examples;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// What can be made.
+/// Figures and tables that can be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FigureName {
     /// Surfaces below and above onset, and the velocity of the tip.
@@ -27,14 +27,14 @@ pub(crate) enum FigureName {
     Criticality,
     /// u over position and time.
     Kymograph,
-    /// Time against error, measured before.
+    /// Time against error, from saved measurements.
     WorkPrecision,
-    /// The paper's numbers beside ours.
+    /// The paper's numbers compared with ours.
     Reproduction,
 }
 
 impl FigureName {
-    /// Its name in the library; the table of numbers is no figure.
+    /// Name of the figure in the library; `None` for the table of numbers.
     pub(crate) fn figure(self) -> Option<&'static str> {
         Some(match self {
             Self::Fig1 => "fig1",
@@ -53,19 +53,19 @@ impl FigureName {
     }
 }
 
-/// Redraw the paper's figures, and table its numbers beside ours.
+/// Redraw the paper's figures, and compare its numbers with ours
 ///
-/// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json hold the
-/// printed numbers, ours, and what explains each difference. The figures for β = 0 use exp(-x²), the tip
-/// that the printed numbers belong to.
+/// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json contain the printed
+/// numbers, ours, and the explanation of each difference. The figures for β = 0 use exp(-x²), the tip of the printed
+/// numbers.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct FiguresArguments {
-    /// Folder to write to; it is made if need be, and files of the same names are replaced.
+    /// Output folder; it is created if necessary, and files of the same names are replaced
     #[arg(long, value_name = "DIR")]
     pub(crate) out_dir: PathBuf,
 
-    /// Make only these.
+    /// Make only these
     #[arg(long, value_enum, value_name = "NAME1,NAME2,…", value_delimiter = ',')]
     pub(crate) only: Option<Vec<FigureName>>,
 }

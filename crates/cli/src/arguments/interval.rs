@@ -1,10 +1,10 @@
-//! The ends of a range, and how many values there are in it: `LO:HI:N`, the one way in which all ranges are typed.
+//! The ends of a range and its number of values: `LO:HI:N`, the form of all ranges.
 
 use crate::failure::Failure;
 use std::fmt::{self, Display};
 use std::str::FromStr;
 
-/// `LO:HI`, or `LO:HI:N` with the number of values; `LO,HI` is understood too.
+/// `LO:HI`, or `LO:HI:N` with the number of values; `LO,HI` is accepted too.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Interval {
     typed: String,
@@ -51,17 +51,17 @@ impl Interval {
         Err(self.refused(option, "needs two finite numbers LO:HI with LO below HI"))
     }
 
-    /// Both ends, whatever they are.
+    /// Both ends, without a check.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [self.low, self.high]
     }
 
-    /// How many values it has, if it says so.
+    /// The number of values, if given.
     pub(super) fn counted(&self) -> Option<usize> {
         self.points
     }
 
-    /// How many values it has, if it says so: at least both ends.
+    /// The number of values, if given; at least 2.
     pub(crate) fn points(&self, option: &str) -> Result<Option<usize>, Failure> {
         match self.points {
             Some(points) if points < 2 => {
@@ -71,7 +71,7 @@ impl Interval {
         }
     }
 
-    /// What is wrong with it, as it was typed.
+    /// The rejection of the range, with its value as typed.
     pub(crate) fn refused(&self, option: &str, message: impl std::fmt::Display) -> Failure {
         Failure::input(format!("{option} {}", self.typed), message)
     }

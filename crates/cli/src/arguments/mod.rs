@@ -1,4 +1,4 @@
-//! What can be typed. Parsing only: values are judged where they are used.
+//! The command line. Arguments are only parsed here; values are checked where they are used.
 
 mod answer;
 mod boundary;
@@ -63,14 +63,13 @@ use stickslip::SCHEMAS;
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
 ///
-/// A tip dragged over a soft surface carves it, and the groove pulls back on the tip: above a critical
-/// indentation rate it sticks, slips and writes ripples. All quantities are dimensionless: lengths in
-/// tip widths σ, times in Γ/k, forces in kσ, heights in kσ²/a; --units, or --sigma and what goes with it, tell results in nm, s
-/// and nN.
+/// A tip dragged over a soft surface carves a groove, which pulls back on the tip: above a critical indentation rate
+/// it sticks, slips and writes ripples. All quantities are dimensionless: lengths in tip widths σ, times in Γ/k,
+/// forces in kσ, heights in kσ²/a; --units, or --sigma and related options, report results in nm, s and nN.
 #[derive(Debug, Parser)]
 #[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
-    /// Say nothing but what failed: no progress, no remarks, not what was found.
+    /// Print only errors: no progress, no warnings, no summary
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
 
@@ -78,7 +77,7 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
-/// The answer to the name of the program alone.
+/// The output for the program name alone.
 pub(crate) const FIRST_SCREEN: &str = "\
 stickslip: stick-slip of an AFM tip on a soft surface, from one closed delay equation
 

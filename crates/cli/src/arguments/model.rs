@@ -12,7 +12,7 @@ pub(crate) struct TipArguments {
     #[arg(long, value_parser = named::<TipName>(), value_name = "NAME")]
     pub(crate) tip: Option<TipName>,
 
-    /// Side lobes of the triple Gaussian; 1 keeps the volume [default: 1].
+    /// Side-lobe weight β of the triple Gaussian: ∫f is proportional to 1 - β [default: 1]
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     pub(crate) beta: Option<f64>,
 
@@ -20,23 +20,22 @@ pub(crate) struct TipArguments {
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
     pub(crate) width: Option<f64>,
 
-    /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f`
-    /// sampled on x ≥ 0. In three dimensions each Gaussian has a "width_y" too, and a "center_y" if that
-    /// is not 0, or the CSV is `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and
-    /// `surface --y-range` shows the rest.
+    /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f` sampled on x ≥
+    /// 0. In three dimensions each Gaussian also has a "width_y", and a "center_y" if that is not 0, or the CSV is
+    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y)
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
 }
 
 impl TipArguments {
-    /// Whether any of them was given.
+    /// Whether any of these options was given.
     pub(crate) fn is_given(&self) -> bool {
         let Self { tip, beta, width, tip_file } = self;
         tip.is_some() || beta.is_some() || width.is_some() || tip_file.is_some()
     }
 }
 
-/// Commands that cannot do without r add `mut_arg("r", |r| r.required(true))`.
+/// Commands that require r add `mut_arg("r", |r| r.required(true))`.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct ModelArguments {
@@ -59,7 +58,7 @@ pub(crate) struct ModelArguments {
     pub(crate) wider: WiderArguments,
 }
 
-/// The wider law: what the paper leaves out.
+/// Options of the extended model.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Wider law")]
 pub(crate) struct WiderArguments {
@@ -67,7 +66,7 @@ pub(crate) struct WiderArguments {
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     pub(crate) depth_limit: Option<f64>,
 
-    /// Time in which the surface heals, as exp(-t/T), in Γ/k; above 0 [default: never].
+    /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0 [default: never]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) healing_time: Option<f64>,
 
@@ -75,8 +74,8 @@ pub(crate) struct WiderArguments {
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) inertia: Option<f64>,
 
-    /// No spring and no support: a particle driven by its own past. There is no --r then, --alpha may be below 0,
-    /// and the start is flat.
+    /// No spring and no support: a particle driven by its own groove. There is no --r then, --alpha may be below 0,
+    /// and the initial surface is flat
     #[arg(long)]
     pub(crate) no_spring: bool,
 }

@@ -1,4 +1,4 @@
-//! Options whose values are names that documents hold too: the names, and what each means, are those of the schema.
+//! Options whose values are names from documents: names and descriptions are those of the schema.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use schemars::{JsonSchema, schema_for};
@@ -14,7 +14,7 @@ where
         .try_map(|name| serde_json::from_value(Value::String(name)))
 }
 
-/// Of an enumeration whose every name is explained.
+/// The names of an enumeration, each of which has a description.
 fn names(schema: &Value) -> Vec<PossibleValue> {
     let alternatives = schema["oneOf"].as_array().into_iter().flatten();
     let name = |one: &Value| {

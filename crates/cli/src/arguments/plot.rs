@@ -5,9 +5,9 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Draw a saved document: a run, a surface, a cycle, a sweep, any JSON that a command wrote and that has a picture.
+/// Draw a saved document: a run, a surface, a cycle, a sweep, or any other JSON output that has a picture
 ///
-/// The picture is the one that `--plot` of the command draws, with a width, a resolution and axes of your own.
+/// The picture is that of the command's own `--plot`, with a width, a resolution and axes of your choice.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct PlotArguments {
@@ -19,29 +19,29 @@ pub(crate) struct PlotArguments {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
-    /// Width of the picture with its unit: 85mm on paper, 600px on a screen. [default: 900px]
+    /// Width of the picture with its unit: 85mm on paper, 600px on a screen [default: 900px]
     ///
-    /// On paper letters have 7 to 9 points whatever the width. A width in pixels is that of a PNG, too.
+    /// On paper letters have 7 to 9 points for any width. A width in pixels is also that of a PNG.
     #[arg(long, value_name = "WIDTH")]
     pub(crate) width: Option<String>,
 
-    /// Pixels in an inch of a PNG. [default: 288; of a width in pixels 144]
+    /// Pixels per inch of a PNG [default: 288; for a width in pixels 144]
     #[arg(long, value_name = "N")]
     pub(crate) dpi: Option<f64>,
 
-    /// Abscissas shown, LO:HI, of the first panel and of those with the same axis, in its unit. A run is drawn from its history,
-    /// as fine as the range asks for.
+    /// Abscissas shown, LO:HI, of the first panel and of all panels with the same axis, in its unit. A run is drawn
+    /// from its history, with the resolution that the range requires
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) x_range: Option<String>,
 
-    /// Ordinates shown, LO:HI, of the first panel and of those with the same axis.
+    /// Ordinates shown, LO:HI, of the first panel and of all panels with the same axis
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) y_range: Option<String>,
 
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
 
-    /// Of a boundary, draw what is born along it, as `boundary --plot-onset` does.
+    /// For a boundary, draw the oscillation at onset, as `boundary --plot-onset` does
     #[arg(long)]
     pub(crate) onset: bool,
 }

@@ -1,4 +1,4 @@
-//! The options of a question: made of its parameters, which the question declares.
+//! Command-line options made from the parameters that a question declares.
 
 use super::TipArguments;
 use super::interval::Interval;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use stickslip::Question;
 use stickslip::parameter::{Kind, Parameter, parameters};
 
-/// The questions that a command may be about.
+/// The questions that a command can answer.
 pub(crate) trait Questions {
     /// The parameters of all of them.
     fn parameters() -> Vec<&'static Parameter>;
@@ -28,7 +28,7 @@ impl<Q: Question> Questions for Q {
     }
 }
 
-/// One of two questions, or of more: whichever the options are those of.
+/// One of several questions, selected by the options given.
 #[derive(Debug)]
 pub(crate) struct Either<A, B>(PhantomData<(A, B)>);
 
@@ -46,15 +46,15 @@ impl<A: Questions, B: Questions> Questions for Either<A, B> {
     }
 }
 
-/// What was given of the parameters of `Q`.
+/// The given parameters of `Q`.
 #[derive(Debug, Clone)]
 pub(crate) struct Options<Q> {
-    /// By the names of the parameters; the footprint is not among them.
+    /// Values by the names of the parameters, except the footprint.
     pub(crate) given: Map<String, Value>,
     pub(crate) tip: TipArguments,
-    /// A file that has the others.
+    /// A file with further parameters.
     pub(crate) parameters: Option<PathBuf>,
-    /// A range that cannot be, as it was typed, and why.
+    /// An invalid range as typed, and the reason.
     pub(crate) refused_range: Option<(String, &'static str)>,
     question: PhantomData<fn() -> Q>,
 }
@@ -100,7 +100,7 @@ impl<Q: Questions> FromArgMatches for Options<Q> {
     }
 }
 
-/// A range that cannot be, as it was typed, and why.
+/// An invalid range as typed, and the reason.
 fn refused_range<Q: Questions>(matches: &ArgMatches) -> Option<(String, &'static str)> {
     let ranges = Q::parameters().into_iter().filter(|parameter| parameter.kind == Kind::Ends);
     let named = ranges.filter_map(|parameter| {
@@ -126,7 +126,7 @@ fn is_given(matches: &ArgMatches, name: &str) -> bool {
     matches.value_source(name) == Some(clap::parser::ValueSource::CommandLine)
 }
 
-/// A parameter as an option.
+/// The command-line option of a parameter.
 fn argument(parameter: &Parameter) -> Arg {
     let Parameter { name, kind, default, symbol, group, .. } = parameter;
     let argument = Arg::new(name.clone())
@@ -153,7 +153,7 @@ fn argument(parameter: &Parameter) -> Arg {
     }
 }
 
-/// Of two ways to divide a range the one that is not usual is a switch, `--logarithmic`.
+/// Whether a parameter is the spacing of a range, whose second value is a switch, `--logarithmic`.
 fn is_spacing(name: &str) -> bool {
     name == "spacing"
 }
@@ -162,7 +162,8 @@ fn long(name: &str) -> String {
     if is_spacing(name) { "logarithmic".into() } else { name.replace('_', "-") }
 }
 
-/// In one paragraph, without its last full stop, as is usual for help; `names` of parameters are those of options.
+/// The description as one paragraph without its final full stop, as is usual for help; names of parameters in it
+/// become names of options.
 fn help(parameter: &Parameter, default: Option<&Value>) -> String {
     let parts = parameter.description.trim_end_matches('.').split('`').enumerate();
     let text: String = parts
@@ -178,7 +179,7 @@ fn help(parameter: &Parameter, default: Option<&Value>) -> String {
     }
 }
 
-/// A number as JSON, which has none that is not finite: that is refused by the name of its parameter later.
+/// A number as JSON. JSON has no infinities and no NaN, which are rejected later by the name of the parameter.
 fn number(value: f64) -> Value {
     if value.is_finite() { json!(value) } else { json!(stickslip::Typed(value).to_string()) }
 }

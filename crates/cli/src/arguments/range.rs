@@ -1,8 +1,8 @@
-//! Values of a parameter.
+//! Ranges of values of a parameter.
 
 use std::str::FromStr;
 
-/// Values of a parameter: one, N evenly from LO to HI, or a list.
+/// Values of a parameter: one value, N evenly spaced from LO to HI, or a list.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Range {
     Even { low: f64, high: f64, points: usize },
@@ -30,7 +30,7 @@ impl FromStr for Range {
 }
 
 impl Range {
-    /// The values, both ends exactly.
+    /// The values, both ends exact.
     pub(crate) fn values(&self) -> Vec<f64> {
         let (low, high, points) = match self {
             Self::Even { low, high, points } => (*low, *high, *points),
@@ -42,7 +42,7 @@ impl Range {
         (0..points).map(value).collect()
     }
 
-    /// How many there are.
+    /// Number of values.
     pub(crate) fn points(&self) -> usize {
         match self {
             Self::Even { points, .. } => *points,
@@ -50,7 +50,7 @@ impl Range {
         }
     }
 
-    /// The lowest.
+    /// Smallest value.
     pub(crate) fn low(&self) -> f64 {
         match self {
             Self::Even { low, .. } => *low,

@@ -6,22 +6,22 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::Raster;
 
-/// Lines from a file: an option of every command that scans an area.
+/// The lines of an area from a file: an option of every command that scans an area.
 #[derive(Debug, Args)]
 pub(crate) struct AreaArguments {
-    /// Any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan, in σ. It
-    /// takes the place of --pitch, --lines and --length.
+    /// Area of any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan,
+    /// in σ; replaces --pitch, --lines and --length
     #[arg(long, value_name = "FILE", help_heading = "Scan")]
     pub(crate) area: Option<PathBuf>,
 }
 
-/// Scan an area line by line, and report the pattern that the lines have written.
+/// Scan an area line by line, and report the pattern of the lines
 ///
-/// Wavelength and crest angle are those of the strongest wave on the last half of the lines, with 95 % errors; what these
-/// lines do not determine is null, and a remark says why.
+/// Wavelength and crest angle are those of the strongest wave on the last half of the lines, with 95 % errors; a
+/// number that these lines do not determine is null, with a warning.
 ///
-/// Each line is a run over what the lines before it have left. Finished lines are kept beside the output at once
-/// (FILE.partial): after an interrupt the same command goes on from there, and writes the same bytes.
+/// Each line is a run over the surface that the earlier lines have made. Finished lines are saved immediately beside
+/// the output (FILE.partial): after an interrupt the same command resumes from there, and writes the same bytes.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -35,18 +35,18 @@ pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) area: AreaArguments,
 
-    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T since its start: what disturbs all
-    /// that follow; repeatable.
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T after its start; it disturbs all
+    /// later lines; repeatable
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
-    /// File to write: .json for all, .csv for the samples, .npz for samples, heights and history as NumPy arrays, .gsf
-    /// for the height map in Gwyddion; `-` is standard output.
+    /// File to write: .json for the document, .csv for the samples, .npz for samples, heights and history as NumPy
+    /// arrays, .gsf for the height map in Gwyddion; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 
-    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
-    /// terminal, else json].
+    /// Output format, independent of the file name [default: by its extension; on standard output text for a
+    /// terminal, else json]
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<Format>,
 
@@ -56,7 +56,7 @@ pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Draw the heights with the crests marked, and the lags beside them, to this .svg or .png.
+    /// Draw the heights with the crests marked, and the lags, to this .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -9,10 +9,10 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::PathName;
 
-/// The pattern that a raster writes, over a grid of pitch and α.
+/// Compute the pattern of a raster over a grid of pitch and α
 ///
-/// Each point is a raster of its own. Finished ones are kept beside the output at once (FILE.partial): after an
-/// interrupt the same command goes on from there.
+/// Each point is a raster. Finished points are saved immediately beside the output (FILE.partial): after an interrupt
+/// the same command resumes from there.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct RasterSweepArguments {
@@ -30,8 +30,8 @@ pub(crate) struct RasterSweepArguments {
     #[command(flatten)]
     pub(crate) wider: WiderArguments,
 
-    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip that has no f(x,y) of its own [default: the width of the tip's
-    /// Gaussians].
+    /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip without its own f(x,y) [default: the width of the tip's
+    /// Gaussians]
     #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) width_y: Option<f64>,
 
@@ -39,15 +39,15 @@ pub(crate) struct RasterSweepArguments {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Scan")]
     pub(crate) pitch: Range,
 
-    /// How many lines.
+    /// Number of lines
     #[arg(long, value_name = "N", help_heading = "Scan")]
     pub(crate) lines: usize,
 
-    /// How far the support goes along each line, in σ.
+    /// Distance that the support moves along each line, in σ
     #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Scan")]
     pub(crate) length: f64,
 
-    /// How the support goes from one line to the next.
+    /// Path of the support from one line to the next
     #[arg(
         long,
         value_parser = named::<PathName>(),
@@ -57,7 +57,7 @@ pub(crate) struct RasterSweepArguments {
     )]
     pub(crate) path: PathName,
 
-    /// Error of x0 on each line asked for, in σ; from 1e-13 to 1e-2.
+    /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2
     #[arg(
         long,
         value_name = "E",
@@ -67,16 +67,16 @@ pub(crate) struct RasterSweepArguments {
     )]
     pub(crate) tolerance: f64,
 
-    /// Points computed side by side [default: the number of cores].
+    /// Number of points computed in parallel [default: the number of cores]
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
-    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together. `slurm`, or slurm/N: the
-    /// part of this task of an array job, as for `stickslip sweep`.
+    /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`, or slurm/N: the
+    /// part of this task of an array job, as for `stickslip sweep`
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// Do nothing where the --output is this sweep already, whole and of this version; compute it anew where it is another.
+    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another
     #[arg(long, conflicts_with = "plot", help_heading = "Work")]
     pub(crate) if_needed: bool,
 
@@ -86,8 +86,8 @@ pub(crate) struct RasterSweepArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that varies, to this .svg
-    /// or .png.
+    /// Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that varies, to this
+    /// .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -7,16 +7,16 @@ use clap::{Arg, Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use stickslip::{Run, RunFormat};
 
-/// Which part of the dense history a document holds.
+/// The part of the dense history in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum HistoryName {
     /// All of it.
     All,
-    /// Nothing of it: the memory that a run takes does not grow with its length.
+    /// No history: the memory use of a run does not grow with its length.
     None,
 }
 
-/// Integrate the tip's motion, and say what became of it.
+/// Integrate the motion of the tip and classify the result
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -30,20 +30,18 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) disturbance: DisturbanceArguments,
 
-    /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R` of times and
-    /// displacements, from 0,0 on, straight between the rows (steps, holds, trace and retrace); --r is the
-    /// velocity before.
+    /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R` of times and displacements,
+    /// beginning with 0,0, linear between the rows (steps, holds, trace and retrace); --r is the velocity before
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// File to write: .json for all, .csv for the samples, .npz for samples and history as NumPy
-    /// arrays, .jsonl for samples written as the run passes them, in memory that does not grow; `-` is
-    /// standard output [default: -].
+    /// File to write: .json for the document, .csv for the samples, .npz for samples and history as NumPy arrays,
+    /// .jsonl for samples written during the run, in constant memory; `-` is standard output [default: -]
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
 
-    /// What is written, whatever the name of the file [default: by its extension; on standard output text for a
-    /// terminal, else json].
+    /// Output format, independent of the file name [default: by its extension; on standard output text for a
+    /// terminal, else json]
     #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
 
@@ -53,21 +51,20 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// How much of the dense history goes into a .json or .npz: `surface` needs all of it.
+    /// Part of the dense history in a .json or .npz; `surface` needs all of it
     #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
     pub(crate) history: HistoryName,
 
-    /// Draw l(t), the tip's velocity and the surface at the end to this .svg or .png.
+    /// Draw l(t), the tip's velocity and the final surface to this .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 
-    /// Repeat the run with another memory and a tighter tolerance, and say in the document how far the two
-    /// are apart; exit status 1 if that is more than the tolerance allows. Takes many times as
-    /// long as the run.
+    /// Repeat the run with another memory and a tighter tolerance, and report the difference in the document; exit
+    /// status 1 if it exceeds the tolerance allowed. Takes many times as long as the run
     #[arg(long, help_heading = "Accuracy")]
     pub(crate) verify: bool,
 
-    /// Save the state of the run to FILE as it goes on, so that `--resume FILE` can take it up again.
+    /// Save the state of the run to FILE at intervals, so that `--resume FILE` can continue it
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) checkpoint: Option<PathBuf>,
 
@@ -81,8 +78,8 @@ pub(crate) struct RunArguments {
     )]
     pub(crate) checkpoint_every: Option<f64>,
 
-    /// Go on where the checkpoint FILE was made, and write what the run would have written, to the files that it
-    /// names if they are in its folder, or else to -o and --plot; all other options are those in FILE.
+    /// Resume the run from the checkpoint FILE, with the same output as an uninterrupted run, to the files that the
+    /// checkpoint names if they are in its folder, or else to -o and --plot; all other options come from FILE
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) resume: Option<PathBuf>,
 }
@@ -91,13 +88,13 @@ const USAGE: &str = "stickslip run (--alpha <A> | --alpha-above <D>) --r <R> --u
        stickslip run --resume <FILE> [-o <FILE>]";
 
 impl RunArguments {
-    /// Where the run is written to.
+    /// The output of the run.
     pub(crate) fn output(&self) -> &Path {
         self.output.as_deref().unwrap_or(Path::new("-"))
     }
 }
 
-/// A checkpoint holds all options; only where the run is written to can be another place than then.
+/// Excludes an option together with --resume: a checkpoint contains all options, and only the outputs may be changed.
 fn not_on_resume(argument: Arg) -> Arg {
     match argument.get_id().as_str() {
         "resume" | "output" | "plot" | "print" => argument,

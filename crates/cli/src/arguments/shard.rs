@@ -1,4 +1,4 @@
-//! Which points of a sweep are computed here.
+//! The part of a sweep to compute.
 
 use std::str::FromStr;
 use stickslip::ShardDocument;
@@ -6,7 +6,7 @@ use stickslip::ShardDocument;
 /// Part I of N of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
-    /// From 1 to `of`.
+    /// Index of the part, from 1 to `of`.
     pub(crate) index: usize,
     pub(crate) of: usize,
 }
@@ -27,7 +27,7 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// That of a task of an array job, by its environment; `of` is empty, or `/N`.
+    /// The part of a task of an array job, from its environment; `of` is empty, or `/N`.
     fn of_task(of: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Self, String> {
         let number = |name: &str| {
             let set = variable(name).and_then(|text| text.parse::<usize>().ok());

@@ -5,11 +5,11 @@ use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use stickslip::{RasterStability, Stability, Walking};
 
-/// Where steady motion loses its stability, and all growth exponents.
+/// Compute the critical point of steady motion, and all growth exponents
 ///
-/// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical
-/// point. With --pitch: where ripples begin to grow from scan line to scan line. With --no-spring: the speeds of steady walks,
-/// and their growth exponents.
+/// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical point. With
+/// --pitch: the threshold for ripples that grow from scan line to scan line. With --no-spring: the speeds of steady
+/// walks, and their growth exponents.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct StabilityArguments {

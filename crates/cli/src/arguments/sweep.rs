@@ -11,12 +11,13 @@ use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use stickslip::TipName;
 
-/// What the tip settles into, over a grid of α, r and any other number of the model or of the start.
+/// Find the motion that the tip settles into, over a grid of α, r and any other parameter of the model or of the
+/// initial condition
 ///
-/// Each point is found by itself, whatever the others are: below αc the steady motion, above it the stable
-/// cycle, and where none is found what a run comes to. With --until each point is a run from the start given; where
-/// seeds vary, the document has the statistics of each ensemble. Finished points are kept beside the output at once
-/// (FILE.partial): after an interrupt the same command goes on from there.
+/// Each point is computed independently of the others: below αc the steady motion, above it the stable cycle, and if
+/// none is found the result of a run. With --until each point is a run from the given initial condition; if seeds
+/// vary, the document contains the statistics of each ensemble. Finished points are saved immediately beside the
+/// output (FILE.partial): after an interrupt the same command resumes from there.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE, after_help = examples(EXAMPLES),
@@ -31,7 +32,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_parser = named::<TipName>(), value_name = "NAME", help_heading = "Model")]
     pub(crate) tip: Option<TipName>,
 
-    /// Side lobes of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1].
+    /// Side-lobe weight β of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) beta: Option<Range>,
 
@@ -61,8 +62,8 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) run: SweepRunArguments,
 
-    /// Largest residual that the equation of motion (18) may have on a cycle, in units of kσ/Γ; or error of a run,
-    /// in σ; from 1e-11 to 1e-4.
+    /// Largest residual of the equation of motion (18) on a cycle, in units of kσ/Γ; or error of a run, in σ; from
+    /// 1e-11 to 1e-4
     #[arg(
         long,
         value_name = "E",
@@ -72,17 +73,17 @@ pub(crate) struct SweepArguments {
     )]
     pub(crate) tolerance: f64,
 
-    /// Points computed side by side [default: the number of cores].
+    /// Number of points computed in parallel [default: the number of cores]
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
-    /// Compute part I of N of the points only; `stickslip sweep merge` puts the parts together. `slurm`: the part of
-    /// this task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N
-    /// where some of N parts alone are in the array.
+    /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`: the part of this
+    /// task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N if
+    /// the array contains only some of N parts
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// Do nothing where the --output is this sweep already, whole and of this version; compute it anew where it is another.
+    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another
     #[arg(long, conflicts_with = "plot", help_heading = "Work")]
     pub(crate) if_needed: bool,
 
@@ -92,13 +93,13 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this
-    /// .svg or .png. What has neither, such as steady and trapped tips, is marked at the foot.
+    /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this .svg or
+    /// .png. Points with neither, such as steady and trapped ones, are marked at the foot
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
 
-/// The wider law, as that of a run.
+/// Options of the extended model, each a range.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Wider law")]
 pub(crate) struct WiderRanges {
@@ -106,7 +107,7 @@ pub(crate) struct WiderRanges {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) depth_limit: Option<Range>,
 
-    /// Time in which the surface heals, in Γ/k; above 0 [default: never].
+    /// Healing time of the surface, in Γ/k; above 0 [default: never]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) healing_time: Option<Range>,
 
@@ -114,7 +115,7 @@ pub(crate) struct WiderRanges {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) inertia: Option<Range>,
 
-    /// Refused here: what has no support settles into no motion.
+    /// Not available in `sweep`
     #[arg(long)]
     pub(crate) no_spring: bool,
 }
@@ -125,11 +126,11 @@ pub(crate) enum SweepThen {
     Raster(Box<RasterSweepArguments>),
 }
 
-/// Put the parts of a sweep together: byte for byte what one sweep over all points would have written.
+/// Combine the parts of a sweep: the result is byte for byte that of one sweep over all points
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg")]
 pub(crate) struct MergeArguments {
-    /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order.
+    /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
@@ -139,7 +140,7 @@ pub(crate) struct MergeArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw it, as for `sweep`.
+    /// Draw the result, as for `sweep`
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! Points of `stickslip sweep` that are runs: how they begin, each option a range.
+//! Sweeps whose points are runs: the initial condition, each option a range.
 
 use super::named::named;
 use super::range::Range;
@@ -8,28 +8,29 @@ use stickslip::StartName;
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Runs")]
 pub(crate) struct SweepRunArguments {
-    /// Each point is a run to this time, in Γ/k, as `stickslip run` makes it, and not what the tip settles into at last.
+    /// Make each point a run to this time, in Γ/k, as of `stickslip run`, instead of the motion that the tip settles
+    /// into
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: Option<f64>,
 
-    /// What the tip finds at the start [default: steady].
+    /// Initial condition [default: steady]
     #[arg(long, value_parser = named::<StartName>(), value_name = "START", requires = "until")]
     pub(crate) start: Option<StartName>,
 
-    /// Position of the tip at the start, in σ [default: 14].
+    /// Initial position X of the tip, in σ [default: 14]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) start_position: Option<Range>,
 
-    /// The tip starts at X - D [default: 0].
+    /// Displacement D: the tip starts at X - D [default: 0]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) kick: Option<Range>,
 
-    /// Velocity of a tip with inertia at the start, in kσ/Γ [default: r with --start steady, else 0].
+    /// Initial velocity of a tip with inertia, in kσ/Γ [default: r with --start steady, else 0]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) start_velocity: Option<Range>,
 
-    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, a cubic spline through them [default: none;
-    /// 1e-4 with --start paper].
+    /// Noise on the initial surface: heights uniform in [-A, A] on a grid, interpolated by a cubic spline [default:
+    /// none; 1e-4 with --start paper]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) noise: Option<Range>,
 

@@ -5,26 +5,27 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// A footprint from a measured profile: noisy, tilted, off centre, in nanometres.
+/// Fit a footprint to a measured profile, which may be noisy, tilted, off centre, and in nanometres
 ///
-/// Fits a sum of Gaussians on a sloping ground, as many as the data ask for, and says how wide the tip is, at what α
-/// stick-slip sets in, and how far the noise leaves that open. What it writes is a tip file: every command takes it
-/// by --tip-file. Lengths in it are in σ, the width of the Gaussian that is as wide at half of its height, and f(0)
-/// is 1, unless --sigma says otherwise.
+/// Fits a sum of Gaussians on a sloping background, with their number determined by the data, and reports the width
+/// of the tip, the α at the onset of stick-slip, and their uncertainty. The output is a tip file, which every command
+/// reads by --tip-file. Lengths in it are in σ, the width of the Gaussian with the same full width at half maximum,
+/// and f(0) is 1, unless --sigma is given.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct MeasuredTipArguments {
-    /// Positions and heights, in two columns with any separator and decimal mark, by a heading such as `x_nm,z_nm` or a row of
-    /// units below it; rows in any order, at any distance, those without a value left out. A pit has its heights below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
-    /// f(x,y): the profile along x through its middle, and how wide each Gaussian is across.
+    /// Positions and heights, in two columns with any separator and decimal mark, with a heading such as `x_nm,z_nm`
+    /// or a row of units below it; rows may be in any order and at any distance, and rows without a value are
+    /// omitted. Heights of a pit are below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
+    /// f(x,y): the profile along x through its middle, and the width of each Gaussian across
     #[arg(value_name = "MEASURED.csv")]
     pub(crate) measured: PathBuf,
 
-    /// Unit of the positions, where the file has none: m, um, nm, Å, …
+    /// Unit of the positions, if the file has none: m, um, nm, Å, …
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
 
-    /// The profile is one half of an even one, about position 0 [default: where it begins at 0 with its apex].
+    /// The profile is one half of an even one, about position 0 [default: if it begins at 0 with its apex]
     #[arg(long, conflicts_with_all = ["both", "centre"])]
     pub(crate) half: bool,
 
@@ -32,34 +33,34 @@ pub(crate) struct MeasuredTipArguments {
     #[arg(long)]
     pub(crate) both: bool,
 
-    /// Where it is even about, in the unit of the positions [default: found].
+    /// Centre of symmetry, in the unit of the positions [default: fitted]
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     pub(crate) centre: Option<f64>,
 
-    /// σ, with a unit, such as 30nm; 1σ where the positions are in σ [default: found].
+    /// σ, with a unit, such as 30nm; 1σ if the positions are in σ [default: fitted]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) sigma: Option<String>,
 
-    /// How many Gaussians, a pair of twins counted once [default: as many as Schwarz' criterion asks for].
+    /// Number of Gaussians, where a symmetric pair counts as one [default: by Schwarz' criterion]
     #[arg(long, value_name = "N")]
     pub(crate) terms: Option<usize>,
 
-    /// Dimensionless support velocity at which onset and trapping are told.
+    /// Dimensionless support velocity at which onset and trapping threshold are computed
     #[arg(long, value_name = "R", default_value_t = 1.0, allow_hyphen_values = true)]
     pub(crate) r: f64,
 
-    /// Profiles drawn anew to tell what the noise leaves open.
+    /// Number of resampled profiles for the intervals
     #[arg(long, value_name = "N", default_value_t = 400)]
     pub(crate) resamples: usize,
 
-    /// Of the draws.
+    /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw data, fit and what it leaves to this .svg, .png or .pdf.
+    /// Draw data, fit and residuals to this .svg, .png or .pdf
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

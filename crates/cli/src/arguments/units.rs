@@ -4,11 +4,11 @@ use super::examples::examples;
 use super::{ModelArguments, OutletArguments};
 use clap::Args;
 
-/// Measured quantities to the numbers of the model, and back.
+/// Convert measured quantities to the numbers of the model, and back
 ///
-/// Give all six quantities for α and r. Or leave one out for --r or --alpha, or two for both: they are
-/// solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
-/// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is refused.
+/// Give all six quantities to obtain α and r. Or leave one out and give --r or --alpha, or leave two out and give
+/// both: they are solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
+/// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is rejected.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct UnitsArguments {
@@ -32,7 +32,7 @@ pub(crate) struct UnitsArguments {
     )]
     pub(crate) stiffness: Option<String>,
 
-    /// Width σ of the tip (m), (7); left out, that of a --tip-file which `stickslip tip` wrote.
+    /// Width σ of the tip (m), (7); by default that of a --tip-file written by `stickslip tip`
     #[arg(
         long,
         value_name = "σ",

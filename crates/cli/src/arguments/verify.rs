@@ -5,29 +5,29 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Repeat a saved run in another way and tighter: does it keep its promise?
+/// Check a saved run: repeat it with another memory at a hundredth of its tolerance
 ///
-/// It is repeated with another memory and a hundredth of its tolerance.
+/// The repetition uses another memory and a hundredth of the tolerance.
 ///
-/// A run written as lines (.jsonl) is read line by line, twice: first all of it, for what is damaged or cut off,
-/// then beside its repetition. Neither the lines nor the repetition are held: 15 MB will do however long the run,
-/// but where f' cannot be fitted by exponentials (--tip bessel, some tables) and fft made the run: then it is
-/// repeated with direct, which holds all of its past. Of a document (.json), all of it is held, and of one with
-/// its history, all steps of the repetition. Lines from a pipe are put into a temporary file.
+/// A run written as lines (.jsonl) is read line by line, twice: first to find damaged or missing lines, then in
+/// parallel with its repetition. Neither the lines nor the repetition are kept in memory: 15 MB are sufficient for a
+/// run of any length, unless f' cannot be fitted by exponentials (--tip bessel, some tables) and the run used fft:
+/// then the repetition uses direct, which stores its whole history. A document (.json) is kept in memory as a whole,
+/// and with its history also all steps of the repetition. Lines from a pipe are copied to a temporary file.
 ///
-/// On a cycle errors of the period add up: a run of thousands of periods is right to ten tolerances only until some
-/// time, which is said. The repetition takes some twenty times as long as the run.
+/// On a cycle errors of the period accumulate: a run of thousands of periods is correct to ten tolerances only up to
+/// some time, which is reported. The repetition takes about twenty times as long as the run.
 ///
-/// All else that the run contains, derived columns of samples, regime, oscillation, steady state, numbers in other units,
-/// is computed once more; `differences` lists what does not follow.
+/// All other contents of the run, derived columns of samples, regime, oscillation, steady state, numbers in other
+/// units, are recomputed; `differences` lists the values that differ.
 ///
-/// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows, or a value does not follow; 3 if all that there is of
-/// a run is right, but it has no end: it was killed, or is not over.
+/// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows, or another value differs; 3
+/// if the run is correct but incomplete, because it was killed or is still running.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct VerifyArguments {
-    /// What `stickslip run` wrote: a document (.json), lines (.jsonl), or what there is of them
-    /// (.jsonl.part); `-` is standard input.
+    /// Output of `stickslip run`: a document (.json), lines (.jsonl), or incomplete lines (.jsonl.part); `-` is
+    /// standard input
     #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
 

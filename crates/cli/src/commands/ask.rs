@@ -1,4 +1,4 @@
-//! From the options of a command to a question, and from its answer to what is written: the same way for all.
+//! From the options of a command to a question, and from its answer to the output.
 
 use super::in_units::scales;
 use super::job::{Job, Product};
@@ -21,12 +21,12 @@ use stickslip::{
 };
 use stickslip_figures::Drawn;
 
-/// Progress goes to the terminal or to the host, which may cancel.
+/// A context that reports progress to the terminal or to the host, which may cancel the work.
 pub(crate) fn context() -> Context {
     context_cancelled_by(host::current().map(|host| Arc::clone(host.stop())).unwrap_or_default())
 }
 
-/// The same, cancelled by a flag.
+/// A context that is cancelled by a flag.
 pub(crate) fn context_cancelled_by(flag: Arc<AtomicBool>) -> Context {
     let progress: Mutex<Option<Progress>> = Mutex::new(None);
     Context::cancelled_by(flag).timed_by(seconds).watched_by(move |part, counted| {
@@ -54,8 +54,8 @@ pub(crate) fn option(parameter: &str) -> String {
     }
 }
 
-/// A refusal in the words of a command line: what came from a file is refused by the name of that file, a footprint by the
-/// number that was given of it.
+/// The error for a rejected parameter in terms of the command line: it names the file that a value came from, or the
+/// option of a footprint.
 pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[Named]) -> Failure {
     let documents::Failure::Refused(refused) = &failure else { return failure.into() };
     if let (Some(beta), None, "tip") = (tip.beta, &tip.tip_file, &*refused.parameter) {
@@ -72,7 +72,7 @@ pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[
 }
 
 impl<Q: Questions> Options<Q> {
-    /// The files that they name.
+    /// The files that the options name.
     pub(crate) fn files(&self) -> [Named<'_>; 2] {
         [("--tip-file", self.tip.tip_file.as_deref()), ("--parameters", self.parameters.as_deref())]
     }
@@ -82,19 +82,19 @@ impl<Q: Questions> Options<Q> {
         self.given.contains_key(name)
     }
 
-    /// The values of the parameters: those of --parameters, with what was given in their place.
+    /// The values of the parameters: those of --parameters, replaced by those given as options.
     ///
     /// # Errors
-    /// A file that cannot be read, a footprint that is none.
+    /// A file cannot be read, or the footprint is invalid.
     pub(crate) fn values(&self) -> Result<Map<String, Value>, Failure> {
         let base = self.parameters.as_deref().map(read_parameters::<Q>).transpose()?;
         self.values_instead_of(base.unwrap_or_default())
     }
 
-    /// Other values, with what was given in their place.
+    /// The values `base`, replaced by those given as options.
     ///
     /// # Errors
-    /// A footprint that is none.
+    /// The footprint is invalid.
     pub(crate) fn values_instead_of(
         &self,
         base: Map<String, Value>,
@@ -111,7 +111,7 @@ impl<Q: Questions> Options<Q> {
     }
 }
 
-/// What a file has of the parameters of `Q`: a document, or its `parameters` alone.
+/// The parameters of `Q` in a file: a document, or its `parameters` alone.
 fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Failure> {
     const OPTION: &str = "--parameters";
     let named = || format!("{OPTION} {}", path.display());
@@ -139,10 +139,10 @@ fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Fail
     Ok(parameters)
 }
 
-/// Answers a question, in physical units too where they were asked for.
+/// Answers a question, with results in physical units if requested.
 ///
 /// # Errors
-/// A parameter is refused, or nothing is found.
+/// A parameter is invalid, or nothing is found.
 pub(crate) fn answered<Q: Ask>(
     question: Q,
     place: &AnswerArguments,
@@ -154,7 +154,7 @@ pub(crate) fn answered<Q: Ask>(
     Ok(question.answered(&context)?.in_units(scales.as_ref()))
 }
 
-/// Answers a question, and writes, draws and tells the answer.
+/// Answers a question, writes and draws the answer, and prints a summary.
 ///
 /// # Errors
 /// As [`answered`], or the answer cannot be written.
@@ -173,10 +173,10 @@ where
     job.finish(question.answered(&context)?.in_units(scales.as_ref()))
 }
 
-/// The same of the question with these values, which options made; `chosen_by` is the option by which it is this question.
+/// Answers the question with these values of options; `chosen_by` is the option that selects this question.
 ///
 /// # Errors
-/// As [`answer`], or a parameter is missing, or is none of the question.
+/// As [`answer`]; or a parameter is missing, or does not belong to the question.
 pub(crate) fn asked<Q: Ask, K: Questions>(
     options: &Options<K>,
     values: Map<String, Value>,
@@ -191,10 +191,10 @@ where
     answer(question, place, options.tip.tip_file.as_deref())
 }
 
-/// Refuses what is no parameter of `Q`; `chosen_by` is the option by which it is this question.
+/// Rejects parameters that do not belong to `Q`; `chosen_by` is the option that selects this question.
 ///
 /// # Errors
-/// The refusal.
+/// A parameter does not belong to `Q`.
 pub(crate) fn refuse_strangers<Q: Question>(
     values: &Map<String, Value>,
     chosen_by: &str,

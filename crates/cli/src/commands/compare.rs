@@ -21,7 +21,7 @@ use stickslip::{
 };
 use stickslip_tip::Scenario;
 
-/// Heights compared.
+/// Number of heights compared.
 const POINTS: usize = 2001;
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
@@ -42,14 +42,14 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     job.finish(document.in_units(scales.as_ref()))
 }
 
-/// The options, judged.
+/// The checked options.
 struct Asked {
     question: Run,
     scenario: Scenario,
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
-    /// Seconds that either side may take.
+    /// Time limit of either side, in seconds.
     time_limit: f64,
 }
 
@@ -82,7 +82,7 @@ impl Asked {
         Ok(Self { question, scenario, discretisation, grid_until, time_limit })
     }
 
-    /// Where the surfaces are compared: all that the tip came within reach of.
+    /// Positions at which the surfaces are compared: all within reach of the tip during the run.
     fn positions(&self, closed: &Closed) -> Result<Vec<f64>, Failure> {
         let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
         let x0 = times.iter().map(|t| closed.trajectory.x0(*t));
@@ -94,7 +94,7 @@ impl Asked {
     }
 }
 
-/// The files that it reads.
+/// The files that the command reads.
 fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
     let [tip_file, parameters] = options.files();
@@ -102,7 +102,7 @@ fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
     [&read[..], &[parameters]].concat()
 }
 
-/// The run that both sides make.
+/// The run that both sides compute.
 fn run_of(
     arguments: &CompareArguments,
     values: Map<String, Value>,
@@ -125,7 +125,7 @@ fn run_of(
     Ok((run, scenario))
 }
 
-/// Seconds that either side may take.
+/// Time limit of either side, in seconds.
 fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
     let time_limit = arguments.time_limit;
     if time_limit.is_nan() || time_limit <= 0.0 {
@@ -164,7 +164,7 @@ fn document(
     ))
 }
 
-/// NaN where either is.
+/// The largest difference; NaN if either value is NaN.
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })

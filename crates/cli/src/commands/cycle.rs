@@ -24,7 +24,7 @@ pub(crate) fn cycle(arguments: &CycleArguments) -> Result<(), Failure> {
     answer(question, place, tip_file.1)
 }
 
-/// A cycle to start from, and its file.
+/// An initial cycle, and its file.
 pub(super) type Start<'a> = (&'a Path, CycleDocument);
 
 pub(super) fn read_cycle(path: &Path) -> Result<Start<'_>, Failure> {
@@ -36,7 +36,7 @@ fn again(path: &Path, document: &CycleDocument) -> Result<Cycle, Failure> {
     Cycle::again(document).map_err(unusable)
 }
 
-/// The options, in place of the footprint, law, α and r of a cycle to start from.
+/// The options, which replace the footprint, law, α and r of an initial cycle.
 pub(super) fn values<Q: Questions>(
     options: &Options<Q>,
     start: Option<&Start>,

@@ -7,13 +7,13 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// Fields asked for, all of which the document may have.
+/// Requested fields, checked against the schema of the document.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Fields(Vec<String>);
 
 impl Fields {
     /// # Errors
-    /// A document of this kind has no such field: those that it has are named.
+    /// A document of this kind has no such field; the message lists similar ones.
     pub(crate) fn asked<D: JsonSchema>(paths: &[String]) -> Result<Self, Failure> {
         if paths.is_empty() {
             // A schema takes longer to make than many a result.
@@ -37,8 +37,8 @@ impl Fields {
         self.0.is_empty()
     }
 
-    /// A line for each, in the order asked for: numbers as in the document, words without quotes, null where there
-    /// is no value.
+    /// A line for each field, in the order of the request: numbers as in the document, words without quotes, null for
+    /// a missing value.
     pub(crate) fn of(&self, document: &impl Serialize) -> Result<String, Failure> {
         let document = serde_json::to_value(document);
         let document = document.map_err(|error| Failure::Run(error.to_string()))?;
@@ -61,7 +61,7 @@ fn shown(document: &Value, path: &str) -> String {
     }
 }
 
-/// The field that one with a unit behind its name mirrors.
+/// The dimensionless field that corresponds to a field with a unit in its name.
 fn without_units(path: &str) -> String {
     let plain = |name: &str| match strip(name) {
         "support_velocity" => "parameters.r".into(),
@@ -79,7 +79,7 @@ fn strip(name: &str) -> &str {
     }
 }
 
-/// The whole path of a field, of which that may be the end where no other field has the same.
+/// The full path of a field; `path` may be its end if no other field ends so.
 fn named(schema: &Value, path: &str) -> Result<String, Failure> {
     let Err(refused) = judge(schema, path, "") else { return Ok(path.into()) };
     let mut all = vec![];
@@ -111,15 +111,15 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
     }
 }
 
-/// Whether a field is of the periodic motion that a run has come to, of which there is one kind.
+/// Whether a field belongs to the periodic motion at the end of a run, of which there is one kind.
 fn is_of_motion(name: &str) -> bool {
     ["oscillation.", "snaking."].into_iter().any(|part| name.starts_with(part))
 }
 
-/// Parts within parts, at most.
+/// Largest depth of nested parts.
 const DEEPEST: usize = 6;
 
-/// The paths of all fields that need no index, below one part.
+/// Collects the paths of all fields below one part that need no index.
 fn gather(root: &Value, part: &Value, before: &str, depth: usize, all: &mut Vec<String>) {
     let kinds = kinds(root, part);
     let fields = kinds.iter().filter_map(|kind| kind["properties"].as_object()).flatten();
@@ -132,12 +132,12 @@ fn gather(root: &Value, part: &Value, before: &str, depth: usize, all: &mut Vec<
     }
 }
 
-/// Names are alike from here on, in the measure of Jaro and Winkler.
+/// Smallest similarity of Jaro and Winkler at which a name is suggested.
 const ALIKE: f64 = 0.85;
-/// So many are named.
+/// Largest number of suggestions.
 const MOST_MEANT: usize = 3;
 
-/// The fields whose path, or its end, is most like this one.
+/// The fields whose path, or its end, is most similar to this one.
 fn nearest(all: &[String], path: &str) -> Option<Vec<String>> {
     let segments = path.split('.').count();
     let likeness = |whole: &String| {
@@ -156,7 +156,7 @@ fn nearest(all: &[String], path: &str) -> Option<Vec<String>> {
     Some(near.map(|(_, whole)| whole.clone()).collect())
 }
 
-/// `under` is what stands before the path.
+/// Checks a path against the schema; `under` is the path of the parent.
 fn judge(schema: &Value, path: &str, under: &str) -> Result<(), Failure> {
     let mut at = vec![schema];
     let mut before = String::new();
@@ -176,7 +176,7 @@ fn judge(schema: &Value, path: &str, under: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a schema may stand for: references and alternatives resolved.
+/// The schemas that a schema stands for, with references and alternatives resolved.
 fn kinds<'a>(root: &'a Value, schema: &'a Value) -> Vec<&'a Value> {
     let reference = schema["$ref"].as_str().and_then(|name| name.strip_prefix('#'));
     let referred = reference.and_then(|pointer| root.pointer(pointer));
@@ -185,7 +185,7 @@ fn kinds<'a>(root: &'a Value, schema: &'a Value) -> Vec<&'a Value> {
     std::iter::once(schema).chain(parts.flat_map(|part| kinds(root, part))).collect()
 }
 
-/// The schema of a field, or of an entry.
+/// The schema of a field, or of a list entry.
 fn below<'a>(kind: &'a Value, name: &str) -> Option<&'a Value> {
     let field = kind["properties"].get(name);
     let entry = || kind.get("items").filter(|_| name.parse::<usize>().is_ok());

@@ -1,4 +1,4 @@
-//! `--plot`: its format and its place judged before the work, drawn after it.
+//! `--plot`: its format and place are checked before the computation; the figure is drawn after it.
 
 use crate::failure::Failure;
 use crate::files::output::Output;
@@ -6,7 +6,7 @@ use std::path::Path;
 use stickslip::FigureDocument;
 use stickslip_figures::{self as figures, Drawn, FigureError, FigureFormat, Size, View};
 
-/// A figure asked for.
+/// A requested figure.
 #[derive(Debug)]
 pub(super) struct Figure {
     format: FigureFormat,
@@ -14,12 +14,12 @@ pub(super) struct Figure {
 }
 
 impl Figure {
-    /// The figure that `option` named, if it did.
+    /// The figure for `option`, if it was given.
     pub(super) fn asked(option: &str, path: Option<&Path>) -> Result<Option<Self>, Failure> {
         path.map(|path| Self::at(option, path)).transpose()
     }
 
-    /// The figure of that name.
+    /// The figure with that file name.
     pub(super) fn at(option: &str, path: &Path) -> Result<Self, Failure> {
         let format = FigureFormat::of(path)
             .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))?;
@@ -32,14 +32,14 @@ impl Figure {
         self.write(&figure, &Size::default())
     }
 
-    /// Writes a figure as what was asked for.
+    /// Writes a figure in the requested format.
     pub(super) fn write(self, figure: &FigureDocument, size: &Size) -> Result<(), Failure> {
         let bytes = figures::draw(figure, self.format, size).map_err(|e| undrawn(&e))?;
         self.output.write_bytes(&bytes)
     }
 }
 
-/// A figure that failed after the work.
+/// The error of a figure that failed after the computation.
 pub(super) fn undrawn(error: &FigureError) -> Failure {
     Failure::Run(format!("cannot draw: {error}"))
 }

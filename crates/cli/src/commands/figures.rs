@@ -1,4 +1,4 @@
-//! `stickslip figures`: the paper, redrawn and audited.
+//! `stickslip figures`: the figures and numbers of the paper.
 //!
 //! The library `reproduction` computes the documents; the pictures are drawn from these alone.
 
@@ -39,7 +39,7 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes one of them; the names of its files.
+/// Makes one figure or table and returns the names of its files.
 fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
     let failed = |error: Failed| Failure::Run(error.to_string());
     let Some(figure) = name.figure() else {
@@ -52,7 +52,7 @@ fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
     write(&reproduction::figure(figure).map_err(failed)?, folder)
 }
 
-/// The document and its pictures.
+/// Writes the document and its pictures.
 fn write(document: &FigureDocument, folder: &Path) -> Result<Vec<String>, Failure> {
     let place = |extension: &str| -> (String, PathBuf) {
         let name = format!("{}.{extension}", document.name);

@@ -1,6 +1,6 @@
-//! The parts of long work that are finished, kept in a file beside the output as they come: a line for what was asked,
-//! then a line a part, each with its checksum. A kill at any moment costs the points under way and at most the line
-//! being written; damage costs the lines that it touches.
+//! Finished parts of long work, appended to a file beside the output: a line for the request, then a line for each
+//! part, each with its checksum. A kill at any time loses the unfinished parts and at most the line being written;
+//! damage loses the affected lines.
 
 use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
@@ -17,12 +17,12 @@ use stickslip::{KeptLine, Software, SweepPoint};
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
-    /// Such as "point", a word of small letters.
+    /// Name of a part in small letters, such as "point".
     const NAME: &'static str;
-    /// Whose parts they are, such as "sweep".
+    /// Name of the whole, such as "sweep".
     const WHOLE: &'static str;
 
-    /// Which one.
+    /// Index of the part.
     fn index(&self) -> usize;
 }
 
@@ -44,7 +44,7 @@ impl Part for KeptLine {
     }
 }
 
-/// What has been finished so far, and where it is kept, if it is.
+/// The parts finished so far, and the file in which they are saved, if any.
 #[derive(Debug)]
 pub(super) struct Finished<P> {
     parts: Vec<P>,
@@ -55,37 +55,37 @@ pub(super) struct Finished<P> {
 struct Kept {
     path: PathBuf,
     file: File,
-    /// Somebody has removed it, or its folder.
+    /// Whether the file or its folder was removed.
     is_gone: bool,
-    /// Of what it holds.
+    /// Name of the parts.
     name: &'static str,
 }
 
-/// How the first line begins.
+/// Beginning of the first line.
 const MAGIC: &[u8] = b"{\"software\":{\"name\":\"stickslip\"";
 
-/// The first line: parts of another whole, or another version, are not ours to go on from.
+/// The first line. Parts of another request or another version cannot be resumed.
 #[derive(Debug, Serialize)]
 struct Head<'a, Q> {
     software: Software,
-    /// Nor those of a machine that rounds otherwise.
+    /// Arithmetic of the machine; parts from other arithmetic cannot be resumed.
     arithmetic: String,
     parameters: &'a Q,
 }
 
-/// The file in which the parts are kept of what goes to `output`.
+/// The file in which the parts for `output` are saved.
 fn partial_of(output: &Path) -> PathBuf {
     beside::with(output, ".partial")
 }
 
 impl<P: Part> Finished<P> {
-    /// Nothing yet, and nothing kept.
+    /// No parts, and no file.
     pub(super) fn in_memory() -> Self {
         Self { parts: vec![], kept: None }
     }
 
-    /// What an interrupted command with the same parameters left beside `output`, or nothing; `has` tells the
-    /// indices of its parts.
+    /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
+    /// the indices of its parts.
     pub(super) fn beside(
         output: &Path,
         parameters: &impl Serialize,
@@ -108,14 +108,14 @@ impl<P: Part> Finished<P> {
         &self.parts
     }
 
-    /// Adds a part, and keeps it before anything else is done.
+    /// Adds a part, and saves it first.
     pub(super) fn add(&mut self, part: P) -> io::Result<()> {
         self.keep(&part)?;
         self.parts.push(part);
         Ok(())
     }
 
-    /// Keeps a part in the file alone.
+    /// Saves a part in the file, without adding it.
     pub(super) fn keep(&mut self, part: &P) -> io::Result<()> {
         if let Some(kept) = &mut self.kept {
             kept.file.write_all(&line_of(part)?)?;
@@ -124,7 +124,7 @@ impl<P: Part> Finished<P> {
         Ok(())
     }
 
-    /// Where the parts are kept.
+    /// The file in which the parts are saved.
     pub(super) fn path(&self) -> Option<&Path> {
         self.kept.as_ref().filter(|kept| !kept.is_gone).map(|kept| kept.path.as_path())
     }
@@ -136,7 +136,7 @@ impl<P: Part> Finished<P> {
         parts
     }
 
-    /// The file is not needed any more.
+    /// Removes the file when it is no longer needed.
     pub(super) fn remove(self) {
         if let Some(kept) = self.kept.filter(|kept| !kept.is_gone) {
             std::fs::remove_file(kept.path).ok();
@@ -145,7 +145,7 @@ impl<P: Part> Finished<P> {
 }
 
 impl Kept {
-    /// Says so, once, when the file has lost its name.
+    /// Warns, once, if the file was removed or renamed.
     fn look_after(&mut self) {
         if !self.is_gone && is_removed(&self.file) {
             self.is_gone = true;
@@ -168,14 +168,14 @@ fn is_removed(_: &File) -> bool {
     false
 }
 
-/// A part with the CRC-32 of its text.
+/// A part as a line with the CRC-32 of its text.
 fn line_of<P: Part>(part: &P) -> io::Result<Vec<u8>> {
     let text = serde_json::to_string(part)?;
     let sum = crc32fast::hash(text.as_bytes());
     Ok(format!("{{\"crc32\":{sum},\"{}\":{text}}}\n", P::NAME).into_bytes())
 }
 
-/// What [`line_of`] wrote; `None` of anything else.
+/// The part in a line written by [`line_of`]; `None` for any other line.
 fn part_of<P: Part>(line: &[u8]) -> Option<P> {
     let line = str::from_utf8(line).ok()?;
     let separator = format!(",\"{}\":", P::NAME);
@@ -218,7 +218,7 @@ fn open<P: Part>(
     Ok((file, parts))
 }
 
-/// Why parts are not ours to go on from.
+/// The reason why parts cannot be resumed.
 fn other<P: Part>(text: &[u8]) -> String {
     let first = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
     let made = serde_json::from_slice::<serde_json::Value>(first).ok();
@@ -229,7 +229,7 @@ fn other<P: Part>(text: &[u8]) -> String {
     }
 }
 
-/// The whole lines after the first: their length with that, and the parts that they hold.
+/// The complete lines after the first: the length up to their end, and their parts.
 fn read<P: Part>(
     path: &Path,
     text: &[u8],
@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// Every bit of a line is covered.
+    /// The checksum detects a flipped bit anywhere in a line.
     #[test]
     fn no_flipped_bit_of_a_line_passes() {
         let line = line_of(&point(3)).unwrap();

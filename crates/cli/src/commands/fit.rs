@@ -58,15 +58,15 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     job.finish::<FitDocument>(Document::new(parameters, answer, found.remarks))
 }
 
-/// Where no footprint is given.
+/// Warning for a fit without a given footprint.
 const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
 
-/// Whether nothing is said of the footprint.
+/// Whether no option of the footprint is given.
 fn is_assumed(tip: &TipArguments) -> bool {
     tip.tip.is_none() && tip.beta.is_none() && tip.tip_file.is_none()
 }
 
-/// Rows by ascending position, and averages of more than a few thousand.
+/// The rows by ascending position, averaged if there are more than a few thousand.
 fn reduced(data: Given) -> Result<Given, Failure> {
     let one = |(source, data): (String, Data)| {
         let data = data.reduced().map_err(|error| Failure::input(&source, error))?;
@@ -75,7 +75,7 @@ fn reduced(data: Given) -> Result<Given, Failure> {
     data.into_iter().map(one).collect()
 }
 
-/// The footprint that is asked for, and those drawn within its error where it was measured.
+/// The footprint of the options and, if it was measured, the footprints drawn within its error.
 fn footprints(arguments: &TipArguments) -> Result<(TipFunction, Vec<TipFunction>), Failure> {
     let (tip, draws) = tip_and_draws(&TipArguments { width: None, ..arguments.clone() })?;
     let file = arguments.tip_file.as_deref().unwrap_or(Path::new(""));
@@ -86,7 +86,7 @@ fn footprints(arguments: &TipArguments) -> Result<(TipFunction, Vec<TipFunction>
     Ok((tip, drawn.collect::<Result<_, _>>()?))
 }
 
-/// The files, as they were named.
+/// The names of the files, as given.
 fn named(data: &[(String, Data)]) -> String {
     data.iter().map(|(source, _)| source.as_str()).collect::<Vec<&str>>().join(", ")
 }
@@ -101,7 +101,7 @@ fn fitted_tip(request: &FitRequest, found: &Fit) -> Result<TipFunction, Failure>
     }
 }
 
-/// Names of `--free`.
+/// Names for `--free`.
 const MORE: [(&str, Name); 4] = [
     ("beta", Name::Beta),
     ("depth-limit", Name::DepthLimit),
@@ -161,7 +161,7 @@ fn request(arguments: &FitArguments) -> Result<FitRequest, Failure> {
 /// Data, each with the name of its file.
 type Given = Vec<(String, Data)>;
 
-/// What was measured, and the unit of lengths.
+/// The measured data, and the unit of lengths.
 fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
     let mut files = Files::of(arguments)?;
     let mut found = vec![];
@@ -185,7 +185,7 @@ fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
     Ok((found, files.lengths.unit().map(str::to_owned)))
 }
 
-/// Files of data, each quantity in one unit: that of the first file.
+/// The data files; each quantity is converted to the unit of the first file.
 struct Files {
     lengths: Common,
     forces: Common,
@@ -256,7 +256,7 @@ impl Files {
         Ok(Data::Friction(Track::new(x, y, gain)))
     }
 
-    /// Velocities, loads, and with three columns wavelengths.
+    /// Velocities and loads, and with three columns wavelengths.
     fn series<const N: usize>(
         &mut self,
         option: &str,
@@ -276,7 +276,7 @@ fn scale(column: &mut [f64], factor: f64) {
     column.iter_mut().for_each(|value| *value *= factor);
 }
 
-/// Just so many columns.
+/// A table with exactly N columns.
 fn taken<const N: usize>(
     option: &str,
     path: &Path,

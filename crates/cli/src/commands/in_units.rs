@@ -1,4 +1,4 @@
-//! From the options of an experiment, or a document, to the scales of a result in nm, s and nN.
+//! Scales for results in nm, s and nN, from the options of an experiment or from a document.
 
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
@@ -12,11 +12,11 @@ use stickslip::{
 };
 use stickslip_units::Unit;
 
-/// Relative difference at which an r is taken for another: what is typed has this many digits.
+/// Largest relative difference at which two values of r count as equal: typed numbers have about this precision.
 const SAME: f64 = 1e-6;
 
-/// What a result is told in; `None` where nothing of this was asked for. `tip_file` is that of the command, `r` the one
-/// velocity of all that it computes.
+/// The scales of the result; `None` if no physical units are requested. `tip_file` is that of the command, `r` the
+/// velocity, if all results have the same.
 pub(crate) fn scales(
     arguments: &InUnitsArguments,
     tip_file: Option<&Path>,
@@ -32,7 +32,7 @@ pub(crate) fn scales(
     given.with_width_of(tip_file)?.scales(r).map(Some)
 }
 
-/// Metres in a unit of length and in one of height, for an image: 1 and no unit where none is asked for.
+/// The unit of length and the unit of height in m, for an image; 1 without units.
 pub(crate) fn in_metres(scales: Option<&KnownScales>) -> Result<(f64, f64, &'static str), Failure> {
     let Some(KnownScales { length, height, .. }) = scales else { return Ok((1.0, 1.0, "")) };
     match length.zip(*height) {
@@ -45,7 +45,7 @@ pub(crate) fn in_metres(scales: Option<&KnownScales>) -> Result<(f64, f64, &'sta
     }
 }
 
-/// In SI units, under their options.
+/// The values of the options, in SI units.
 struct Given {
     sigma: Option<f64>,
     stiffness: Option<f64>,
@@ -71,7 +71,7 @@ impl Given {
         [sigma, stiffness, damping, velocity, slope_force].iter().all(Option::is_none)
     }
 
-    /// With the σ that a measured tip brings along, which is said.
+    /// Adds the σ of a measured tip, with a message.
     fn with_width_of(self, tip_file: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = tip_file.filter(|_| self.sigma.is_none()) else { return Ok(self) };
         let TipFile::Measured(measured) = read_tip(path)? else { return Ok(self) };
@@ -82,7 +82,7 @@ impl Given {
         Ok(Self { sigma: measured.sigma_metres, ..self })
     }
 
-    /// Refused where an option has nothing to go with, or they contradict each other.
+    /// The scales of these options. Options that lack a companion or contradict each other are rejected.
     fn scales(&self, r: Option<f64>) -> Result<KnownScales, Failure> {
         let Self { sigma, stiffness, damping, velocity, slope_force } = *self;
         let together = |one: Option<f64>, other: Option<f64>| one.zip(other);
@@ -133,7 +133,7 @@ fn quantity(option: &str, text: Option<&str>, unit: Unit) -> Result<Option<f64>,
     Err(Failure::input(named(), "must be above 0"))
 }
 
-/// What any document may tell of scales.
+/// The fields of a document that may contain scales.
 #[derive(Deserialize)]
 struct Telling {
     format: Option<String>,
@@ -183,7 +183,7 @@ fn of_document(path: &Path) -> Result<KnownScales, Failure> {
 }
 
 impl Telling {
-    /// σ is the width fitted, or held; kσ²/a follows from the heights of ripples.
+    /// Scales of a fit: σ is the fitted or fixed width; kσ²/a follows from the heights of ripples.
     fn fitted(self) -> Option<KnownScales> {
         let Fitted { unit, known } = self.parameters?;
         let metres = Unit::Length.one(&unit?)?;

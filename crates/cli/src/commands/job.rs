@@ -1,5 +1,5 @@
-//! What every command has in common: where its result goes is judged before the work; after it, it is drawn, written
-//! and told, the same way for all.
+//! The common frame of all commands: the output is checked before the computation; after it, the result is drawn,
+//! written and summarised.
 
 use super::fields::Fields;
 use super::figure::Figure;
@@ -20,13 +20,13 @@ use std::path::Path;
 use stickslip::Tabular;
 use stickslip_figures::Drawn;
 
-/// What a command makes: a document, its columns, its figure, and words for it.
+/// The result of a command: a document with columns, a figure and a summary.
 pub(crate) trait Product: Serialize + JsonSchema + Tabular {
-    /// What a person is told.
+    /// The summary for the user.
     fn told(&self) -> Told;
 }
 
-/// Refuses, before anything is read, to write over a file that the command reads, or twice to the same.
+/// Rejects an output that is also an input of the command, or that is named twice.
 pub(crate) fn judge_places(
     outlet: &OutletArguments,
     plot: Option<&Path>,
@@ -35,22 +35,22 @@ pub(crate) fn judge_places(
     distinct(&[("--output", Some(&*outlet.output)), ("--plot", plot)], reads)
 }
 
-/// Where a result goes, known to be writable.
+/// The output of a command, known to be writable.
 pub(crate) struct Job {
     output: Output,
     format: Format,
     figure: Option<Figure>,
     fields: Fields,
     is_file: bool,
-    /// Whether what was found is said beside a file.
+    /// Whether a summary is printed when the result goes to a file.
     is_told: bool,
 }
 
 impl Job {
-    /// The place of a result of type `P`, which is drawn to `plot`.
+    /// The output for a result of type `P`, with its figure at `plot`.
     ///
     /// # Errors
-    /// What cannot be written, or has no such format or field.
+    /// The output cannot be written, or has no such format or field.
     pub(crate) fn open<P: Product>(
         outlet: &OutletArguments,
         plot: Option<&Path>,
@@ -59,7 +59,7 @@ impl Job {
         Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot)
     }
 
-    /// The same for a command that knows the format.
+    /// The same for a command with a fixed format.
     pub(crate) fn of_format<P: JsonSchema>(
         format: Format,
         output: &Path,
@@ -76,18 +76,18 @@ impl Job {
         })
     }
 
-    /// Where it goes, links resolved; `None` for what is no file.
+    /// The output file, with links resolved; `None` for a stream or device.
     pub(crate) fn file(&self) -> Option<&Path> {
         self.output.file()
     }
 
-    /// Says nothing beside a file: something else says what was found.
+    /// Suppresses the summary when the result goes to a file, because it is printed elsewhere.
     #[must_use]
     pub(crate) fn silent_if(self, is_silent: bool) -> Self {
         Self { is_told: self.is_told && !is_silent, ..self }
     }
 
-    /// Draws, writes and tells the result.
+    /// Draws and writes the result, and prints the summary.
     pub(crate) fn finish<P: Product + Drawn + Clone + Send + Sync + 'static>(
         self,
         product: P,
@@ -100,7 +100,7 @@ impl Job {
         drawn
     }
 
-    /// Writes and tells a result that is not drawn.
+    /// Writes a result without a figure, and prints the summary.
     pub(crate) fn write<P: Product + Clone + Send + Sync + 'static>(
         self,
         product: P,
@@ -111,7 +111,7 @@ impl Job {
         Ok(())
     }
 
-    /// Writes a result and tells of it what is given; what remains is the figure.
+    /// Writes a result and prints the given summary; returns the figure still to be drawn.
     pub(crate) fn write_told<P: Serialize + Tabular>(
         self,
         product: &P,
@@ -131,7 +131,7 @@ impl Job {
         Ok(self.figure)
     }
 
-    /// Draws and tells a result of which these bytes are written.
+    /// Draws a result that was already written as these bytes, and prints the summary.
     pub(crate) fn finish_bytes<P: Product + Drawn + Clone + Send + Sync + 'static>(
         mut self,
         bytes: &[u8],
@@ -147,7 +147,7 @@ impl Job {
     }
 }
 
-/// What follows the document: fields on standard output, and beside a file what was found.
+/// Output after the document: requested fields on standard output, or the summary if the result went to a file.
 pub(crate) fn after(
     product: &impl Serialize,
     told: &Told,
@@ -166,7 +166,7 @@ pub(crate) fn after(
     Ok(())
 }
 
-/// The format asked for, or that of the file's extension, `more` of which the command has itself.
+/// The format requested, or that of the file's extension; `more` lists further extensions of the command.
 pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result<Format, Failure> {
     if let Some(format) = asked {
         return Ok(format);
@@ -181,7 +181,7 @@ pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result
     })
 }
 
-/// Text for a person, JSON for a program.
+/// The default format on standard output: text on a terminal, JSON otherwise.
 pub(crate) fn on_standard_output() -> Format {
     if io::stdout().is_terminal() && !host::is_there() { Format::Text } else { Format::Json }
 }

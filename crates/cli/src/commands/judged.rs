@@ -1,4 +1,4 @@
-//! A raw table of a tip, judged before anything is made of it.
+//! Checks of a raw table of a tip.
 
 use crate::failure::Failure;
 use crate::message::say;
@@ -6,7 +6,7 @@ use std::path::Path;
 use stickslip_measurement::{Verdict, judge};
 use stickslip_tip::TipFunction;
 
-/// Refuses a table that noise decides, and tells where noise is felt, or where nobody can say.
+/// Rejects a table whose result depends on noise, and warns if noise has an effect or if that is unknown.
 pub(super) fn judge_table(
     path: &Path,
     (x, f): (&[f64], &[f64]),

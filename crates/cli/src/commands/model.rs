@@ -1,4 +1,4 @@
-//! From the model's options to a model.
+//! From the options of a model to a model.
 
 use super::judged::judge_table;
 use crate::arguments::{TipArguments, WiderArguments};
@@ -7,7 +7,7 @@ use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use stickslip::{GaussianDocument, Indentation, NamedTip, Refused, TipName, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
 
-/// Refuses what has no steady motion: without a support, or with a past that has no end.
+/// Rejects models without steady motion: without a support, or with a divergent history integral.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
     if wider.no_spring {
         let message = "nothing drags the tip: there is no steady motion behind a support";
@@ -16,7 +16,7 @@ pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Resu
     refuse_endless_past(tip, wider)
 }
 
-/// Refuses a past that has no end.
+/// Rejects a divergent history integral.
 pub(crate) fn refuse_endless_past(
     tip: &TipArguments,
     wider: &WiderArguments,
@@ -29,13 +29,13 @@ pub(crate) fn refuse_endless_past(
     Ok(())
 }
 
-/// What the options ask for of the wider law.
+/// The extensions of the basic model in the options.
 pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
     let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *arguments;
     Wider { depth_limit, healing_time, inertia, spring: !no_spring }
 }
 
-/// α, or αc(r) + D.
+/// The indentation rate as α or αc(r) + D.
 fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
     if alpha.is_some() && alpha_above.is_some() {
         return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));
@@ -43,7 +43,7 @@ fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, F
     Ok(Indentation { alpha, alpha_above })
 }
 
-/// The model under a law at this r, α given as such or as αc(r) + D.
+/// The model with this law and r, α given directly or as αc(r) + D.
 pub(crate) fn model_under(
     (wider, tip): (Wider, TipFunction),
     r: f64,
@@ -53,17 +53,17 @@ pub(crate) fn model_under(
     Ok(indentation.model(&tip, wider, r)?)
 }
 
-/// A parameter of the wider law that is refused, by its option.
+/// The error for a rejected parameter of the extended model, with its option.
 pub(crate) fn refused_wider(error: &WiderError) -> Failure {
     Refused::from(*error).into()
 }
 
-/// The footprint that the options ask for.
+/// The footprint in the options.
 pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
     tip_and_draws(arguments).map(|(tip, _)| tip)
 }
 
-/// The same, and the terms of those drawn within the error of a measured one.
+/// The footprint, and for a measured one the terms of those drawn within its error.
 pub(crate) fn tip_and_draws(
     arguments: &TipArguments,
 ) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
@@ -95,7 +95,7 @@ pub(crate) fn tip_and_draws(
     Ok((NamedTip { name: *tip, beta: *beta, width: *width }.tip()?, vec![]))
 }
 
-/// The rows of f(x,y) with x ≥ 0 that are on the path of the tip, by ascending x.
+/// The rows of f(x,y) on the path of the tip with x ≥ 0, by ascending x.
 fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
     let nearest = y.iter().fold(f64::INFINITY, |least: f64, y| least.min(y.abs()));
     let rows = x.iter().zip(y).zip(f).filter(|((x, y), _)| **x >= 0.0 && y.abs() <= nearest);
@@ -105,7 +105,7 @@ fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
     rows.into_iter().unzip()
 }
 
-/// The footprint that a file describes.
+/// The footprint in a file.
 pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
@@ -151,7 +151,7 @@ fn is_2d(entry: &GaussianEntry) -> bool {
     entry.width_y.is_some() || entry.center_y.is_some()
 }
 
-/// Centered on the path unless told otherwise; `None` without a width in y.
+/// A Gaussian in x and y, by default centred on the path; `None` without a width in y.
 fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
     let GaussianEntry { amplitude, center, width, .. } = *entry;
     let center_y = entry.center_y.unwrap_or(0.0);

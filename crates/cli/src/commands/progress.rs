@@ -1,5 +1,5 @@
-//! Progress of long work, on standard error when it is a terminal: how far it is, what is counted, how long it has
-//! taken, and how much longer it takes where that can be told; or to a host.
+//! Progress of long work, on standard error if it is a terminal, or to a host: the fraction done, a count, the
+//! elapsed time, and the remaining time if it can be estimated.
 
 use crate::host::{self, Host, Pace};
 use crate::message::is_quiet;
@@ -9,24 +9,24 @@ use std::fmt::Display;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Of work whose parts take no longer than a look at the clock.
+/// Calls between two readings of the clock, for work whose parts are shorter than a reading.
 const CALLS_PER_LOOK: u32 = 256;
 const TICKS: f64 = 1000.0;
 
-/// Work from `from` to `to`, in its own unit, or of a length that nobody knows.
+/// Progress from `from` to `to`, in the unit of the work, or without a known end.
 pub(crate) struct Progress {
     span: Option<(f64, f64)>,
     started: Instant,
     calls: u32,
-    /// Calls between two looks at the clock.
+    /// Calls between two readings of the clock.
     calls_per_look: u32,
     bar: Option<ProgressBar>,
-    /// Sees it in place of a person.
+    /// Host that receives the progress instead of the terminal.
     host: Option<Arc<Host>>,
 }
 
 impl Progress {
-    /// Work that comes from `from` to `to` at an even pace.
+    /// Progress of work that advances from `from` to `to` at an even pace.
     pub(crate) fn new(from: f64, to: f64) -> Self {
         Self {
             span: Some((from, to)),
@@ -38,25 +38,25 @@ impl Progress {
         }
     }
 
-    /// Work of which nobody knows how much there is.
+    /// Progress of work of unknown length.
     pub(crate) fn without_end() -> Self {
         let mut progress = Self::new(0.0, 1.0);
         progress.span = None;
         progress
     }
 
-    /// For work whose parts take longer than a look at the clock.
+    /// Reads the clock at every call, for work whose parts take longer than a reading.
     pub(crate) fn at_every_call(mut self) -> Self {
         self.calls_per_look = 1;
         self
     }
 
-    /// The work has come to `at`.
+    /// Reports that the work has reached `at`.
     pub(crate) fn reached(&mut self, at: f64) {
         self.counted(at, String::new);
     }
 
-    /// The same, with what is counted in words, such as `12 of 60 points`.
+    /// The same with a count in words, such as `12 of 60 points`.
     pub(crate) fn counted<D: Display>(&mut self, at: f64, what: impl FnOnce() -> D) {
         self.calls = self.calls.wrapping_add(1);
         let is_due = self.calls.is_multiple_of(self.calls_per_look);
@@ -90,7 +90,7 @@ impl Drop for Progress {
     }
 }
 
-/// indicatif draws on standard error, and nothing where that is no terminal.
+/// A progress bar on standard error; indicatif draws nothing if that is not a terminal.
 fn new_bar(has_end: bool, started: Instant) -> ProgressBar {
     sign_of_life::end();
     let template = if has_end {

@@ -78,7 +78,7 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
     }
 }
 
-/// Opens what the run is written to.
+/// Opens the output of the run.
 fn open(
     arguments: &RunArguments,
     order: &Order,
@@ -103,7 +103,7 @@ fn open(
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
 }
 
-/// Where the document goes, and the figure.
+/// The output of the document and the figure.
 fn job(
     order: &Order,
     output: &Path,

@@ -61,7 +61,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// 0: as many as there are cores.
+/// Number of threads; 0 means the number of cores.
 fn threads(asked: Option<usize>) -> Result<usize, Failure> {
     match asked {
         None => Ok(0),
@@ -73,7 +73,7 @@ fn threads(asked: Option<usize>) -> Result<usize, Failure> {
     }
 }
 
-/// A point; where a library panics, one that failed.
+/// A point; if a library panics, a point with an error.
 fn judged(index: usize, grid: &Grid) -> SweepPoint {
     let place = grid.place(index);
     let empty = place.empty(index, None);

@@ -11,7 +11,7 @@ use stickslip_measurement::{Image, Profile, Request, TipError, tip};
 use stickslip_units::Unit;
 
 const OPTION: &str = "MEASURED.csv";
-/// More take minutes and tell no more.
+/// Largest number of resampled profiles.
 const MOST_RESAMPLES: usize = 100_000;
 
 pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failure> {
@@ -57,12 +57,12 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
     })
 }
 
-/// What was measured.
+/// The measured data.
 struct Given {
     profile: Profile,
-    /// Which the profile goes through the middle of.
+    /// The image whose middle row is the profile.
     image: Option<Image>,
-    /// Of the positions.
+    /// Unit of the positions.
     unit: Option<String>,
 }
 
@@ -120,7 +120,7 @@ fn judged(option: &str, value: Option<f64>, above: f64) -> Result<Option<f64>, F
     Err(Failure::input(format!("{option} {}", Typed(value)), format!("{least} will do")))
 }
 
-/// σ in the unit of the positions, or in σ where these have none.
+/// σ in the unit of the positions, or 1 if these are in σ.
 fn sigma(arguments: &MeasuredTipArguments, metres: Option<f64>) -> Result<Option<f64>, Failure> {
     let Some(text) = &arguments.sigma else { return Ok(None) };
     let option = format!("--sigma {text}");

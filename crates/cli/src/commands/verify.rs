@@ -31,7 +31,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
     }
 }
 
-/// What is found is JSON whatever the name of the file, or text: there are no columns.
+/// The output: JSON for any file name, or text; there are no columns.
 fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
     let format = match outlet.format {
         Some(format @ (Format::Json | Format::Text)) => format,
@@ -76,13 +76,13 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     failure.map_or(Ok(()), Err)
 }
 
-/// What is said of a run that does not keep its tolerance, or says what does not follow.
+/// The error for a run that misses its tolerance, or that contains wrong values.
 fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<Failure> {
     let said: Vec<String> = broken.into_iter().chain(claims::said_of(differences)).collect();
     (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
-/// Whether the motion begins where the parameters have it: what does not is not worth a repetition.
+/// Whether the motion begins as the parameters require; otherwise a repetition is useless.
 fn begins_as(
     scenario: &Scenario,
     trajectory: Option<&Trajectory>,
@@ -126,7 +126,7 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     Ok(samples)
 }
 
-/// Those that stand for a run of which no history is left: some must be after the start.
+/// The samples of a run without history; some must be after the start.
 fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String> {
     let samples = samples(run, scenario)?;
     match samples.last().is_some_and(|last| last.t > scenario.start_time()) {
@@ -135,7 +135,7 @@ fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, 
     }
 }
 
-/// The dense history of a run against its repetition.
+/// Comparison of the dense history of a run with its repetition.
 pub(super) fn of_history(
     scenario: &Scenario,
     memory: &str,
@@ -146,7 +146,7 @@ pub(super) fn of_history(
     Ok((&found).into())
 }
 
-/// Samples in the order of time, of which there are some, against the repetition of their run.
+/// Comparison of samples in the order of time, at least one, with the repetition of their run.
 fn of_samples(
     scenario: &Scenario,
     memory: &str,
@@ -158,7 +158,7 @@ fn of_samples(
     Ok((&found).into())
 }
 
-/// Does the work before the eyes of a person, who may stop it.
+/// Repeats the run with progress, until it is finished or interrupted.
 fn repeated(
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {
@@ -180,7 +180,7 @@ fn repeated(
     })
 }
 
-/// What is said after the summary of a run that keeps its promise; else nothing.
+/// The message after the summary of a run that meets its tolerance; may be empty.
 pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
     if !found.kept {
         return String::new();
@@ -189,7 +189,7 @@ pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
     format!("; verified with {memory}: l is off by {largest:.1e} at most, {allowed:.1e} is allowed")
 }
 
-/// What is said, and the exit status, where the promise is broken.
+/// The message and the exit status for a run that misses its tolerance.
 pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Failure> {
     broken_in(found, tolerance).map(Failure::Run)
 }
@@ -198,7 +198,7 @@ fn broken_in(found: &VerificationDocument, tolerance: f64) -> Option<String> {
     said_of(found, tolerance, None)
 }
 
-/// What is said where the promise is broken; of lines, with their numbers.
+/// The message for a run that misses its tolerance; for lines, with their numbers.
 fn said_of(
     found: &VerificationDocument,
     tolerance: f64,

@@ -1,6 +1,6 @@
-//! Names that were not given but derived from one that was: `FILE.part`, `FILE.partial`, `CHECKPOINT.journal`.
-//! A user may have files of such names, or somebody may have planted them: only what this program made is taken
-//! up or replaced, told by how it begins, and no link is followed.
+//! Derived file names: `FILE.part`, `FILE.partial`, `CHECKPOINT.journal`. A user may have files of such names, or
+//! somebody may have planted them: only files that this program made are resumed or replaced, recognised by their
+//! beginning, and links are not followed.
 
 use super::lock::lock;
 use super::replace::Looks;
@@ -9,18 +9,18 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
-/// The name with something after it.
+/// The name with an ending appended.
 pub(crate) fn with(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     name.into()
 }
 
-/// Opens and locks the file that was made here, which begins with `magic`, or is empty still; `None` where there
-/// is no file.
+/// Opens and locks a file made by this program, which begins with `magic` or is still empty; `None` if there is no
+/// file.
 ///
 /// # Errors
-/// `WouldBlock`: another process has locked it. `AlreadyExists`: it is none that was made here.
+/// `WouldBlock`: another process has locked it. `AlreadyExists`: this program did not make it.
 pub(crate) fn ours(path: &Path, magic: &[u8]) -> io::Result<Option<File>> {
     let mut file = match not_followed(OpenOptions::new().read(true).write(true)).open(path) {
         Ok(file) => file,
@@ -43,7 +43,7 @@ pub(crate) fn ours(path: &Path, magic: &[u8]) -> io::Result<Option<File>> {
     Ok(Some(file))
 }
 
-/// Makes a new file, locked, in place of one that was made here.
+/// Creates and locks a new file; an old one is replaced if this program made it.
 ///
 /// # Errors
 /// As [`ours`].
@@ -64,7 +64,7 @@ pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Fil
     Ok(file)
 }
 
-/// The same, as open to others as the file that it belongs to.
+/// The same, with the permissions of the file that it belongs to.
 ///
 /// # Errors
 /// As [`ours`].
@@ -72,7 +72,7 @@ pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result
     create(path, magic, &Looks::of(owner))
 }
 
-/// Whether the file is known by another name too, under which it must stay what it is.
+/// Whether the file has other names (hard links), under which it must not change.
 #[cfg(unix)]
 pub(crate) fn has_other_names(file: &File) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;

@@ -1,4 +1,4 @@
-//! Tables of two or three columns that users give: none of their values may be missing.
+//! Tables of two or three columns from users, without missing values.
 
 use super::heading::Heading;
 use super::in_model_units::in_model_units;
@@ -12,7 +12,7 @@ use stickslip_raster::AreaLine;
 /// Two columns read from a file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 
-/// Two columns of numbers, called as `heading` has it.
+/// Two columns of numbers with the names in `heading`.
 pub(crate) fn read_columns(
     option: &str,
     path: &Path,
@@ -37,7 +37,7 @@ pub(crate) fn read_area(
     Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
 }
 
-/// A profile x,u; or one surface t,x,u, as `surface` writes it.
+/// A profile x,u; or one surface t,x,u, as written by `surface`.
 pub(crate) fn read_profile(
     option: &str,
     path: &Path,
@@ -73,7 +73,7 @@ fn parse_columns(
     parse_table::<2>(text, heading, scales).map(|[first, second]| (first, second))
 }
 
-/// N columns of numbers, in the model's units where their heading has others.
+/// N columns of numbers, converted to the model's units according to their headings.
 fn parse_table<const N: usize>(
     text: &str,
     names: &str,
@@ -95,7 +95,7 @@ fn in_units<const N: usize>(
         .map_err(|_| format!("{count} columns of numbers; `{names}` are needed"))
 }
 
-/// A table without missing values, whose columns are these or those, such as `x,u` or `t,x,u`.
+/// A table without missing values and with one of these sets of columns, such as `x,u` or `t,x,u`.
 pub(super) fn whole(text: &str, names: &[&str]) -> Result<Sheet, String> {
     let counts: Vec<usize> = names.iter().map(|names| names.split(',').count()).collect();
     let of = names.join("` or `");
@@ -115,7 +115,7 @@ pub(super) fn whole(text: &str, names: &[&str]) -> Result<Sheet, String> {
     Ok(sheet)
 }
 
-/// Refuses the same names in another order.
+/// Rejects the same names in another order.
 fn judge_order(headings: &[Heading], names: &str) -> Result<(), String> {
     let wanted: Vec<String> = names.split(',').map(str::to_lowercase).collect();
     let found: Vec<String> = headings.iter().map(|heading| heading.name().to_lowercase()).collect();
@@ -166,7 +166,7 @@ mod tests {
         }
     }
 
-    /// Decimal commas between commas: never a table of their digits.
+    /// Ambiguous decimal commas between commas are rejected, and never read as separate digits.
     #[test]
     fn commas_that_may_be_decimal_marks_are_refused() {
         for text in

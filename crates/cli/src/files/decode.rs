@@ -1,6 +1,7 @@
-//! Bytes to text: UTF-8, UTF-16 and Windows-1252, of which Latin-1 is a part, with or without a byte order mark.
+//! Decoding of text: UTF-8, UTF-16 and Windows-1252 (which includes Latin-1), with or without a byte order mark.
 
-/// Windows-1252 from 0x80 to 0x9f; a NUL where it has no character. From 0xa0 on it is Latin-1, as Unicode is.
+/// Windows-1252 from 0x80 to 0x9f, with NUL for undefined characters. From 0xa0 on it agrees with Latin-1 and
+/// Unicode.
 const WINDOWS_1252: [char; 32] = [
     '€', '\0', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\0', 'Ž', '\0', '\0', '‘',
     '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\0', 'ž', 'Ÿ',
@@ -9,7 +10,7 @@ const WINDOWS_1252: [char; 32] = [
 /// The text of a file, without a byte order mark.
 ///
 /// # Errors
-/// It is not text, or damaged: the line is named where there is one.
+/// The file is not text, or is damaged; the message names the line if there is one.
 pub(crate) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => {
@@ -32,7 +33,7 @@ pub(crate) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     }
 }
 
-/// Zero bytes at even and at odd places.
+/// Number of zero bytes at even and at odd positions.
 fn zeros(bytes: &[u8]) -> [usize; 2] {
     let mut count = [0, 0];
     for (i, _) in bytes.iter().enumerate().filter(|(_, byte)| **byte == 0) {
@@ -92,7 +93,7 @@ fn no_zeros(text: String) -> Result<String, String> {
     }
 }
 
-/// The number of the line that comes next.
+/// The number of the next line.
 fn lines_in(text: &str) -> usize {
     1 + super::sheet::lines(text).count().saturating_sub(usize::from(!text.ends_with(['\n', '\r'])))
 }
@@ -103,7 +104,7 @@ mod tests {
 
     const TEXT: &str = "x (µm)\tz (Å)\r\n0,5\t−1,25\r\n";
 
-    /// Bytes as Python 3 encodes the text: `text.encode("utf-16-le")` and the like.
+    /// Bytes of the text in the encoding of Python's `text.encode("utf-16-le")` and similar.
     fn utf16_bytes(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
         text.encode_utf16().flat_map(bytes).collect()
     }

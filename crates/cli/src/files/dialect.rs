@@ -1,6 +1,6 @@
-//! How a table is written: what stands between its columns, and the decimal mark of its numbers.
+//! Dialects of tables: the separator of columns and the decimal mark.
 
-/// What stands between columns.
+/// Separators of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Separator {
     Mark(char),
@@ -19,7 +19,7 @@ const fn dialect(separator: Separator, decimal: char) -> Dialect {
     Dialect { separator, decimal }
 }
 
-/// All that are known. A comma separates numbers with decimal commas where these are quoted.
+/// All known dialects. A comma may separate numbers with decimal commas if these are quoted.
 pub(super) const DIALECTS: [Dialect; 8] = [
     dialect(Separator::Mark(','), '.'),
     dialect(Separator::Mark(';'), '.'),
@@ -31,11 +31,11 @@ pub(super) const DIALECTS: [Dialect; 8] = [
     dialect(Separator::Mark(','), ','),
 ];
 
-/// What a field contains.
+/// The content of a field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
-    /// Nothing, or a word for no value.
+    /// Empty, or a word for a missing value.
     Missing,
     /// A number beyond the range of floating point.
     TooLarge,
@@ -43,7 +43,7 @@ pub(super) enum Cell {
     Text,
 }
 
-/// Words for no value, in small letters, as instruments, spreadsheets, pandas and masked arrays write it.
+/// Words for a missing value, in small letters, as written by instruments, spreadsheets, pandas and masked arrays.
 const MISSING: [&str; 26] = [
     "nan",
     "+nan",
@@ -73,7 +73,7 @@ const MISSING: [&str; 26] = [
     "#nv",
 ];
 
-/// Signs that can only mean minus: U+2212, hyphens, dashes, and those of full width.
+/// Signs that can only mean minus: U+2212, hyphens, dashes, and full-width ones.
 const MINUS: [char; 7] =
     ['\u{2212}', '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{fe63}', '\u{ff0d}'];
 
@@ -114,7 +114,7 @@ fn is_missing(field: &str) -> bool {
 }
 
 impl Separator {
-    /// The fields of a line without blanks and quotes around them, into `found`.
+    /// Splits a line into fields without surrounding blanks and quotes.
     pub(super) fn fields<'a>(self, line: &'a str, found: &mut Vec<&'a str>) {
         found.clear();
         let mut is_quoted = false;
@@ -134,7 +134,7 @@ impl Separator {
     }
 }
 
-/// A field without what stands around it.
+/// A field without surrounding blanks and quotes.
 fn bare(field: &str) -> &str {
     let field = field.trim();
     let quoted = field.strip_prefix('"').and_then(|field| field.strip_suffix('"'));

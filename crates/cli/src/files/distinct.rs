@@ -1,22 +1,21 @@
-//! Files of one command line that must not be the same.
+//! Files of one command line that must be different.
 
 use super::beside;
 use super::paths::resolved;
 use crate::failure::Failure;
 use std::path::Path;
 
-/// An option, and the file that it names, if it was given.
+/// An option, and its file, if given.
 pub(crate) type Named<'a> = (&'static str, Option<&'a Path>);
 
-/// What is put after the name of a file that is written, for another that goes with it. No option may name such a
-/// one, whether or not the command at hand makes it.
+/// Endings of derived file names. No option may name such a file, whether or not the current command makes it.
 const ENDINGS: [&str; 3] = [".part", ".partial", ".journal"];
 
-/// Refuses a file to be written that another option writes too, or reads, or that goes with one: the later would
-/// put an end to the earlier. Under whatever name: links of both kinds are seen through.
+/// Rejects an output that another option also writes or reads, or that is a derived file of another: one would
+/// overwrite the other. Links of both kinds are resolved.
 ///
 /// # Errors
-/// Names the option, and the one that it collides with.
+/// The message names the option and the one that it conflicts with.
 pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure> {
     let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {
@@ -61,7 +60,7 @@ fn is_linked(_: &Path, _: &Path) -> bool {
     false
 }
 
-/// Neither a standard stream nor a device or a pipe, which may well be named twice.
+/// Whether a path is a file; streams, devices and pipes may be named twice.
 fn is_file(path: &Path) -> bool {
     path != Path::new("-") && path.metadata().map_or(true, |m| m.is_file())
 }

@@ -13,9 +13,9 @@ use stickslip_units::Unit;
 
 /// An evenly spaced image.
 pub(crate) struct Field<'a> {
-    /// Without `=`, at which some readers would split it.
+    /// Title, without `=`, at which some readers would split it.
     pub(crate) title: &'a str,
-    /// x and y of the first pixel's center.
+    /// x and y of the centre of the first pixel.
     pub(crate) first: [f64; 2],
     /// Distances of the pixels in x and y.
     pub(crate) spacing: [f64; 2],
@@ -56,7 +56,7 @@ pub(crate) fn gsf(field: &Field) -> Vec<u8> {
     bytes
 }
 
-/// An image that was read; in nm where it has a unit of length.
+/// An image that was read; in nm if it has a unit of length.
 #[derive(Debug)]
 pub(crate) struct Image {
     /// Centres of the columns.
@@ -69,10 +69,10 @@ pub(crate) struct Image {
     pub(crate) in_nanometres: bool,
 }
 
-/// Of an image of 4,096 × 4,096 pixels, and its header.
+/// Largest file: an image of 4,096 × 4,096 pixels with its header.
 const LARGEST: u64 = (4 << 24) + (1 << 16);
 
-/// The image of a file.
+/// The image in a file.
 pub(crate) fn read_gsf(option: &str, path: &Path) -> Result<Image, Failure> {
     let bytes = read_bytes(option, path, LARGEST)?;
     parse_gsf(&bytes)

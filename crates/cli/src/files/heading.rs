@@ -1,33 +1,33 @@
-//! Headings of columns: their names, and their units wherever instruments write them.
+//! Headings of columns: names, and units in all usual notations.
 
 use stickslip_units::Unit;
 
-/// The heading of a column; empty where it has none.
+/// The heading of a column; may be empty.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Heading {
     text: String,
-    /// What stands for its unit, known or not.
+    /// The unit as written, known or not.
     unit: Option<String>,
 }
 
 const UNITS: [Unit; 6] =
     [Unit::Length, Unit::Time, Unit::Force, Unit::Velocity, Unit::Stiffness, Unit::Damping];
-/// Written for "no unit", and for the units of the model.
+/// Notations for no unit, and for the units of the model.
 const NONE: [&str; 9] = ["", "-", "1", "--", "σ", "sigma", "Γ/k", "kσ", "kσ²/a"];
-/// Units of other quantities in a row of units.
+/// Units of other quantities that may occur in a row of units.
 const OTHERS: [&str; 14] =
     ["V", "mV", "uV", "µV", "nA", "pA", "deg", "°", "Hz", "kHz", "a.u.", "arb.", "%", "px"];
 
 impl Heading {
-    /// A heading with the unit that it has itself.
+    /// A heading, with its unit if it contains one.
     pub(crate) fn of(text: &str) -> Self {
         Self { text: text.to_owned(), unit: unit_in(text).map(|(_, unit)| unit) }
     }
 
-    /// The same with a unit that is written elsewhere.
+    /// The heading with a unit that is given elsewhere.
     ///
     /// # Errors
-    /// It has another one itself.
+    /// The heading has another unit itself.
     pub(super) fn with_unit(self, unit: &str) -> Result<Self, String> {
         let unit = unit.trim();
         let is_same = |own: &str| {
@@ -44,12 +44,12 @@ impl Heading {
         }
     }
 
-    /// As it is written.
+    /// The heading as written.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
-    /// What stands for its unit, whatever that is.
+    /// The unit as written, known or not.
     pub(crate) fn written_unit(&self) -> Option<&str> {
         self.unit.as_deref()
     }
@@ -60,10 +60,10 @@ impl Heading {
         name.unwrap_or(&self.text).trim()
     }
 
-    /// The unit of a quantity, and what one of it is in SI units; `None` where none is written.
+    /// The unit of a quantity, and its value in SI units; `None` if there is none.
     ///
     /// # Errors
-    /// It is that of another quantity, or not known.
+    /// The unit belongs to another quantity, or is unknown.
     pub(crate) fn unit(&self, of: Unit) -> Result<Option<(&str, f64)>, String> {
         let Some(unit) = self.unit.as_deref() else { return Ok(None) };
         match of.one(unit) {
@@ -92,9 +92,9 @@ fn is_known(unit: &str) -> bool {
     UNITS.iter().any(|of| of.one(unit).is_some())
 }
 
-/// Where the unit of a heading begins, and what it is: x (nm), x [nm], x_nm, x/nm, x in nm, x, nm.
+/// Position and text of the unit in a heading: x (nm), x [nm], x_nm, x/nm, x in nm, x, nm.
 ///
-/// What stands in brackets is taken for a unit whatever it is, as it is meant to be one; `x_0` has none.
+/// Any text in brackets counts as a unit; `x_0` has none.
 fn unit_in(text: &str) -> Option<(usize, String)> {
     let mut in_brackets = None;
     for (open, close) in [('(', ')'), ('[', ']'), ('{', '}'), ('<', '>')] {
@@ -128,7 +128,7 @@ fn after_mark(text: &str) -> Option<(usize, String)> {
     })
 }
 
-/// The units in a row of units; `None` of any other row.
+/// The units in a row of units; `None` for any other row.
 pub(super) fn units_of_row(fields: &[&str]) -> Option<Vec<String>> {
     let unit = |field: &&str| {
         let inner = ["()", "[]", "{}", "<>"].into_iter().find_map(|pair| {
@@ -148,7 +148,7 @@ pub(super) fn units_of_row(fields: &[&str]) -> Option<Vec<String>> {
     (are_all || fields.iter().zip(&units).any(is_sure)).then_some(units)
 }
 
-/// Units of columns in a line of its own, such as `units: nm nm` or `XUnit = µm`, as far as it has any.
+/// Units of columns on a separate line, such as `units: nm nm` or `XUnit = µm`; may be empty.
 pub(super) fn units_of_line(line: &str, columns: usize) -> Vec<(usize, String)> {
     let Some((key, value)) = line.split_once([':', '=', '\t']) else { return vec![] };
     let key: String = key.to_lowercase().chars().filter(char::is_ascii_lowercase).collect();

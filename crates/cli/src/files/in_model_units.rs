@@ -1,11 +1,11 @@
-//! Columns that say in their heading that they are in nm, s or nN, as multiples of the model's units.
+//! Columns whose headings have units nm, s or nN, converted to the model's units.
 
 use super::heading::Heading;
 use stickslip::{Dimension, KnownScales};
 use stickslip_units::Unit;
 
-/// What columns hold, by the names that the program gives them: in what it is read, how many nm, s or nN the SI unit has,
-/// and of what it is a multiple. `None` of what has no dimension.
+/// The meaning of a column by its name: its physical unit, the number of nm, s or nN in the SI unit, and the unit of
+/// the model. `None` if it has no dimension.
 fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
     const NANO: f64 = 1e9;
     Some(match name {
@@ -17,10 +17,10 @@ fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
     })
 }
 
-/// The columns called `names`, where their headings have units, divided by the scales.
+/// The columns called `names`; those with a unit in their heading are divided by the scales.
 ///
 /// # Errors
-/// A unit of another quantity, or one that is not known, or one without the scale that it needs.
+/// A unit belongs to another quantity, is unknown, or lacks the scale that it needs.
 pub(super) fn in_model_units(
     columns: &mut [Vec<f64>],
     names: &str,

@@ -1,4 +1,4 @@
-//! Files that users give, or that a host supplies: tip functions, documents. All of it may be wrong.
+//! Input files from users or from a host: tip functions and documents, with all their errors.
 
 use super::columns::{Columns, whole};
 use super::text::{LARGEST_TABLE, read_text, unreadable};
@@ -11,7 +11,7 @@ use std::io::{self, Cursor, Read};
 use std::path::Path;
 use stickslip::{self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable};
 
-/// A run of some ten million steps.
+/// Largest size of a document: a run of some ten million steps.
 const LARGEST_DOCUMENT: u64 = 4 << 30;
 
 /// A tip file: JSON {"gaussians":[…]}, CSV `x,f` or CSV `x,y,f`.
@@ -19,7 +19,7 @@ pub(crate) enum TipFile {
     Gaussians(Vec<GaussianEntry>),
     Table(Columns),
     Table2d([Vec<f64>; 3]),
-    /// What `stickslip tip` made of a profile.
+    /// A document of `stickslip tip`.
     Measured(Box<MeasuredTipDocument>),
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct GaussianEntry {
     pub(crate) amplitude: f64,
     pub(crate) center: f64,
     pub(crate) width: f64,
-    /// Center in y, for a tip in three dimensions.
+    /// Centre in y, for a tip in three dimensions.
     #[serde(default)]
     pub(crate) center_y: Option<f64>,
     /// Width in y, for a tip in three dimensions.
@@ -68,7 +68,7 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
     Ok(TipFile::Gaussians(tip.gaussians))
 }
 
-/// Columns of a tip, which must be in its own σ.
+/// The columns of a tip file, which must be in its own σ.
 fn table_of(text: &str) -> Result<TipFile, String> {
     let sheet = whole(text, &["x,f", "x,y,f"])?;
     let positions = &sheet.headings[..sheet.headings.len() - 1];
@@ -88,13 +88,13 @@ fn table_of(text: &str) -> Result<TipFile, String> {
     })
 }
 
-/// What `stickslip run` or `stickslip raster` wrote.
+/// A document of `stickslip run` or `stickslip raster`.
 pub(crate) enum RunOrRaster {
     Run(Box<RunDocument>),
     Raster(Box<RasterDocument>),
 }
 
-/// A document that `stickslip run` or `stickslip raster` wrote.
+/// Reads a document of `stickslip run` or `stickslip raster`.
 pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
     if let Some(run) = host::document(path) {
         return Ok(RunOrRaster::Run(Box::new(run)));
@@ -110,13 +110,13 @@ pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
     Ok(RunOrRaster::Run(Box::new(run)))
 }
 
-/// A document that `stickslip run` wrote, from a file that is open.
+/// Reads a document of `stickslip run` from an open file.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
     documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)
         .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))
 }
 
-/// A document of this format, that of a command of the same name.
+/// Reads a document of this format, which has the name of a command.
 pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
     option: &str,
     path: &Path,
@@ -129,7 +129,7 @@ pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
         .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 
-/// What the document in a file says it is; `None` where it does not.
+/// The format of the document in a file; `None` if it names none.
 pub(crate) fn format_of(
     option: &str,
     path: &Path,
@@ -140,7 +140,7 @@ pub(crate) fn format_of(
     kind.map(|kind| kind.format).map_err(refused)
 }
 
-/// The stream of a document (`-`: standard input), which ends where it would be larger than any.
+/// Opens the stream of a document (`-`: standard input), limited to the largest size.
 pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
     if let Some(bytes) = host::bytes(path) {
         return Ok(Box::new(Cursor::new(bytes)));

@@ -1,5 +1,4 @@
-//! A file that only grows, and knows what it holds: whoever takes it up again cuts it back to where a
-//! checkpoint says, and goes on.
+//! A growing file with a checksum: to resume, it is truncated to the mark in a checkpoint.
 
 use super::beside;
 use super::replace::Looks;
@@ -18,7 +17,7 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// A new one, which will begin with `magic`, in place of another such.
+    /// A new journal, which will begin with `magic`; an old one is replaced.
     ///
     /// # Errors
     /// As [`beside::create`].
@@ -27,10 +26,10 @@ impl Journal {
         Ok(Self { file: BufWriter::new(file), bytes: 0, hasher: Hasher::new() })
     }
 
-    /// The one at `path`, cut back to the mark.
+    /// The journal at `path`, truncated to the mark.
     ///
     /// # Errors
-    /// As [`beside::ours`]; it does not begin with what the mark says.
+    /// As [`beside::ours`]; or the beginning does not agree with the mark.
     pub(super) fn resume(path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         let mut file = beside::ours(path, magic)?.ok_or(io::ErrorKind::NotFound)?;
         let hasher = verified(&file, mark)?;
@@ -44,10 +43,10 @@ impl Journal {
         Ok(Self { file: BufWriter::new(file), bytes: mark.bytes, hasher })
     }
 
-    /// A new one that begins as another file does up to the mark.
+    /// A new journal with the beginning of another file, up to the mark.
     ///
     /// # Errors
-    /// As [`beside::create`]; the other does not begin with what the mark says.
+    /// As [`beside::create`]; or the beginning of the other does not agree with the mark.
     pub(super) fn copy(from: &File, path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         verified(from, mark)?;
         let looks = Looks::of_file(from);
@@ -59,7 +58,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Puts all that was written on the disk.
+    /// Writes everything to the disk.
     pub(crate) fn sync(&mut self) -> io::Result<Mark> {
         self.file.flush()?;
         self.file.get_ref().sync_data()?;
@@ -67,7 +66,7 @@ impl Journal {
     }
 }
 
-/// Whether a file begins with what the mark says.
+/// Whether the beginning of a file agrees with the mark.
 fn verified(mut file: &File, mark: Mark) -> io::Result<Hasher> {
     file.rewind()?;
     let mut hasher = Hasher::new();

@@ -1,4 +1,4 @@
-//! A run written as lines, read again, line by line: none of them is kept.
+//! Reading of a run written as lines, without keeping them in memory.
 
 use super::text::unreadable;
 use crate::host;
@@ -9,23 +9,23 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use stickslip::{Kind, RunEnd, RunHead, SampleLine, kind_of};
 
-/// All lines but the first are short.
+/// Largest length of a line except the first.
 const LONGEST_LINE: u64 = 1 << 20;
-/// The first may hold a profile and a table of the force.
+/// Largest length of the first line, which may contain a profile and a table of the force.
 const LONGEST_HEAD: u64 = 1 << 29;
-/// Enough of a file to tell what it is.
+/// Number of bytes that identify the kind of a file.
 const BEGINNING: u64 = 64;
-/// So many parts of itself, and of 1, the start of a run may be off that was computed on another machine.
+/// Largest difference of the start of a run computed on another machine, relative and absolute.
 const SLACK: f64 = 1e-9;
 
 /// A run to be read.
 pub(crate) enum Written {
     Document(Box<dyn Read>),
-    /// As lines, in a file that can be read twice.
+    /// Lines in a file that can be read twice.
     Lines(File),
 }
 
-/// Opens what `stickslip run` wrote (`-`: standard input). Lines from a pipe are put into a temporary file.
+/// Opens an output of `stickslip run` (`-`: standard input). Lines from a pipe are copied to a temporary file.
 pub(crate) fn open(path: &Path) -> Result<Written, String> {
     opened(path).map_err(unreadable)
 }
@@ -66,7 +66,7 @@ fn beginning(source: &mut impl Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// By their name or, whatever that is, by how they begin.
+/// Whether a file contains lines, by its name or by its beginning.
 fn are_lines(path: &Path, beginning: &[u8]) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy().to_ascii_lowercase());
     let is_named =
@@ -76,38 +76,38 @@ fn are_lines(path: &Path, beginning: &[u8]) -> bool {
     is_named || dense.starts_with(format!("{{\"format\":\"{}\"", RunHead::FORMAT).as_bytes())
 }
 
-/// Why lines cannot be used.
+/// The reason why lines cannot be used.
 #[derive(Debug)]
 pub(crate) enum Flaw {
-    /// They break off within the first.
+    /// They end within the first line.
     NoHead,
-    /// They break off before the first sample after the start.
+    /// They end before the first sample after the start.
     NoSamples,
-    /// They are not what a run writes, or cannot be read.
+    /// They are not the output of a run, or cannot be read.
     Damaged(String),
 }
 
-/// What there is of a run after its first line.
+/// The extent of a run after its first line.
 #[derive(Debug)]
 pub(crate) struct Extent {
-    /// Samples; they are on the lines from the second on.
+    /// Number of samples; they begin on the second line.
     pub(crate) samples: u64,
-    /// Time of the last of them.
+    /// Time of the last sample.
     pub(crate) last: Option<f64>,
-    /// The last line; `None` where they break off.
+    /// The last line; `None` if the run is incomplete.
     pub(crate) end: Option<RunEnd>,
 }
 
-/// Lines, one at a time.
+/// A reader of lines.
 pub(crate) struct Lines<R> {
     reader: R,
     line: Vec<u8>,
-    /// Lines read.
+    /// Number of lines read.
     number: u64,
 }
 
 impl<'a> Lines<BufReader<&'a File>> {
-    /// From the beginning of a file.
+    /// A reader from the beginning of a file.
     pub(crate) fn of(mut file: &'a File) -> Result<Self, Flaw> {
         file.rewind().map_err(|error| Flaw::Damaged(unreadable(error)))?;
         Ok(Self::new(BufReader::new(file)))
@@ -119,7 +119,7 @@ impl<R: BufRead> Lines<R> {
         Self { reader, line: vec![], number: 0 }
     }
 
-    /// Goes to the next line; false at the end.
+    /// Reads the next line; false at the end.
     fn advance(&mut self, longest: u64) -> Result<bool, Flaw> {
         self.line.clear();
         let mut limited = (&mut self.reader).take(longest);
@@ -131,7 +131,7 @@ impl<R: BufRead> Lines<R> {
         Ok(!self.line.is_empty())
     }
 
-    /// Goes to the first line, of which no more is read than tells that it is something else.
+    /// Reads the first line; a file of another kind is read only as far as necessary to recognise that.
     fn advance_to_head(&mut self) -> Result<(), Flaw> {
         (self.line, self.number) = (vec![], 1);
         loop {
@@ -156,7 +156,7 @@ impl<R: BufRead> Lines<R> {
         serde_json::from_slice(&self.line)
     }
 
-    /// Whether the line is one of which the rest was not written any more.
+    /// Whether the current line is incomplete.
     fn is_broken_off(&self) -> bool {
         self.line.last() != Some(&b'\n')
     }
@@ -176,7 +176,7 @@ impl<R: BufRead> Lines<R> {
         self.parse().map_err(|error| self.damaged(within(&error)))
     }
 
-    /// All others: whether they are what a run over this span of time writes, and how far they go.
+    /// Checks that all other lines are those of a run over this span of time, and returns their extent.
     pub(crate) fn survey(mut self, span: &RangeInclusive<f64>) -> Result<Extent, Flaw> {
         let mut extent = Extent { samples: 0, last: None, end: None };
         while self.advance(LONGEST_LINE)? {
@@ -206,7 +206,7 @@ impl<R: BufRead> Lines<R> {
         Ok(extent)
     }
 
-    /// The next line, known to be a sample.
+    /// Reads the next line, which must be a sample.
     pub(crate) fn sample(&mut self) -> Result<SampleLine, Flaw> {
         self.advance(LONGEST_LINE)?;
         self.parse().map_err(|_| Flaw::Damaged("it changed while it was read".into()))
@@ -226,7 +226,7 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// A run that was not interrupted ends where it was to end, or a rounding beyond.
+    /// Checks that a run that was not interrupted ends at its end time, up to round-off.
     fn judge_end(
         &self,
         end: &RunEnd,
@@ -245,7 +245,7 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// What is wrong within a line, which the parser takes for the first of a text.
+/// The message of an error within a line, without the line number of the parser, which is always 1.
 fn within(error: &serde_json::Error) -> String {
     error.to_string().replace(" at line 1 column ", " at column ")
 }
@@ -269,7 +269,7 @@ mod tests {
         }
     }
 
-    /// A line without end must not fill memory.
+    /// A line without end must not fill the memory.
     #[test]
     fn a_line_that_never_ends_is_refused() {
         let mut lines = Lines::new(BufReader::new(io::repeat(b' ')));

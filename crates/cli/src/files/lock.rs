@@ -1,26 +1,26 @@
-//! One writer a file: whoever writes a name, or will, holds its lock, and the next who wants to is told.
+//! Locks: one writer per file; a second process that opens the same output gets an error.
 //!
-//! The lock is advisory and ends with its process, however that ends. It is not on the file, which may not be there
-//! yet and has other contents each time that it is replaced, but on its name: an empty file among the system's
-//! temporary ones stands for it, and goes when the lock does. Folders of outputs stay as they are, even after a kill.
-//! What grows is locked itself as well: other machines see that where the file system tells them.
+//! The lock is advisory and ends with its process in all cases. It belongs to the name of the file, because the file
+//! may not exist yet and is replaced when it is complete: an empty file among the system's temporary ones represents
+//! it, and is removed with the lock. Output folders stay unchanged, even after a kill. Growing files are also locked
+//! themselves, which other machines see if the file system supports that.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// The right to write a name, for as long as this lives.
+/// The exclusive right to write a name, until this is dropped.
 #[derive(Debug)]
 pub(crate) struct Lock {
-    /// `None` where the system has no locks, or no place for them.
+    /// The lock file; `None` if the system has no locks, or no place for them.
     held: Option<(PathBuf, File)>,
 }
 
 impl Lock {
-    /// Of the file or folder with this name, links resolved.
+    /// Locks the file or folder with this name, links resolved.
     ///
     /// # Errors
-    /// `WouldBlock`: another process has it.
+    /// `WouldBlock`: another process has the lock.
     pub(crate) fn of(target: &Path) -> io::Result<Self> {
         let place = std::env::temp_dir().join(name(target));
         loop {
@@ -43,7 +43,7 @@ impl Drop for Lock {
     }
 }
 
-/// Locks an open file, if files can be locked there.
+/// Locks an open file, if the file system supports it.
 ///
 /// # Errors
 /// `WouldBlock`: another process has locked it.
@@ -54,7 +54,7 @@ pub(super) fn lock(file: &File) -> io::Result<()> {
     }
 }
 
-/// The same for all processes on this machine.
+/// The name of the lock file, the same for all processes on this machine.
 fn name(target: &Path) -> String {
     let (folder, name) = (target.parent().unwrap_or(target), target.file_name());
     let [folder, name] = [folder.as_os_str(), name.unwrap_or_default()]
@@ -62,7 +62,7 @@ fn name(target: &Path) -> String {
     format!("stickslip-{folder:08x}{name:08x}.lock")
 }
 
-/// Made if it is not there; what somebody planted in its place is not followed, nor waited for.
+/// Opens the lock file and creates it if necessary, without following links or waiting for pipes.
 fn open(place: &Path) -> io::Result<File> {
     let mut new = OpenOptions::new();
     match new.write(true).create_new(true).open(place) {
@@ -74,7 +74,7 @@ fn open(place: &Path) -> io::Result<File> {
     }
 }
 
-/// Whether the file is still the one at its place.
+/// Whether the open file still has this name.
 #[cfg(unix)]
 fn stands_for(place: &Path, file: &File) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -82,7 +82,7 @@ fn stands_for(place: &Path, file: &File) -> bool {
     which(place.symlink_metadata()) == which(file.metadata())
 }
 
-/// What is open keeps its name there.
+/// Whether the open file still has this name; open files always keep theirs on this system.
 #[cfg(not(unix))]
 fn stands_for(place: &Path, _: &File) -> bool {
     place.exists()
@@ -108,7 +108,7 @@ mod tests {
         assert_eq!(folder.path().read_dir().unwrap().count(), 0, "beside the target is nothing");
     }
 
-    /// As a kill leaves it.
+    /// A lock file as a kill leaves it.
     #[test]
     fn the_lock_of_a_dead_process_is_taken_over() {
         let folder = tempfile::tempdir().unwrap();

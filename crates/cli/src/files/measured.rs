@@ -1,4 +1,4 @@
-//! Measured columns as instruments write them, and the units in which several files meet.
+//! Measured columns from instruments, and the common units of several files.
 
 use super::heading::Heading;
 use super::sheet::{Sheet, parse_sheet};
@@ -8,7 +8,7 @@ use crate::message::remark;
 use std::path::Path;
 use stickslip_units::Unit;
 
-/// The table of a file, of so many columns as one of these. Rows with missing values are left out, with a remark.
+/// The table in a file, with one of these numbers of columns. Rows with missing values are omitted, with a warning.
 pub(crate) fn read_measured(
     option: &str,
     path: &Path,
@@ -28,7 +28,7 @@ pub(crate) fn read_measured(
     Ok(sheet)
 }
 
-/// Names of columns that come first.
+/// Names of columns of positions.
 const POSITIONS: [&str; 7] = ["x", "position", "distance", "pos", "way", "displacement", "lateral"];
 
 pub(crate) fn parse_measured(text: &str, columns: &[usize]) -> Result<Sheet, String> {
@@ -48,30 +48,30 @@ pub(crate) fn parse_measured(text: &str, columns: &[usize]) -> Result<Sheet, Str
     Ok(sheet)
 }
 
-/// The unit of a quantity in the first of several files, in which those of the others are converted.
+/// The unit of a quantity in the first of several files, to which the others are converted.
 pub(crate) struct Common {
     of: Unit,
     first: Option<First>,
 }
 
 struct First {
-    /// Which file, or option, it is of.
+    /// The file, or option, that gives the unit.
     named: String,
     unit: Option<String>,
-    /// In SI units, of one that is known.
+    /// The unit in SI units, if known.
     one: Option<f64>,
 }
 
 impl Common {
-    /// The unit is that of the first column.
+    /// The unit is taken from the first column.
     pub(crate) fn of(of: Unit) -> Self {
         Self { of, first: None }
     }
 
-    /// The unit is the one that the option has; columns without a unit are in it.
+    /// The unit is that of the option; it also applies to columns without a unit.
     ///
     /// # Errors
-    /// It is no unit of this quantity.
+    /// The unit does not belong to this quantity.
     pub(crate) fn given(of: Unit, option: &str, unit: &str) -> Result<Self, Failure> {
         let one = one_of(of, option, unit)?;
         let named = format!("{option} {unit}");
@@ -81,15 +81,15 @@ impl Common {
         })
     }
 
-    /// The unit, where there is one.
+    /// The unit, if there is one.
     pub(crate) fn unit(&self) -> Option<&str> {
         self.first.as_ref()?.unit.as_deref()
     }
 
-    /// By what a column of a file is multiplied, to be in the unit of the first.
+    /// The factor from the unit of a column to the common unit.
     ///
     /// # Errors
-    /// It has a unit of another quantity, or one of the two has a unit and the other has none.
+    /// The unit belongs to another quantity, or only one of the two columns has a unit.
     pub(crate) fn factor(&mut self, named: &str, heading: &Heading) -> Result<f64, Failure> {
         let refused = |message: String| Failure::input(named, message);
         let found = heading.unit(self.of).map_err(refused)?;
@@ -119,7 +119,7 @@ impl Common {
     }
 }
 
-/// What one of a unit that an option gives is in SI units.
+/// The value in SI units of a unit given by an option.
 pub(crate) fn one_of(of: Unit, option: &str, unit: &str) -> Result<f64, Failure> {
     of.one(unit).ok_or_else(|| {
         Failure::input(format!("{option} {unit}"), "m, mm, um, nm, pm or Å (angstrom) will do")
@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    /// A line `;NaN` counted as a comment, so that the row was not among those without a value.
+    /// A row without any value, such as `;NaN`, is a row with every separator, and not a comment.
     #[test]
     fn a_row_without_any_value_is_one_with_every_separator() {
         for separator in [",", ";", "\t"] {

@@ -1,4 +1,4 @@
-//! Files that come in and go out.
+//! Input and output files.
 
 pub(crate) mod beside;
 pub(crate) mod columns;

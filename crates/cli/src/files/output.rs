@@ -1,4 +1,4 @@
-//! Results on their way out: their places are judged before the work, and take their names when complete.
+//! Output files: places are checked before the computation, and files get their names when complete.
 
 use super::place::{Place, place};
 use super::special::is_special;
@@ -12,7 +12,7 @@ use serde_json::ser::Formatter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What is written, by the extension of the file.
+/// The output formats, by the extension of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum OutputFormat {
     Json,
@@ -21,10 +21,10 @@ pub(crate) enum OutputFormat {
 }
 
 impl OutputFormat {
-    /// For a command that has an extension `more`, such as ", .gsf", which it has looked for itself.
+    /// The format for a command that handles further extensions `more`, such as ", .gsf", itself.
     ///
     /// # Errors
-    /// An extension that none of the formats has.
+    /// No format has this extension.
     pub(crate) fn or_also(path: &Path, more: &str) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return Ok(Self::Json);
@@ -45,7 +45,7 @@ impl OutputFormat {
     }
 }
 
-/// JSON in which what would move a cursor is written as an escape, also where JSON itself asks for none.
+/// A JSON formatter that escapes all characters that could control a terminal, also those that JSON allows.
 struct Harmless;
 
 impl Formatter for Harmless {
@@ -69,7 +69,7 @@ impl Formatter for Harmless {
     }
 }
 
-/// A place to write to, known to be writable, and nobody else's as long as this lives.
+/// A writable output, locked until this is dropped.
 #[derive(Debug)]
 pub(crate) struct Output {
     path: PathBuf,
@@ -77,15 +77,15 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Finds the file (`-`: standard output) that `option` named, and whether it can be written.
+    /// Opens the output (`-`: standard output) that `option` named, and checks that it can be written.
     ///
     /// # Errors
-    /// It cannot be written, or another process writes it.
+    /// The output cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
         Ok(Self { path: path.into(), place: place(option, path)? })
     }
 
-    /// Where it goes, links resolved; `None` for what is no file.
+    /// The output file, with links resolved; `None` for a stream or device.
     pub(crate) fn file(&self) -> Option<&Path> {
         match &self.place {
             Place::File(target) => Some(target.path()),
@@ -93,7 +93,7 @@ impl Output {
         }
     }
 
-    /// Writes the document as JSON, with a line break at its end.
+    /// Writes the document as JSON, followed by a line break.
     pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
         self.write_with(|out| {
             document.serialize(&mut Serializer::with_formatter(&mut *out, Harmless))?;
@@ -106,8 +106,8 @@ impl Output {
         self.write_with(|out| out.write_all(bytes))
     }
 
-    /// Writes what the function writes, through a buffer. What no file could be made of is kept elsewhere: it may
-    /// have taken hours.
+    /// Writes the output of a function, through a buffer. If the file cannot be written, the result, which may have
+    /// taken hours, is saved elsewhere.
     pub(crate) fn write_with(
         self,
         write: impl Fn(&mut dyn Write) -> io::Result<()>,

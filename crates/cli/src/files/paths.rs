@@ -1,8 +1,8 @@
-//! Names of files, links and folders resolved.
+//! Resolution of links in file and folder names.
 
 use std::path::{Path, PathBuf};
 
-/// The file itself where the name is a link; the same from wherever it is looked at.
+/// The absolute path of a file, with links resolved.
 pub(crate) fn resolved(path: &Path) -> PathBuf {
     if path == Path::new("-") {
         return path.into();

@@ -1,4 +1,4 @@
-//! What a name on the command line stands for, found out before the work.
+//! Check of the outputs on the command line, before the computation.
 
 use super::lock::Lock;
 use super::paths::{folder_of, resolved};
@@ -10,16 +10,16 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Where something is written to.
+/// The kind of an output.
 #[derive(Debug)]
 pub(crate) enum Place {
     Stdout,
-    /// A device or a pipe, written to as it is.
+    /// A device or a pipe, written to directly.
     Special(File),
     File(Target),
 }
 
-/// A file that is there and can be written, or that may be made; nobody else writes it as long as this lives.
+/// An existing writable file, or one that can be created; locked until this is dropped.
 #[derive(Debug)]
 pub(crate) struct Target {
     path: PathBuf,
@@ -27,12 +27,12 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    /// Links resolved.
+    /// The path, with links resolved.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes it in one go.
+    /// Writes the file in one operation.
     pub(crate) fn replace(
         &self,
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
@@ -41,25 +41,25 @@ impl Target {
     }
 }
 
-/// Finds out, before the work, whether the place that `option` named (`-`: standard output) can be
-/// written, and reserves it.
+/// Checks, before the computation, that the output that `option` named (`-`: standard output) can be written, and
+/// locks it.
 ///
 /// # Errors
-/// It cannot be written, or another process writes it.
+/// The output cannot be written, or another process writes it.
 pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
     writable(path).map_err(|error| refused(option, path, &error))
 }
 
-/// Reserves a folder that is there, for a command that fills it.
+/// Locks an existing folder, for a command that fills it.
 ///
 /// # Errors
-/// Another process fills it.
+/// Another process has locked it.
 pub(crate) fn folder(option: &str, path: &Path) -> Result<Lock, Failure> {
     Lock::of(&resolved(path)).map_err(|_| Failure::input(named(option, path), IN_USE))
 }
 
-/// What is told where another process writes what the option names, or a file of the user's stands there; `None` of any
-/// other error.
+/// The error if another process writes the file of this option, or if a user's file has a derived name; `None` for
+/// any other error.
 pub(crate) fn taken(option: &str, path: &Path, error: &io::Error) -> Option<Failure> {
     match error.kind() {
         ErrorKind::WouldBlock => Some(Failure::input(named(option, path), IN_USE)),
@@ -86,7 +86,7 @@ pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
     Failure::input(named(option, path), format!("{said}; {advice}"))
 }
 
-/// Said where a lock is another's.
+/// Message for an output locked by another process.
 const IN_USE: &str = "is being written by another stickslip: wait until it has ended, or \
                                  choose another name";
 

@@ -1,5 +1,4 @@
-//! The one way in which a file is replaced: at any time its name stands for what was there before or for all of
-//! the new.
+//! Atomic replacement of a file: at any time its name refers to the complete old or the complete new content.
 
 use super::paths::folder_of;
 use super::temporary::{Unfinished, beside, remove_left_behind, through};
@@ -7,23 +6,22 @@ use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// What of a file is not its contents: its mode, as far as the umask lets new files be open to others, and, where that
-/// is possible, its owner.
+/// The permissions of a file, within the umask, and if possible its owner.
 #[derive(Debug, Default)]
 pub(super) struct Looks(Option<Metadata>);
 
 impl Looks {
-    /// Those of the file at this place; of a new one, if there is none.
+    /// The permissions of the file at this place, if there is one.
     pub(super) fn of(path: &Path) -> Self {
         Self(path.metadata().ok())
     }
 
-    /// Those of an open file.
+    /// The permissions of an open file.
     pub(super) fn of_file(file: &File) -> Self {
         Self(file.metadata().ok())
     }
 
-    /// Gives them to a file. Before there is anything in it, so that nobody reads who may not.
+    /// Applies the permissions to a file, while it is still empty, so that no unauthorised process can read it.
     #[cfg(unix)]
     pub(super) fn give_to(&self, file: &File) -> io::Result<()> {
         use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
@@ -49,7 +47,7 @@ impl Looks {
     }
 }
 
-/// Writes a file under a temporary name, puts it on the disk, and gives it its own.
+/// Writes a file under a temporary name, syncs it, and renames it.
 pub(super) fn replace(
     path: &Path,
     looks: &Looks,
@@ -66,8 +64,7 @@ pub(super) fn replace(
     Ok(())
 }
 
-/// Puts on the disk that a file has got its name. Not every system can sync a folder: then the name is as
-/// safe as that system makes it.
+/// Syncs the folder after a rename. Systems that cannot sync a folder give their own guarantee.
 pub(super) fn sync_folder(path: &Path) {
     File::open(folder_of(path)).and_then(|folder| folder.sync_all()).ok();
 }

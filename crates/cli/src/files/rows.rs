@@ -1,5 +1,5 @@
-//! Rows of numbers that grow beside a checkpoint: a line that says what they are, then their bits in little-endian
-//! order.
+//! Rows of numbers in a growing file beside a checkpoint: a first line that describes them, then their bits in
+//! little-endian order.
 
 use super::beside;
 use super::journal::Journal;
@@ -8,9 +8,9 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use stickslip::Mark;
 
-/// How such a file begins.
+/// Beginning of such a file.
 const MAGIC: &[u8] = b"stickslip/journal ";
-/// Bytes of the first line; rows of 7 and of 16 numbers alike fit into it.
+/// Length of the first line in bytes, a multiple of the length of rows of 7 and of 16 numbers.
 const HEAD: usize = 896;
 
 /// A journal of rows.
@@ -18,14 +18,14 @@ const HEAD: usize = 896;
 pub(crate) struct Rows(Journal);
 
 impl Rows {
-    /// A new one in place of another such, as open to others as the file it belongs to.
+    /// A new journal with the permissions of the file that it belongs to; an old one is replaced.
     pub(crate) fn create(path: &Path, owner: &Path, numbers: usize) -> io::Result<Self> {
         let mut journal = Journal::create(path, MAGIC, &Looks::of(owner))?;
         journal.write_all(&head(numbers))?;
         Ok(Self(journal))
     }
 
-    /// Takes one up, cut back to the mark, with the rows of N numbers that it holds.
+    /// Resumes a journal, truncated to the mark, and returns its rows of N numbers.
     pub(crate) fn resume<const N: usize>(
         path: &Path,
         mark: Mark,
@@ -44,12 +44,12 @@ impl Rows {
         Ok((Self(journal), rows.iter().map(|row| row.map(f64::from_le_bytes)).collect()))
     }
 
-    /// One more row.
+    /// Writes one row.
     pub(crate) fn write<const N: usize>(&mut self, row: [f64; N]) -> io::Result<()> {
         self.0.write_all(row.map(f64::to_le_bytes).as_flattened())
     }
 
-    /// Puts all rows on the disk.
+    /// Writes all rows to the disk.
     pub(crate) fn sync(&mut self) -> io::Result<Mark> {
         self.0.sync()
     }
@@ -67,7 +67,7 @@ fn head(numbers: usize) -> Vec<u8> {
     line
 }
 
-/// The file of rows that belongs to a checkpoint.
+/// The journal of a checkpoint.
 pub(crate) fn journal_of(checkpoint: &Path) -> std::path::PathBuf {
     beside::with(checkpoint, ".journal")
 }

@@ -1,25 +1,25 @@
-//! Tables of numbers as people and instruments write them. Each line is a row of numbers, a heading, a comment, or an error:
-//! none is passed over.
+//! Tables of numbers from people and instruments. Each line is a row of numbers, a heading, a comment, or an error:
+//! none is ignored.
 //!
-//! The separator and the decimal mark are those with which all rows are rows of numbers, as many in each. Lines before the
-//! first row are headings where they begin with a letter; what begins otherwise is a row that cannot be read. Rows in
-//! which a value is missing are counted, with their lines.
+//! Separator and decimal mark are those with which all rows are rows of equally many numbers. Lines before the first
+//! row are headings if they begin with a letter; other lines are errors. Rows with missing values are counted, with
+//! their line numbers.
 
 use super::dialect::{Cell, DIALECTS, Dialect, Separator};
 use super::heading::{Heading, units_of_line, units_of_row};
 
-/// A table as it was read; without columns where the text has no rows.
+/// A table as it was read; without columns if the text has no rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Sheet {
-    /// One for each column; empty where there is none.
+    /// Heading of each column; may be empty.
     pub(crate) headings: Vec<Heading>,
-    /// Rows in which no value is missing.
+    /// The rows without missing values, as columns.
     pub(crate) columns: Vec<Vec<f64>>,
-    /// Lines of the others.
+    /// Line numbers of the rows with missing values.
     pub(crate) missing: Vec<usize>,
 }
 
-/// Lines by any line end: LF, CR LF, CR, and the separators of Unicode.
+/// The lines of a text, with any line end: LF, CR LF, CR, and the separators of Unicode.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = text;
     std::iter::from_fn(move || {
@@ -35,10 +35,10 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The table in a text, of as many columns as `admissible` has.
+/// The table in a text, with one of the numbers of columns in `admissible`.
 ///
 /// # Errors
-/// The line that is no row of numbers, or what else is wrong.
+/// The line that is not a row of numbers, or another error.
 pub(crate) fn parse_sheet(text: &str, admissible: &[usize]) -> Result<Sheet, String> {
     // The end of a file on DOS.
     let text = text.trim_end_matches('\u{1a}');
@@ -60,7 +60,7 @@ pub(crate) fn parse_sheet(text: &str, admissible: &[usize]) -> Result<Sheet, Str
 }
 
 impl Dialect {
-    /// Whether its marks are in the text.
+    /// Whether a text contains the marks of this dialect.
     fn may_be_of(self, text: &str) -> bool {
         let separates = match self.separator {
             Separator::Mark(mark) => text.contains(mark),
@@ -70,57 +70,58 @@ impl Dialect {
     }
 }
 
-/// How far a text was read: to which line, and whether rows were found. The dialect that reads furthest is that of the text.
+/// Progress of reading: the line reached, and whether rows were found. The dialect that reaches furthest is that of
+/// the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 struct Reached {
     line: usize,
     has_rows: bool,
 }
 
-/// Why a text is no table in a dialect.
+/// The reason why a text is not a table in a dialect.
 struct Flaw {
     reached: Reached,
     message: String,
 }
 
 impl Flaw {
-    /// In a row, or in a line that would be one.
+    /// An error in a row, or in a line that should be one.
     fn at(line: usize, message: impl std::fmt::Display) -> Self {
         let reached = Reached { line, has_rows: true };
         Self { reached, message: format!("line {line}: {message}") }
     }
 
-    /// In a line that is read by the time when another was.
+    /// An error that was detected at a later line than its own.
     fn found_at(self, line: usize) -> Self {
         Self { reached: Reached { line, has_rows: true }, ..self }
     }
 
-    /// Before any row.
+    /// An error before the first row.
     fn above(line: usize, message: impl std::fmt::Display) -> Self {
         let reached = Reached { line, has_rows: false };
         Self { reached, ..Self::at(line, message) }
     }
 
-    /// Of a table that was read to its end.
+    /// An error found after all rows were read.
     fn of_all(message: String) -> Self {
         Self { reached: Reached { line: usize::MAX, has_rows: true }, message }
     }
 }
 
-/// A text while it is read in one dialect.
+/// State of reading a text in one dialect.
 struct Reading<'a> {
     dialect: Dialect,
-    /// Numbers of columns that will do.
+    /// Admissible numbers of columns.
     admissible: &'a [usize],
-    /// Lines before the first row that are no comments.
+    /// Lines before the first row, except comments.
     above: Vec<(usize, &'a str)>,
     /// Comments before the first row.
     comments: Vec<&'a str>,
     headings: Vec<Heading>,
     columns: Vec<Vec<f64>>,
-    /// Of the file, for each row.
+    /// Line number of each row.
     lines: Vec<u32>,
-    /// Whether no field of a column has anything in it.
+    /// Whether all fields of a column are empty.
     blank: Vec<bool>,
     marks: Vec<Marks>,
     commas: Commas,
@@ -197,7 +198,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// A line that is no row of numbers.
+    /// Handles a line that is not a row of numbers.
     fn other(
         &mut self,
         line: usize,
@@ -219,9 +220,9 @@ impl<'a> Reading<'a> {
         Err(if has_rows { Flaw::at(line, message) } else { Flaw::above(line, message) })
     }
 
-    /// The headings of so many columns, whose first row is in this line.
+    /// The headings of `count` columns, whose first row is on this line.
     ///
-    /// Between the lowest line of words and the first row there is nothing else, as it might be a row that is damaged.
+    /// No other line is allowed between the last line of words and the first row, because it might be a damaged row.
     fn headings_of(&self, first: usize, count: usize) -> Result<Vec<Heading>, Flaw> {
         let has_numbers = |text: &str| {
             let mut fields = vec![];
@@ -272,7 +273,7 @@ impl<'a> Reading<'a> {
         Ok(headings)
     }
 
-    /// A line of words as headings of so many columns, by whatever separates them.
+    /// A line of words as headings of `count` columns, with any separator.
     fn names<'b>(&self, text: &'b str, count: usize) -> Option<Vec<&'b str>> {
         let marks = [',', ';', '\t'].map(Separator::Mark);
         let mut fields = vec![];
@@ -298,7 +299,7 @@ impl<'a> Reading<'a> {
             .then_some(bracketed)
     }
 
-    /// A number, or one in which a character is wrong.
+    /// Whether a field is a number, or a number with one wrong character.
     fn is_like_a_number(&self, field: &str) -> bool {
         let digits = field.chars().filter(|c| c.is_ascii_digit() || matches!(c, '.' | ',')).count();
         let is_damaged = 2 * digits > field.chars().count() && field.contains(['.', ',']);
@@ -348,7 +349,7 @@ impl<'a> Reading<'a> {
         if self.commas.are_between_integers() { format!("{message}; {AMBIGUOUS}") } else { message }
     }
 
-    /// Refuses commas that may be decimal marks, and points or commas that may group thousands.
+    /// Rejects commas that may be decimal marks, and points or commas that may group thousands.
     fn judge_marks(&self) -> Result<(), Flaw> {
         let groups =
             |marks: &Marks| marks.thousands.filter(|_| marks.has_small && !marks.is_decimal);
@@ -383,14 +384,14 @@ impl<'a> Reading<'a> {
 const AMBIGUOUS: &str = "commas may be decimal marks here: write `;` between the columns, or a decimal point, or a heading with a \
                          name for each column";
 
-/// What the marks in a column show of groups of thousands: 1,234 beside 999.
+/// Evidence for groups of thousands in a column: 1,234 together with 999.
 #[derive(Debug, Clone, Default)]
 struct Marks {
     /// The line of the first number that may be grouped.
     thousands: Option<usize>,
-    /// Numbers below 1000 without a mark.
+    /// Whether there are numbers below 1000 without a mark.
     has_small: bool,
-    /// A mark that does not group.
+    /// Whether a mark cannot be a grouping mark.
     is_decimal: bool,
 }
 
@@ -416,15 +417,15 @@ impl Marks {
     }
 }
 
-/// What commas between integers show of decimal commas: 0,05 and -0,5 and 0,1 after 0,0.
+/// Evidence for decimal commas between integers: 0,05 and -0,5 and 0,1 after 0,0.
 #[derive(Debug, Default)]
 struct Commas {
     has_others: bool,
     /// The line of the first such zero.
     odd: Option<usize>,
-    /// A zero before other digits, or one that is negative.
+    /// Whether there is a zero before other digits, or a negative one.
     has_zeros: bool,
-    /// Rows with the same integer before the first comma as the row before.
+    /// Number of rows with the same integer before the first comma as the row before.
     repeats: usize,
     last: String,
 }
@@ -457,7 +458,7 @@ impl Commas {
     }
 }
 
-/// Names from rows of words, and units from the row of units among them.
+/// Names from rows of words, and units from a row of units.
 fn headings(rows: &[Vec<&str>], count: usize) -> Result<Vec<Heading>, String> {
     let units = rows.iter().rev().take(4).find_map(|row| Some((row, units_of_row(row)?)));
     let is_units = |row: &Vec<&str>| units.as_ref().is_some_and(|(of_units, _)| *of_units == row);
@@ -476,7 +477,7 @@ fn headings(rows: &[Vec<&str>], count: usize) -> Result<Vec<Heading>, String> {
     }
 }
 
-/// What follows the mark of a comment.
+/// The text after the mark of a comment.
 fn comment(line: &str) -> Option<&str> {
     const ERRORS: [&str; 5] = ["#n/a", "#nv", "#num!", "#value!", "#div/0!"];
     let line = line.trim();
@@ -496,34 +497,35 @@ fn comment(line: &str) -> Option<&str> {
     marked.map(|rest| rest.trim_start_matches(['#', '%', ';', '/']).trim())
 }
 
-/// Numbers and missing values alone; of a first row one number at least, or several missing values.
+/// Whether a line contains only numbers and missing values; a first row needs at least one number or several missing
+/// values.
 fn is_row(cells: &[Cell], has_rows: bool) -> bool {
     let is_value = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::Missing);
     cells.iter().all(is_value)
         && (has_rows || cells.len() > 1 || cells.iter().any(|cell| matches!(cell, Cell::Number(_))))
 }
 
-/// As titles, names and units do, in brackets or not.
+/// Whether a line begins with a letter, possibly after a bracket, like titles, names and units.
 fn begins_with_a_letter(line: &str) -> bool {
     let marks = |c: char| c.is_whitespace() || "\"'[({<*\\@!:,;_".contains(c);
     let first = line.trim_start_matches(marks).chars().next();
     first.is_some_and(|c| c.is_alphabetic() || "µ°%".contains(c))
 }
 
-/// A line drawn below a heading.
+/// Whether a line is a rule below a heading.
 fn is_rule(line: &str) -> bool {
     let line = line.trim();
     line.len() > 2 && line.chars().all(|c| "-=_*+|~ \t".contains(c))
 }
 
-/// `Samples: 500` and the like: a name, and one value behind it.
+/// Whether a line is a name followed by one value, such as `Samples: 500`.
 fn is_remark_with_value(line: &str) -> bool {
     let Some((name, value)) = line.split_once([':', '=']) else { return false };
     let is_name = name.chars().filter(|c| c.is_alphabetic()).count() > 1;
     is_name && !value.trim().contains([',', ';', '\t', ' '])
 }
 
-/// The beginning of what may be long.
+/// The beginning of a text that may be long.
 fn short(text: &str) -> String {
     let text = text.trim();
     let beginning: String = text.chars().take(40).collect();

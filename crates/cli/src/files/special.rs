@@ -1,15 +1,15 @@
-//! Devices and pipes, and how files are opened so that neither they nor links come unasked.
+//! Devices and pipes, and safe opening of files that may have been replaced by links or pipes.
 
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
-/// Whether the path is a device or a pipe, which must not be renamed over.
+/// Whether the path is a device or a pipe, which must not be replaced by a rename.
 pub(super) fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
 
-/// Neither through a link at the end of the name, nor waiting for the other end of a pipe.
+/// Options that do not follow a link at the end of the name, and do not wait for the other end of a pipe.
 #[cfg(unix)]
 pub(super) fn not_followed(options: &mut OpenOptions) -> &mut OpenOptions {
     use std::os::unix::fs::OpenOptionsExt;
@@ -21,15 +21,15 @@ pub(super) fn not_followed(options: &mut OpenOptions) -> &mut OpenOptions {
     options
 }
 
-/// Opens it for writing. A pipe must have a reader soon.
+/// Opens a device or pipe for writing. A pipe must have a reader soon.
 ///
 /// # Errors
-/// `NotConnected`: nobody reads from the pipe.
+/// `NotConnected`: the pipe has no reader.
 #[cfg(unix)]
 pub(super) fn open(path: &Path) -> io::Result<File> {
     use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
     use std::time::{Duration, Instant};
-    /// A reader that is started at the same time is there by then.
+    /// Waiting time for the reader of a pipe that is started simultaneously.
     const PATIENCE: Duration = Duration::from_millis(600);
     let mut options = OpenOptions::new();
     options.write(true);

@@ -1,4 +1,4 @@
-//! Output that grows line by line while the work goes on.
+//! Output that grows line by line during the work.
 
 use super::beside;
 use super::journal::Journal;
@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use stickslip::Mark;
 
-/// Lines on their way out. A file grows as `FILE.part` and gets its name when it is complete: nobody takes a
-/// half for the whole, and what was there before stays until then.
+/// Lines of output. A file grows as `FILE.part` and gets its name when it is complete: until then an older file of
+/// that name remains, and no reader sees an incomplete one.
 pub(crate) struct Stream {
     sink: Sink,
     line: Vec<u8>,
@@ -30,26 +30,26 @@ struct Part {
     journal: Journal,
     part: PathBuf,
     target: Target,
-    /// Left where it is when the work fails: a checkpoint knows how to go on with it.
+    /// Whether the part stays when the work fails, because a checkpoint can resume it.
     is_kept: bool,
 }
 
-/// What was written is seen by others after this time at the latest.
+/// Largest delay until written lines are visible to others.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// How the first line begins.
+/// Beginning of the first line.
 const MAGIC: &[u8] = b"{\"format\":\"stickslip/run-lines\"";
 
-/// The name under which a file grows.
+/// The name of a growing file.
 pub(crate) fn part_of(target: &Path) -> PathBuf {
     beside::with(target, ".part")
 }
 
 impl Stream {
-    /// Opens the file (`-`: standard output) that `option` named.
+    /// Opens the output (`-`: standard output) that `option` named.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The output cannot be written.
     pub(crate) fn open(option: &str, path: &Path, is_kept: bool) -> Result<Self, Failure> {
         let sink = match place(option, path)? {
             Place::Stdout => Sink::Stdout(BufWriter::new(io::stdout())),
@@ -64,8 +64,8 @@ impl Stream {
         Ok(Self::through(sink))
     }
 
-    /// Goes on with a file that held what the mark says: its part or a copy of the beginning of another, be it that
-    /// to which an interrupted run has given its name.
+    /// Resumes a file with the content of the mark: its part, or a copy of the beginning of another file, such as the
+    /// final file of an interrupted run.
     pub(crate) fn resume(target: Target, mark: Mark, others: &[PathBuf]) -> Result<Self, Failure> {
         let part = part_of(target.path());
         let mut journal = Journal::resume(&part, MAGIC, mark);
@@ -93,12 +93,12 @@ impl Stream {
         Self { sink, line: vec![], flushed: Instant::now() }
     }
 
-    /// Whether it can be cut back to a mark.
+    /// Whether the output can be truncated to a mark.
     pub(crate) fn is_file(&self) -> bool {
         matches!(self.sink, Sink::Part(_))
     }
 
-    /// Leaves a file that will not be complete under the name of its part.
+    /// Keeps an incomplete file under the name of its part.
     pub(crate) fn keep_part(&mut self) -> Option<&Path> {
         let Sink::Part(part) = &mut self.sink else { return None };
         part.is_kept = true;
@@ -124,7 +124,7 @@ impl Stream {
         done.map_err(|error| self.failed(error))
     }
 
-    /// Puts all lines on the disk and says what is there.
+    /// Writes all lines to the disk and returns their mark.
     pub(crate) fn sync(&mut self) -> Result<Mark, Failure> {
         let done = match &mut self.sink {
             Sink::Part(part) => part.journal.sync(),
@@ -134,7 +134,7 @@ impl Stream {
         done.map_err(|error| self.failed(error))
     }
 
-    /// All lines are written: the file gets its name.
+    /// Completes the file and gives it its name.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.sync()?;
         let Sink::Part(part) = &mut self.sink else { return Ok(()) };

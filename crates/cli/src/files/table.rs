@@ -1,4 +1,4 @@
-//! Tables on their way out: CSV and NumPy archives of whatever can be had as columns and arrays.
+//! Output of tables: CSV and NumPy archives of documents with columns and arrays.
 
 use super::output::Output;
 use crate::failure::Failure;
@@ -8,7 +8,7 @@ use ndarray_npy::NpzWriter;
 use std::io::{self, Cursor, Write};
 use stickslip::{Column, Tabular, arrays_in_units, columns_in_units};
 
-/// Writes the columns as CSV under their names, a line for each row.
+/// Writes the columns as CSV, with their names and a line for each row.
 pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Failure> {
     let columns = columns_in_units(table);
     let names: Vec<&str> = columns.iter().map(|(name, _)| &**name).collect();
@@ -39,7 +39,7 @@ fn write_row(
     out.write_all(line.as_bytes())
 }
 
-/// `None` where it goes on for as long as the others do.
+/// Number of rows of a column; `None` for one that repeats to the end of the table.
 fn rows(column: &Column) -> Option<usize> {
     match column {
         Column::Numbers(values) => Some(values.len()),
@@ -54,7 +54,7 @@ enum Cells<'a> {
     Numbers(&'a [f64]),
     Optional(&'a [Option<f64>]),
     Words(&'a [String]),
-    /// Written out once: shortest digits are what takes the time.
+    /// Repeated text, formatted once because shortest digits are expensive.
     Repeated(Vec<String>, usize),
 }
 

@@ -1,6 +1,6 @@
-//! Temporary files beside what they will replace. They are made once there is something to write, so that a
-//! process killed at its work leaves none; one that is killed as it writes leaves one, which the next to write
-//! the same file removes. A lock, which ends with its process, tells the two apart.
+//! Temporary files beside the files that they will replace. They are created when there is something to write, so
+//! that a process killed during the computation leaves none. A process killed during writing leaves one, which the
+//! next writer of the same file removes. A lock, which ends with its process, distinguishes the two cases.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -9,31 +9,31 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
-/// Finds out whether a folder takes new files, and leaves none there.
+/// Checks whether a folder accepts new files, and leaves none there.
 pub(super) fn may_be_made_in(folder: &Path) -> io::Result<()> {
     // Without a name from the first, where the system has such files.
     tempfile::tempfile_in(folder).map(drop)
 }
 
-/// Files that are being written: a signal that ends the program removes them.
+/// Unfinished files, removed when a signal ends the program.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(vec![]);
 
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is being written, for a program that ends here.
+/// Removes unfinished files at the end of the program.
 pub(crate) fn remove_unfinished() {
     for path in unfinished().drain(..) {
         fs::remove_file(path).ok();
     }
 }
 
-/// A file that is being written, until this goes: it has got its name by then, or is of no use.
+/// An unfinished file; on drop it is removed unless it was renamed.
 pub(super) struct Unfinished(PathBuf);
 
 impl Unfinished {
-    /// Takes note of a file.
+    /// Registers an unfinished file.
     pub(super) fn at(path: &Path) -> Self {
         unfinished().push(path.into());
         Self(path.into())
@@ -46,7 +46,7 @@ impl Drop for Unfinished {
     }
 }
 
-/// A new file in the folder of a target, locked.
+/// A new locked file in the folder of a target.
 pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     loop {
         let file = new(&prefix(target), folder)?;
@@ -59,8 +59,8 @@ pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> 
     }
 }
 
-/// Writes among the system's temporary files what could not be written where it should be; where it is. Open to
-/// nobody else.
+/// Writes a result that could not be written to its place among the system's temporary files, readable only by the
+/// user, and returns the path.
 pub(super) fn kept_elsewhere(
     target: &Path,
     write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
@@ -85,7 +85,7 @@ pub(super) fn through(
     buffered.flush()
 }
 
-/// Ours, for this target: of a length that any file system allows, however long its name.
+/// Prefix of temporary files for this target, short enough for any file system.
 fn prefix(target: &Path) -> String {
     let name = target.file_name().unwrap_or_default().as_encoded_bytes();
     format!(".stickslip-{:08x}-", crc32fast::hash(name))
@@ -104,7 +104,7 @@ fn new(prefix: &str, folder: &Path) -> io::Result<NamedTempFile> {
     Builder::new().prefix(prefix).tempfile_in(folder)
 }
 
-/// Removes what was made for this target by processes that are no more. What cannot be removed stays.
+/// Removes temporary files of ended processes for this target. Errors are ignored.
 pub(super) fn remove_left_behind(target: &Path, folder: &Path) {
     let prefix = prefix(target);
     let is_ours = |path: &PathBuf| {
@@ -133,7 +133,7 @@ mod tests {
         folder.read_dir().unwrap().map(name).collect()
     }
 
-    /// As a kill leaves it: without its lock, never removed.
+    /// A temporary file without its lock, as a kill leaves it.
     fn left_behind(target: &Path, folder: &Path) -> PathBuf {
         let (file, path) = beside(target, folder).unwrap().keep().unwrap();
         drop(file);
@@ -167,7 +167,7 @@ mod tests {
         assert!(may_be_made_in(&folder.path().join("none")).is_err());
     }
 
-    /// Names as long as a system allows are written too.
+    /// A target with the longest name that a system allows can be written.
     #[test]
     fn a_long_name_has_a_short_temporary_one() {
         let long = PathBuf::from("x".repeat(250) + ".json");

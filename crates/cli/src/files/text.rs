@@ -1,4 +1,4 @@
-//! Text that users give, or that a host supplies, as long as it is not too long.
+//! Text files from users or from a host, with a size limit.
 
 use super::decode::decoded;
 use crate::failure::Failure;
@@ -7,16 +7,16 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Measured series are small; this is a million rows and more.
+/// Largest size of a measured series: more than a million rows.
 pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 
-/// The text of a file (`-`: standard input) in any usual encoding, if it is not larger than `most` bytes.
+/// The text of a file (`-`: standard input) in any usual encoding; an error if it is larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
     decoded(read_bytes(option, path, most)?)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
-/// The bytes of a file, in the same way.
+/// The bytes of a file, with the same limit.
 pub(super) fn read_bytes(option: &str, path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let bytes = if let Some(bytes) = host::bytes(path) {
         bytes_of(&*bytes, most)
@@ -48,7 +48,7 @@ pub(super) fn unreadable(error: io::Error) -> String {
 mod tests {
     use super::*;
 
-    /// A file one byte too long is refused, one of just the length is read; more is never asked for.
+    /// A file one byte too long is rejected, one of exactly the limit is read; the reader never requests more.
     #[test]
     fn no_more_is_read_than_the_limit() {
         let folder = tempfile::tempdir().unwrap();
@@ -59,7 +59,7 @@ mod tests {
         assert!(refused.to_string().contains("larger than"), "{refused}");
     }
 
-    /// It would not come back.
+    /// Reading such a device would not end.
     #[cfg(unix)]
     #[test]
     fn a_device_without_end_is_refused() {

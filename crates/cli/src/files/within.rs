@@ -1,10 +1,10 @@
-//! Paths as a file holds them that may be moved, with its folder, or be given by somebody else: seen from that
-//! folder, and within it.
+//! Relative paths in a file that may be moved with its folder or come from somebody else: they are relative to that
+//! folder, and must stay within it.
 
 use super::paths::{folder_of, resolved};
 use std::path::{Path, PathBuf};
 
-/// The path as it is seen from a folder, links resolved; as it is where it leads outside.
+/// The path relative to a folder, with links resolved; unchanged if it leads outside.
 pub(crate) fn seen_from(folder: &Path, path: &Path) -> PathBuf {
     if path == Path::new("-") {
         return path.into();
@@ -16,7 +16,7 @@ pub(crate) fn seen_from(folder: &Path, path: &Path) -> PathBuf {
     }
 }
 
-/// What such a path leads to from a folder; `None` where that is outside, be it through a link.
+/// The absolute path of such a relative one; `None` if it is outside of the folder, also through a link.
 pub(crate) fn found_from(folder: &Path, path: &Path) -> Option<PathBuf> {
     if path == Path::new("-") {
         return Some(path.into());

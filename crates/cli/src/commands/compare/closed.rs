@@ -9,7 +9,7 @@ use stickslip::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
 use stickslip_tip::{Run, Scenario, Trajectory, run_observed};
 
-/// Steps between two looks at the clock: a step takes microseconds.
+/// Steps between two readings of the clock: a step takes microseconds.
 const STEPS_PER_LOOK: u32 = 256;
 
 /// A finished run and its time.
@@ -46,7 +46,7 @@ pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
 }
 
 impl Closed {
-    /// x0 at the times t, u at the positions x at the time `end`.
+    /// The document: x0 at the times t, u at the positions x at the time `end`.
     pub(super) fn document(
         &self,
         scenario: &Scenario,

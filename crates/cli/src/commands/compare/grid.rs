@@ -14,18 +14,18 @@ use stickslip_grid::{
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 use stickslip_tip::{InitialSurface, Scenario, TipFunction};
 
-/// The widest lattice that is exact to round-off, in widths.
+/// The widest lattice spacing that is exact to round-off, in widths of the tip.
 const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
-/// Of the second-order grids, in widths.
+/// Default spacing of the second-order grids, in widths of the tip.
 const SECOND_ORDER: f64 = 0.01;
-/// Cells on either side that a sinc reaches over, for round-off.
+/// Cells on either side in the support of the sinc, for errors at round-off.
 const SINC_HALF_WIDTH: usize = 80;
-/// Eight vectors of these are 190 MB.
+/// Largest number of cells: eight vectors of this length are 190 MB.
 const MOST_CELLS: f64 = 3e6;
-/// At most twice as many samples are kept.
+/// Number of samples to which the motion is thinned; at most twice as many are kept.
 const SAMPLES: usize = 2048;
 
-/// A way to discretise, judged.
+/// A checked discretisation.
 pub(super) struct Discretisation {
     name: GridName,
     gaussians: Vec<Gaussian>,
@@ -73,7 +73,7 @@ impl Discretisation {
         Ok(Self { name, gaussians, reach, spacing, smallest_width, stepping })
     }
 
-    /// Judges the number of cells over a length of way.
+    /// Checks the number of cells over a length.
     pub(super) fn fits(&self, length: f64) -> Result<(), Failure> {
         let cells = length / self.spacing;
         if cells <= MOST_CELLS {
@@ -89,7 +89,7 @@ impl Discretisation {
         ))
     }
 
-    /// Local error allowed, where steps are adaptive.
+    /// Local error allowed, if steps are adaptive.
     pub(super) fn tolerance(&self) -> Option<f64> {
         Some(self.stepping.atol).filter(|atol| atol.is_finite())
     }
@@ -108,7 +108,7 @@ impl Discretisation {
     }
 }
 
-/// Local errors below are round-off.
+/// Smallest tolerance; smaller errors are round-off.
 const LEAST_TOLERANCE: f64 = 1e-15;
 
 pub(super) fn stepping(arguments: &CompareArguments, usual: f64) -> Result<Stepping, Failure> {
@@ -129,13 +129,13 @@ pub(super) fn stepping(arguments: &CompareArguments, usual: f64) -> Result<Stepp
     }
 }
 
-/// The motion at the ends of its own steps, and the surface at its end.
+/// The motion at the ends of the grid's steps, and the final surface.
 pub(super) struct Motion {
     pub(super) t: Vec<f64>,
     pub(super) grid: GridDocument,
 }
 
-/// Runs the grid from the scenario's start, over the domain that `x` spans.
+/// Runs the grid from the scenario's initial condition, over the domain of `x`.
 pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
     let Asked { scenario, discretisation, grid_until, .. } = asked;
     let model = &scenario.model;
@@ -179,7 +179,7 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
     Ok(Motion { t: samples.t, grid: GridDocument { x0: samples.x0, u: run.u, work } })
 }
 
-/// What no tip has carved of the surface at the start: noise and profile.
+/// The part of the initial surface that is not a groove: noise and profile.
 fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
     if scenario.noise.is_none() && scenario.profile.is_none() {
         return Ok(None);
@@ -188,7 +188,7 @@ fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
     scenario.initial_surface().map(Some).map_err(|error| Failure::Run(error.to_string()))
 }
 
-/// The law, in the grid's own words.
+/// The law in the types of the grid.
 fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
     let stickslip_tip::Wider { depth_limit, healing_time, inertia, spring } =
         *scenario.model.wider();
@@ -197,7 +197,7 @@ fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
     Wider { depth_limit, healing_time, inertia, spring, path }
 }
 
-/// The texture is given to the grid as f and the force are: as functions of what the closed equation is given.
+/// The initial condition for the grid. Texture, f and force are passed as functions of the closed equation's data.
 fn start<'a>(
     scenario: &Scenario,
     law: &Wider,
@@ -225,7 +225,7 @@ fn start<'a>(
     }
 }
 
-/// Looks at every step: keeps samples, shows progress, and stops what would take too long.
+/// Observer of every step: stores samples, shows progress, and ends work that would take too long.
 struct Watch {
     progress: Progress,
     pace: Pace,
@@ -279,7 +279,7 @@ impl Samples {
     }
 }
 
-/// Names the option that an error of the grid is about.
+/// The error with the option that causes an error of the grid.
 fn explain(asked: &Asked, error: GridError) -> Failure {
     match error {
         GridError::Defect { .. } => {

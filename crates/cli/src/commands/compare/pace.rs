@@ -1,16 +1,16 @@
-//! What would take too long is refused as soon as that is seen; what nobody waits for any more ends.
+//! Time limits: work that is predicted to take too long is rejected early, and cancelled work ends.
 
 use crate::failure::{Failure, Typed};
 use signal_hook::consts::SIGINT;
 use std::time::Instant;
 use stickslip_tip::stop;
 
-/// Seconds after which the rest is extrapolated from what was done, and no repetition is made.
+/// Time in seconds after which the total is extrapolated, and no repetition is made.
 pub(super) const PATIENCE: f64 = 0.5;
-/// The shortest of so many repetitions is the time of either side: a run may be as short as a millisecond.
+/// Number of repetitions; the time of either side is the shortest, because a run may take only a millisecond.
 const REPETITIONS: usize = 5;
 
-/// What is done, and the seconds that it takes: `once` gives both.
+/// A result with its time in seconds, the shortest of several calls of `once`.
 pub(super) fn timed<T>(once: impl Fn() -> Result<(T, f64), Failure>) -> Result<(T, f64), Failure> {
     let (done, mut shortest) = once()?;
     let mut spent = shortest;
@@ -24,12 +24,12 @@ pub(super) fn timed<T>(once: impl Fn() -> Result<(T, f64), Failure>) -> Result<(
     Ok((done, shortest))
 }
 
-/// A host has asked the work to end. (In a shell a signal ends the program at once.)
+/// The error if a host has cancelled the work. (In a shell a signal ends the program.)
 pub(super) fn stopped() -> Option<Failure> {
     stop::is_asked().then_some(Failure::Stopped(SIGINT as u8))
 }
 
-/// The time that one side takes, against the limit.
+/// The time of one side, compared with the limit.
 pub(super) struct Pace {
     option: &'static str,
     start: f64,
@@ -39,17 +39,17 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Over a span of time, whose end `option` sets, in at most `limit` seconds.
+    /// The limit for a span of time, whose end `option` sets: at most `limit` seconds.
     pub(super) fn new(option: &'static str, (start, end): (f64, f64), limit: f64) -> Self {
         Self { option, start, end, limit, clock: Instant::now() }
     }
 
-    /// So far.
+    /// Seconds so far.
     pub(super) fn seconds(&self) -> f64 {
         self.clock.elapsed().as_secs_f64()
     }
 
-    /// A refusal, where the rest at the pace until time t goes beyond the limit, or nobody waits for it.
+    /// An error if the pace up to time t predicts a time beyond the limit, or if the work is cancelled.
     pub(super) fn too_slow(&self, t: f64) -> Option<Failure> {
         if let Some(failure) = stopped() {
             return Some(failure);

@@ -21,7 +21,7 @@ use stickslip::{
 use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
 
-/// Heights compared on each row.
+/// Number of heights compared on each row.
 const POINTS: usize = 501;
 
 pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
@@ -65,7 +65,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     job.finish(document.in_units(scales.as_ref()))
 }
 
-/// The one that is exact to round-off along x, or the one of second order.
+/// The discretisation along x: exact to round-off, or of second order.
 fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
     match asked {
         GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
@@ -77,7 +77,7 @@ fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
     }
 }
 
-/// Δx: by default the widest that is exact to round-off, or a fiftieth of that.
+/// Δx: by default the widest that is exact to round-off, or a fiftieth of it for second order.
 fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Result<f64, Failure> {
     let bands = plan.footprint.layers().iter().map(|layer| layer.along.band());
     let exact = std::f64::consts::PI / bands.fold(0.0, f64::max);
@@ -92,7 +92,7 @@ fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Resu
     }
 }
 
-/// All lines, and the time that they take.
+/// All lines, and their computing time.
 fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
     let failed = |error: RasterError| Failure::Run(error.to_string());
     timed(|| {
@@ -158,7 +158,7 @@ fn on_cells(
     }
 }
 
-/// A refusal, where the rest at the pace so far goes beyond the limit, or nobody waits for it.
+/// An error if the pace predicts a time beyond the limit, or if the work is cancelled.
 fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failure> {
     if let Some(failure) = stopped() {
         return Some(failure);

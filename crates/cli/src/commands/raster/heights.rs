@@ -3,7 +3,7 @@
 use crate::files::gsf::{Field, gsf};
 use stickslip::{HeightMap, Raster};
 
-/// An evenly spaced map, in σ and kσ²/a times these.
+/// An evenly spaced map, in σ and kσ²/a times these factors.
 pub(in crate::commands) fn field(
     parameters: &Raster,
     map: &HeightMap,

@@ -47,7 +47,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The files that a raster is made of.
+/// The input files of a raster.
 pub(super) fn files_read<'a, Q: Questions>(
     options: &'a Options<Q>,
     area: &'a AreaArguments,
@@ -56,7 +56,7 @@ pub(super) fn files_read<'a, Q: Questions>(
     [tip_file, parameters, ("--area", area.area.as_deref())]
 }
 
-/// What is to be scanned: the question, resolved, and its plan.
+/// The resolved question and its plan.
 pub(super) fn question<Q: Questions>(
     options: &Options<Q>,
     values: Map<String, Value>,

@@ -1,4 +1,4 @@
-//! Line after line, each kept as soon as it is there.
+//! Scan of the lines; each is saved when finished.
 
 use crate::commands::finished::Finished;
 use crate::commands::progress::Progress;
@@ -14,7 +14,7 @@ use stickslip::{KeptLine, Raster};
 use stickslip_raster::{Line, Plan, Scanning};
 use stickslip_tip::stop;
 
-/// All lines, those of an interrupted raster that goes to the same file among them.
+/// All lines, including those of an interrupted raster with the same output.
 pub(super) fn scan(
     plan: &Plan,
     parameters: &Raster,
@@ -61,7 +61,7 @@ pub(super) fn scan(
     Ok((scanning.into_lines(), finished))
 }
 
-/// The first lines, as far as none is missing.
+/// The leading lines that are all finished.
 fn taken_up(plan: &Plan, finished: &Finished<KeptLine>) -> Vec<Line> {
     let kept = finished.in_order();
     let in_order = kept.iter().enumerate().take_while(|(n, line)| line.index == *n);

@@ -11,7 +11,7 @@ use crate::made::pictured;
 use std::sync::Arc;
 use stickslip::{Ask, Order, Physical};
 
-/// The run as far as no signal ends it.
+/// The run, up to its end or to a signal.
 pub(super) fn run(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
     let fields = &arguments.fields;
     let job = job(order, arguments.output(), arguments.plot.as_deref(), fields)?;

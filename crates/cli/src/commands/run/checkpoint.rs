@@ -1,4 +1,4 @@
-//! Checkpoints: written so that a kill at any moment leaves the last good one.
+//! Checkpoints, written so that a kill at any time leaves the last complete one.
 
 use super::record::Record;
 use crate::arithmetic::{arithmetic, foreign};
@@ -13,16 +13,16 @@ use stickslip::{CheckpointHead, FORMAT_VERSION, Order, Software};
 use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
 
-/// A run has so many checkpoints by default.
+/// Default number of checkpoints of a run.
 const DEFAULT_NUMBER: f64 = 100.0;
-/// How every one begins.
+/// Beginning of every checkpoint.
 const MAGIC: &[u8] = b"{\"format\":\"stickslip/";
-/// It may hold a profile and a table of the force.
+/// Largest length of the first line, which may contain a profile and a table of the force.
 const LONGEST_HEAD: u64 = 1 << 29;
-/// The state of a run within f64's reach is far below.
+/// Largest size of a checkpoint; realistic states are far smaller.
 const LARGEST: u64 = 1 << 30;
 
-/// When and where checkpoints are made.
+/// Times and file of the checkpoints.
 pub(super) struct Checkpoints {
     file: Target,
     arithmetic: String,
@@ -46,7 +46,7 @@ impl Checkpoints {
         checkpoints
     }
 
-    /// The next multiple of the interval.
+    /// Plans the next checkpoint, at the next multiple of the interval.
     fn plan(&mut self, t: f64) {
         let passed = ((t - self.start) / self.every).floor();
         // Round-off of t may swallow an interval: never the same time again.
@@ -111,7 +111,7 @@ fn bytes(head: &CheckpointHead, state: &State) -> serde_json::Result<Vec<u8>> {
 /// A checkpoint read from a file.
 ///
 /// # Errors
-/// It cannot be read, is damaged, or is not of this version of this program.
+/// The file cannot be read, is damaged, or was written by another version of this program.
 pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     let refused = |message: String| Failure::input(format!("--resume {}", path.display()), message);
     let unreadable = |error: io::Error| refused(format!("cannot be read: {error}"));
@@ -136,7 +136,7 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     }
 }
 
-/// What [`write`](Checkpoints::write) wrote.
+/// The checkpoint in bytes written by [`write`](Checkpoints::write).
 pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     let no_checkpoint = || "is no checkpoint, or not all of one".to_string();
     let (body, sum) = bytes.split_last_chunk::<4>().ok_or_else(no_checkpoint)?;
@@ -165,7 +165,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     Ok((head, State::from_words(words)))
 }
 
-/// The interval asked for, or the default.
+/// The interval requested, or the default.
 pub(super) fn interval(asked: Option<f64>, (start, end): (f64, f64)) -> Result<f64, Failure> {
     match asked {
         None => Ok((end - start) / DEFAULT_NUMBER),

@@ -1,4 +1,4 @@
-//! What the tip meets beside its own groove, read and judged.
+//! Disturbances of a run, read from files and checked.
 
 use crate::arguments::DisturbanceArguments;
 use crate::failure::{Failure, Typed};
@@ -9,10 +9,10 @@ use std::path::Path;
 use stickslip::{ForceTable, KnownScales, NoiseParameters, Profile, Run, SupportPathParameters};
 use stickslip_tip::Pulse;
 
-/// A run with the noise, surface, forces and path that options and files give it.
+/// A run with the noise, surface, forces and path from options and files.
 ///
 /// # Errors
-/// A file that cannot be read, a pulse that is none.
+/// A file cannot be read, or a pulse is invalid.
 pub(crate) fn disturbed(
     mut run: Run,
     arguments: &DisturbanceArguments,
@@ -42,7 +42,7 @@ pub(crate) fn disturbed(
     Ok(run)
 }
 
-/// The files that such a run reads, which none may be written over.
+/// The input files of such a run, which must not be overwritten.
 pub(crate) fn files_read<'a>(
     tip_file: Option<&'a Path>,
     disturbance: &'a DisturbanceArguments,
@@ -56,11 +56,11 @@ pub(crate) fn files_read<'a>(
     ]
 }
 
-/// exp(-9²/2) = 3e-18: a force of the size of the others is below round-off so many widths from its center.
+/// Distance from the centre of a pulse, in widths, beyond which its force is round-off: exp(-9²/2) = 3e-18.
 const WIDTHS_FELT: f64 = 9.0;
 
-/// Says of each force that ends before the motion begins, or begins after it has ended, that nothing feels it. No
-/// refusal: the same forces may be given to runs of several lengths.
+/// Warns of each force that ends before the motion begins, or begins after it has ended. It is not an error, because
+/// runs of several lengths may share their forces.
 pub(crate) fn warn_of_idle(arguments: &DisturbanceArguments, run: &Run, span: (f64, f64)) {
     let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
     warn_of_idle_pulses(&arguments.pulse, &pulses, span);
@@ -71,7 +71,7 @@ pub(crate) fn warn_of_idle(arguments: &DisturbanceArguments, run: &Run, span: (f
     }
 }
 
-/// The same of pulses alone, as they were typed and as they were read.
+/// The same for pulses alone, as typed and as parsed.
 pub(crate) fn warn_of_idle_pulses(texts: &[String], pulses: &[Pulse], span: (f64, f64)) {
     for (text, pulse) in texts.iter().zip(pulses) {
         let half = WIDTHS_FELT * pulse.width;
@@ -80,7 +80,7 @@ pub(crate) fn warn_of_idle_pulses(texts: &[String], pulses: &[Pulse], span: (f64
     }
 }
 
-/// A force that is felt from one of `ends` to the other, and what is needed to reach it: a run over `core`.
+/// Warns of a force that acts between the two `ends`, and names what a run needs to cover `core`.
 fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, f64)) {
     let advice = if ends.0 >= until {
         let (until, after) = (Typed(until), Typed(core.0));
@@ -93,12 +93,12 @@ fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, 
     remark(format_args!("stickslip: {option} has no effect: {advice}"));
 }
 
-/// All that `--pulse` was given for.
+/// All values of `--pulse`.
 pub(crate) fn parse_pulses(texts: &[String]) -> Result<Vec<Pulse>, Failure> {
     texts.iter().map(|text| parse_pulse(text)).collect()
 }
 
-/// A, T and W of `--pulse`.
+/// A, T and W of one `--pulse`.
 fn parse_pulse(text: &str) -> Result<Pulse, Failure> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     match numbers.as_deref() {

@@ -1,4 +1,4 @@
-//! The work itself: step by step to the end, or to a signal.
+//! The integration, step by step to the end or to a signal.
 
 use super::checkpoint::Checkpoints;
 use super::record::Record;
@@ -9,17 +9,17 @@ use std::time::Instant;
 use stickslip_outcome::Watched;
 use stickslip_tip::{Scenario, Step, stop};
 
-/// A run under way, with all that accompanies it.
+/// A run in progress, with its outputs.
 pub(super) struct Integration<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
     pub(super) checkpoints: Option<Checkpoints>,
     pub(super) interrupt: Interrupt,
-    /// Spent before.
+    /// Time spent before a resume, in seconds.
     pub(super) seconds: f64,
 }
 
-/// A run that has come to an end.
+/// A finished run.
 pub(super) struct Integrated<'a> {
     pub(super) running: Watched<'a>,
     pub(super) record: Record,
@@ -28,7 +28,7 @@ pub(super) struct Integrated<'a> {
 }
 
 impl<'a> Integration<'a> {
-    /// Makes a checkpoint here, if any are to be made.
+    /// Writes a checkpoint, if requested.
     pub(super) fn checkpoint(&mut self) -> Result<(), Failure> {
         match &mut self.checkpoints {
             None => Ok(()),
@@ -47,7 +47,7 @@ impl<'a> Integration<'a> {
         })
     }
 
-    /// Goes to the end of the scenario.
+    /// Integrates to the end of the scenario.
     pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<'a>, Failure> {
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);

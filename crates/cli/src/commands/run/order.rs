@@ -1,4 +1,4 @@
-//! From the command line to an order: what is run, and what is written of it.
+//! From the command line to an order: the run and its outputs.
 
 use super::checkpoint;
 use super::disturbance::{disturbed, files_read, warn_of_idle};
@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::path::Path;
 use stickslip::{Ask, Order, Run, RunFormat, parameter};
 
-/// What is asked for, judged as a whole.
+/// The order of the arguments, checked as a whole.
 pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let format = format(arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
@@ -45,7 +45,7 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     judged(order, arguments)
 }
 
-/// What does not go together.
+/// Rejects options that exclude each other.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     judge_files(arguments)?;
     judge_across(&order, arguments)?;
@@ -75,7 +75,7 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     Ok(order)
 }
 
-/// Refuses what is not there for a tip that gives way across the scan.
+/// Rejects options that are not available for a tip that is free to move across the scan.
 fn judge_across(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
     let unavailable = [
         ("--verify", arguments.verify),
@@ -92,7 +92,7 @@ fn judge_across(order: &Order, arguments: &RunArguments) -> Result<(), Failure> 
     }
 }
 
-/// The files that it reads.
+/// The files that the command reads.
 pub(super) fn files(arguments: &RunArguments) -> Vec<Named<'_>> {
     let RunArguments { options, disturbance, support_path, .. } = arguments;
     let [tip_file, parameters] = options.files();
@@ -100,7 +100,7 @@ pub(super) fn files(arguments: &RunArguments) -> Vec<Named<'_>> {
     [&read[..], &[parameters]].concat()
 }
 
-/// Whether each file has a name of its own, which a checkpoint, if there is one, can hold.
+/// Checks that the files are different, and that a checkpoint can store their names.
 fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
     let written = [
         ("--output", Some(arguments.output())),

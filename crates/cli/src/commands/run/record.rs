@@ -1,4 +1,4 @@
-//! What is kept of a run as it goes on: its samples, in memory or written at once, and its history.
+//! Record of a run in progress: its samples, in memory or written immediately, and its history.
 
 use crate::failure::Failure;
 use crate::files::place::taken;
@@ -14,30 +14,30 @@ pub(super) struct Record {
     support: Support,
     wider: Wider,
     times: Times,
-    /// Place of each sample in the order asked for, where that is not the order of time.
+    /// Index of each sample in the order of the request, if that is not the order of time.
     places: Vec<usize>,
-    /// Samples taken.
+    /// Number of samples taken.
     pub(super) taken: u64,
     pub(super) samples: Vec<SampleLine>,
-    /// The history, where it is kept.
+    /// The history, if it is kept.
     pub(super) steps: Option<Vec<Step>>,
     pub(super) sink: Sink,
 }
 
-/// Where what is kept goes as the run goes on.
+/// Destination of the record during the run.
 pub(super) enum Sink {
-    /// Nowhere but to memory.
+    /// Memory only.
     Memory,
-    /// Samples go out as lines.
+    /// Samples as lines of output.
     Lines(Stream),
-    /// Beside a checkpoint: steps where the history is kept, or else samples.
+    /// A journal beside a checkpoint: steps if the history is kept, else samples.
     Journal(PathBuf, Rows),
 }
 
-/// Of a sample in a journal.
+/// Numbers per sample in a journal.
 pub(super) const SAMPLE_NUMBERS: usize = 7;
 
-/// A step may be as long as the run, and have all of its samples: so many are taken between two looks at the signals.
+/// Samples between two checks of the signals; a step may be as long as the run and contain all its samples.
 const SAMPLES_PER_LOOK: u64 = 1024;
 
 impl Record {
@@ -48,7 +48,7 @@ impl Record {
         Self { support, wider, times, places, taken: 0, samples: vec![], steps, sink }
     }
 
-    /// Takes note of a step, unless it is told to stop amid its samples: whether it is done.
+    /// Records a step, and returns whether all its samples were taken before a signal.
     pub(super) fn take(
         &mut self,
         step: &Step,
@@ -67,7 +67,7 @@ impl Record {
         self.sample(step, |t| t < step.end(), is_stopped)
     }
 
-    /// Takes the samples at the very end of the last step, if that was taken.
+    /// Takes the samples at the very end of the last step, unless they were taken.
     pub(super) fn end(&mut self, last: Option<&Step>) -> Result<(), Failure> {
         if let Some(last) = last {
             self.sample(last, |t| t <= last.end(), || false)?;
@@ -105,7 +105,7 @@ impl Record {
         Ok(true)
     }
 
-    /// Keeps the lines written so far, though no end will follow; where they are.
+    /// Keeps the incomplete file of lines, and returns its name.
     pub(super) fn keep_part(&mut self) -> Option<&Path> {
         match &mut self.sink {
             Sink::Lines(stream) => stream.keep_part(),
@@ -113,7 +113,7 @@ impl Record {
         }
     }
 
-    /// Puts what was written on the disk, and says what that is.
+    /// Writes all records to the disk, and returns the mark of that state.
     pub(super) fn sync(&mut self) -> Result<Mark, Failure> {
         match &mut self.sink {
             Sink::Memory => Ok(Mark::default()),
@@ -122,7 +122,7 @@ impl Record {
         }
     }
 
-    /// Fills the record with what a journal holds up to a mark, which is all until time t, and goes on with it.
+    /// Reads the journal up to a mark, which must reach time t, and continues it.
     pub(super) fn resume(&mut self, path: &Path, mark: Mark, t: f64) -> Result<(), Failure> {
         let unusable = |error: io::Error| {
             taken("--resume", path, &error).unwrap_or_else(|| {
@@ -155,7 +155,7 @@ impl Record {
     }
 }
 
-/// A sample as a row of a journal, NaN for what is not there.
+/// A sample as a row of a journal, with NaN for missing values.
 fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
     let SampleLine { t, l, lag, x0, velocity, height, weight, .. } = *sample;
     let [l, lag, height, weight] = [l, lag, height, weight].map(|x| x.unwrap_or(f64::NAN));
@@ -171,7 +171,7 @@ fn sample_of([t, l, lag, x0, velocity, height, weight]: [f64; SAMPLE_NUMBERS]) -
 
 const OTHER_ROWS: &str = "its rows are not those of the run";
 
-/// Whether steps lead to time t, each beginning where the one before ends, round-off aside.
+/// Whether the steps reach time t, each beginning where the last one ends, up to round-off.
 fn follow_each_other(steps: &[Step], t: f64) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1.0);
     let follows = |pair: &[Step]| same(pair[1].t, pair[0].end());
@@ -179,7 +179,7 @@ fn follow_each_other(steps: &[Step], t: f64) -> bool {
     steps.iter().all(Step::is_sound) && steps.windows(2).all(follows) && leads
 }
 
-/// A journal for the checkpoint at `path`, of rows of so many numbers.
+/// A journal for the checkpoint at `path`, with rows of the given length.
 pub(super) fn journal(path: &Path, numbers: usize) -> Result<Sink, Failure> {
     let journal = journal_of(path);
     match Rows::create(&journal, path, numbers) {

@@ -1,4 +1,4 @@
-//! A run taken up where a checkpoint was made.
+//! Resume of a run from a checkpoint.
 
 use super::checkpoint::{self, Checkpoints};
 use super::integration::Integration;
@@ -20,7 +20,7 @@ use stickslip::{CheckpointHead, Order, RunEnd, RunFormat};
 use stickslip_outcome::Watched;
 use stickslip_tip::Scenario;
 
-/// Goes on where a checkpoint was made.
+/// Resumes the run of a checkpoint.
 pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failure> {
     let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
     let checkpoint = file("--resume", path)?;
@@ -62,8 +62,8 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     write::all(&order, &scenario, &surface, integrated, target)
 }
 
-/// Where the run goes: to the places given now, or those that the checkpoint names. Whoever made that may be a
-/// stranger: it does not lead out of its folder.
+/// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from a
+/// stranger: its files must be in its folder.
 fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> Result<(), Failure> {
     let named = format!("--resume {}", checkpoint.display());
     let place = |option: &str, given: Option<&Path>, held: &Path| {
@@ -105,7 +105,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
     Ok(())
 }
 
-/// Whether the ending of a name promises another format.
+/// Whether the extension of a file name belongs to another format.
 fn is_of_other(path: &Path, format: RunFormat) -> bool {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let promised = match ending.as_deref() {
@@ -118,8 +118,8 @@ fn is_of_other(path: &Path, format: RunFormat) -> bool {
     promised != format
 }
 
-/// Whether what a checkpoint says of time and samples is that of its state: a right checksum proves no more than
-/// that nothing was changed since it was made.
+/// Checks that time and samples in the first line agree with the state; a correct checksum only proves that the file
+/// is unchanged.
 fn judge(head: &CheckpointHead, t: f64, scenario: &Scenario) -> Result<(), &'static str> {
     if head.t.to_bits() != t.to_bits() {
         return Err("is damaged: its time is not that of its state");

@@ -1,4 +1,4 @@
-//! A run on its way out.
+//! Output of a run.
 
 use super::integration::Integrated;
 use super::record::{Record, Sink};
@@ -17,15 +17,15 @@ use stickslip::{
 };
 use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
 
-/// What the run is written to.
+/// The output of a run.
 pub(super) enum Target {
-    /// A document at the end.
+    /// A document, written at the end.
     Document(Job),
-    /// Lines, which the record has; and the fields to print of the last.
+    /// Lines, written by the record; with the fields to print from the last one.
     Lines(Fields),
 }
 
-/// The first line, where lines are written.
+/// Writes the first line, if the output is lines.
 pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
@@ -35,7 +35,7 @@ pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> R
     }
 }
 
-/// What became of the run.
+/// The result of the run.
 fn end(
     scenario: &Scenario,
     initial: &InitialSurface,
@@ -47,7 +47,7 @@ fn end(
     Ok(RunEnd { interrupted: interrupt.signal().is_some(), ..found? })
 }
 
-/// The whole document, or the last line; and the figure.
+/// Writes the whole document, or the last line; and the figure.
 pub(super) fn all(
     order: &Order,
     scenario: &Scenario,
@@ -109,8 +109,7 @@ pub(super) fn all(
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 
-/// A document as it is written: what holds less than was asked for says so, in every format, JSON by its
-/// `interrupted`.
+/// A document for output. An incomplete one is marked as such in every format, in JSON by `interrupted`.
 #[derive(Serialize)]
 #[serde(transparent)]
 struct Written<'a> {

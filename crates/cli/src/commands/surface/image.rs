@@ -1,4 +1,4 @@
-//! Surfaces in three dimensions: which f(x,y), and its images.
+//! Surfaces in three dimensions: f(x,y) and its images.
 
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
@@ -9,11 +9,11 @@ use stickslip::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model};
 
-/// Images asked for, and the footprint that carves them.
+/// Requested images, and their footprint.
 #[derive(Debug)]
 pub(super) struct Images {
     footprint: Footprint,
-    /// Where f(x,y) = f(x)h(y).
+    /// V, if f(x,y) = f(x)h(y).
     width_y: Option<f64>,
     far_behind: bool,
     /// k'/k above which y0 = 0 is certainly stable.
@@ -21,7 +21,7 @@ pub(super) struct Images {
 }
 
 impl Images {
-    /// `None` without `--y-range`.
+    /// The images; `None` without `--y-range`.
     pub(super) fn asked(
         arguments: &SurfaceArguments,
         model: &Model,
@@ -41,8 +41,8 @@ impl Images {
         Ok(Some(Self { footprint, width_y, far_behind, stiffness_needed }))
     }
 
-    /// Says so where the tip might not stay on its line. No refusal: y0 = 0 solves (54), (55) in any
-    /// case, a stiff enough k' makes it stable, and the paper's own tip (48) is of this kind.
+    /// Warns if the tip might leave its line. It is not an error: y0 = 0 always solves (54), (55), a sufficiently
+    /// stiff k' makes it stable, and the paper's tip (48) is an example.
     pub(super) fn warn(&self) {
         let needed = self.stiffness_needed;
         if needed > 0.0 {

@@ -52,7 +52,7 @@ pub(super) fn surface(
     job.finish_bytes(&bytes, document)
 }
 
-/// Rows by default are the lines, of which there may be a million.
+/// Rejects too many heights; by default the rows are the lines, of which there may be a million.
 fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
     let (columns, rows) = (places.x.len() as f64, y.len() as f64);
     if columns * rows <= MOST_PIXELS {
@@ -68,7 +68,7 @@ fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
     ))
 }
 
-/// What has no meaning after the last line.
+/// Rejects options that have no meaning for a raster.
 fn refuse_of_runs(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let given = [
         ("--at", arguments.at.is_some()),

@@ -1,13 +1,13 @@
-//! Where and when a surface is asked for.
+//! Times and positions of a surface.
 
 use crate::arguments::{Interval, SurfaceArguments};
 use crate::failure::{Failure, Typed};
 use stickslip_tip::Trajectory;
 
 const DEFAULT_SPACING: f64 = 0.05;
-/// Shown on either side of the tip's way.
+/// Default margin on either side of the tip's path, in σ.
 const MARGIN: f64 = 12.0;
-/// 200 MB with what is written of them: of curves, which have an x each, and of images.
+/// Largest number of points, in curves and in images: 200 MB with their text.
 const MOST_POINTS: f64 = 3e6;
 pub(super) const MOST_PIXELS: f64 = 1e7;
 
@@ -16,11 +16,11 @@ pub(super) const MOST_PIXELS: f64 = 1e7;
 pub(super) struct Places {
     pub(super) t: Vec<f64>,
     pub(super) x: Vec<f64>,
-    /// Distance of the x, where they are evenly spaced.
+    /// Spacing of x, if it is even.
     pub(super) spacing: Option<f64>,
-    /// Positions across the path; none for a plane surface.
+    /// Positions across the path; empty for curves.
     pub(super) y: Vec<f64>,
-    /// Distance of the y.
+    /// Spacing of y.
     pub(super) spacing_y: f64,
 }
 
@@ -39,7 +39,7 @@ impl Places {
         Self::over(arguments, times(arguments, trajectory)?, default_range(trajectory))
     }
 
-    /// At these times; by default over this range.
+    /// The given times; positions by default over this range.
     pub(super) fn over(
         arguments: &SurfaceArguments,
         t: Vec<f64>,
@@ -102,7 +102,7 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
     }
 }
 
-/// A range with the spacing that its number of values makes, or else with the other option's.
+/// A range, with its spacing from its number of values or from the other option.
 fn range(
     [option, other]: [&str; 2],
     typed: &Interval,
@@ -137,7 +137,7 @@ impl Range {
         ((self.high - self.low) / self.spacing).max(1.0)
     }
 
-    /// The points, unless with `each` of them as many others they are more than `most`.
+    /// The points; an error if their number times `each` exceeds `most`.
     fn positions(&self, option: &str, each: f64, most: f64) -> Result<Vec<f64>, Failure> {
         let Self { low, high, spacing } = *self;
         let points = self.points() * each;

@@ -1,4 +1,4 @@
-//! Surfaces to files.
+//! Output of surfaces.
 
 use super::places::Places;
 use crate::arguments::{Format, SurfaceArguments};
@@ -7,7 +7,7 @@ use crate::failure::{Failure, Typed};
 use crate::files::gsf::{Field, gsf};
 use stickslip::SurfaceDocument;
 
-/// What is written: a document, or an image alone.
+/// The output: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SurfaceFormat {
     Document(Format),
@@ -16,7 +16,7 @@ pub(super) enum SurfaceFormat {
 }
 
 impl SurfaceFormat {
-    /// A .gsf file of a run holds an image.
+    /// Checks that a .gsf file of a run gets an image.
     pub(super) fn judge_of_run(self, arguments: &SurfaceArguments) -> Result<(), Failure> {
         if let Some(y) = arguments.y.as_ref().and_then(|y| y.first()) {
             let advice = "is for rasters: a run has --y-range LO:HI";
@@ -30,7 +30,7 @@ impl SurfaceFormat {
         Ok(())
     }
 
-    /// By the extension of the output, refused where that does not go with the other options.
+    /// The format by the extension of the output; rejected if it does not suit the other options.
     pub(super) fn of(arguments: &SurfaceArguments) -> Result<Self, Failure> {
         let path = &arguments.output;
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -57,7 +57,7 @@ impl SurfaceFormat {
 }
 
 impl SurfaceFormat {
-    /// Where surfaces go.
+    /// The output of surfaces.
     pub(super) fn job(self, arguments: &SurfaceArguments) -> Result<Job, Failure> {
         let format = match self {
             Self::Document(format) => format,

@@ -1,16 +1,16 @@
-//! What varies beside footprint, r and α: each option alone is a number of the sweep, or an axis of its grid.
+//! Further axes of a sweep: each option alone is a constant of the sweep, or an axis of its grid.
 
 use crate::arguments::{Range, SweepArguments};
 use crate::failure::{Failure, Typed};
 use stickslip::{AxisDocument, AxisName, StartName, SweepParameters, SweepRunParameters};
 use stickslip_tip::Wider;
 
-/// Whole numbers up to here are themselves as f64.
+/// Largest integer seed that f64 represents exactly.
 const LARGEST_SEED: f64 = 9_007_199_254_740_992.0;
-/// Where a run starts, as for `stickslip run`.
+/// Default start position of a run, as for `stickslip run`.
 const START_POSITION: f64 = 14.0;
 
-/// What an option says: a number, or an axis that is added to the others.
+/// The axes of a sweep; an option adds one, or is a constant.
 struct Axes(Vec<AxisDocument>);
 
 impl Axes {
@@ -24,7 +24,7 @@ impl Axes {
     }
 }
 
-/// The law, the start and the axes that the options ask for, the seeds varying fastest.
+/// Law, initial condition and axes from the options, the seeds varying fastest.
 pub(super) fn asked(
     arguments: &SweepArguments,
 ) -> Result<(Wider, Option<SweepRunParameters>, Vec<AxisDocument>), Failure> {
@@ -65,7 +65,7 @@ fn judge_seeds(seeds: Option<&Range>) -> Result<(), Failure> {
     }
 }
 
-/// Law and start at a point, whose values on the axes are these.
+/// Law and initial condition at a point with these values on the axes.
 pub(super) fn at(
     parameters: &SweepParameters,
     values: &[f64],

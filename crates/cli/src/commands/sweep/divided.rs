@@ -1,4 +1,4 @@
-//! What is swept in parts: what makes documents of parts those of one whole, and how it is told that one was changed.
+//! Sweeps computed in parts: conditions for combining documents, and detection of changes.
 
 use crate::commands::finished::Part;
 use crate::commands::job::Product;
@@ -15,46 +15,46 @@ use stickslip_figures::{Drawn, FigureError, judge_sweep};
 pub(crate) trait Divided:
     Product + Drawn + Physical + DeserializeOwned + Clone + Send + Sync + 'static
 {
-    /// One of them.
+    /// A point of the document.
     type Point: Part;
-    /// What is asked of all points.
+    /// Parameters of all points.
     type Parameters: PartialEq;
-    /// Its `format`.
+    /// The value of the field `format`.
     const FORMAT: &'static str;
 
-    /// What it was asked for.
+    /// The parameters of the document.
     fn parameters(&self) -> &Self::Parameters;
 
-    /// The version that wrote it.
+    /// The version that wrote the document.
     fn software(&self) -> &Software;
 
-    /// What merging changes.
+    /// The fields that merging changes.
     fn held(&mut self) -> Held<'_, Self::Point>;
 
-    /// Those that are here, by rising index.
+    /// The points in this document, by rising index.
     fn points(&self) -> &[Self::Point];
 
-    /// Those of the whole grid.
+    /// Number of points of the whole grid.
     fn count(&self) -> usize;
 
-    /// Whether both are of the same grid, and written by the same version.
+    /// Whether both documents belong to the same grid and were written by the same version.
     fn is_of(&self, other: &Self) -> bool {
         self.parameters() == other.parameters() && self.software() == other.software()
     }
 
-    /// CRC-32 of parameters, points and how the machine rounds, as this program writes them, however the document is
-    /// laid out.
+    /// CRC-32 of parameters, points and arithmetic as this program writes them, independent of the layout of the
+    /// document.
     fn checksum(&self) -> Result<u32, Failure>;
 
-    /// The one r of all points, if there is one.
+    /// The value of r, if all points have the same.
     fn velocity(&self) -> Option<f64>;
 
-    /// The same with what all points together tell.
+    /// Adds results that need all points together.
     fn told_together(self) -> Self {
         self
     }
 
-    /// Refuses what no picture shows.
+    /// Rejects sweeps that no picture can show.
     fn judge_picture(&self) -> Result<(), FigureError> {
         Ok(())
     }
@@ -68,7 +68,7 @@ pub(crate) trait Divided:
     }
 }
 
-/// Of a part.
+/// The fields of a part that merging changes.
 pub(crate) struct Held<'a, P> {
     pub(super) shard: &'a mut Option<ShardDocument>,
     pub(super) points: &'a mut Vec<P>,
@@ -76,7 +76,7 @@ pub(crate) struct Held<'a, P> {
     pub(super) crc32: &'a mut Option<u32>,
 }
 
-/// What is read off fields of the same names.
+/// Implements the methods that return fields of the same name.
 macro_rules! by_fields {
     ($point:ty, $parameters:ty) => {
         type Point = $point;

@@ -8,9 +8,9 @@ use stickslip::{SweepParameters, SweepPoint, SweepRunParameters};
 use stickslip_cycles::TOLERANCES;
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// More than a cluster does in a year; their document would take gigabytes.
+/// Largest number of points; the document of more would take gigabytes.
 const MOST_POINTS: usize = 10_000_000;
-/// Each of them is a footprint of its own.
+/// Largest number of footprints; each is prepared separately.
 const MOST_TIPS: usize = 10_000;
 
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub(super) struct Grid {
     pub(super) parameters: SweepParameters,
 }
 
-/// Where a point is.
+/// Parameters of a point.
 #[derive(Debug, Clone)]
 pub(super) struct Place<'a> {
     pub(super) tip: &'a TipFunction,
@@ -30,7 +30,7 @@ pub(super) struct Place<'a> {
     /// Values on the further axes.
     at: Vec<f64>,
     pub(super) wider: Wider,
-    /// Where the point is a run.
+    /// Parameters of the run, if the point is a run.
     pub(super) run: Option<SweepRunParameters>,
 }
 
@@ -42,7 +42,7 @@ pub(super) enum Alpha {
 }
 
 impl Place<'_> {
-    /// The point of which nothing is known yet but where it is.
+    /// The point with its parameters and without results.
     pub(super) fn empty(&self, index: usize, alpha: Option<f64>) -> SweepPoint {
         SweepPoint {
             width: self.width,
@@ -93,7 +93,7 @@ impl Grid {
         Ok(grid)
     }
 
-    /// Refuses runs that cannot be made, by the first and the last: what is wrong with any is wrong with one of them.
+    /// Rejects invalid runs by checking the first and the last one, which include every error.
     fn judge_runs(&self) -> Result<(), Failure> {
         for index in [0, self.parameters.points().saturating_sub(1)] {
             let place = self.place(index);
@@ -106,7 +106,7 @@ impl Grid {
         Ok(())
     }
 
-    /// The indices of this part of the points.
+    /// The indices of the points in this part.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
         self.parameters.part().indices(self.parameters.points())
     }
@@ -161,7 +161,7 @@ fn judge_alphas(alpha: Option<&Range>, above: Option<&Range>) -> Result<(), Fail
     }
 }
 
-/// Refuses more points than can be kept, before there is any of them.
+/// Rejects more points than can be kept, before they are computed.
 fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
     let SweepArguments { r, alpha, alpha_above, beta, width, wider, run, .. } = arguments;
     let count = |range: &Option<Range>| range.as_ref().map_or(1, Range::points);
@@ -195,7 +195,7 @@ fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
     }
 }
 
-/// The law at the lowest of each range: where that will do, all will.
+/// The law at the lowest end of each range: if it is valid, all points are.
 fn lowest(arguments: &SweepArguments) -> WiderArguments {
     let law = &arguments.wider;
     let low = |range: &Option<Range>| range.as_ref().map(Range::low);
@@ -207,7 +207,7 @@ fn lowest(arguments: &SweepArguments) -> WiderArguments {
     }
 }
 
-/// Widths times β.
+/// The footprints, widths times β.
 fn tips(arguments: &SweepArguments) -> Result<Vec<TipFunction>, Failure> {
     let values = |range: &Option<Range>| match range {
         Some(range) => range.values().into_iter().map(Some).collect(),

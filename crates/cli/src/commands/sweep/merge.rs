@@ -15,7 +15,7 @@ use stickslip::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
 
 const PART: &str = "PART.json";
 
-/// The whole from its parts, of which the first one tells what it is.
+/// Combines the parts; the first one determines the kind of document.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     let named: Vec<Named> = arguments.parts.iter().map(|part| (PART, Some(&**part))).collect();
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
@@ -27,7 +27,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
     }
 }
 
-/// The whole from its parts, which must be all of it, once.
+/// Combines the parts, which must cover the grid exactly once.
 fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
     let read = |path: &PathBuf| read::<D>(path).map(|part| (path.clone(), part));
     let mut parts = arguments.parts.iter().map(read);
@@ -65,7 +65,7 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
     job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 
-/// Names the parts that are missing, as an array job of Slurm takes them.
+/// Names the missing parts, in the syntax of Slurm array jobs.
 fn judge_parts(shards: &[ShardDocument]) -> Result<(), Failure> {
     let Some(of) = shards.first().map(|shard| shard.of) else { return Ok(()) };
     let there: HashSet<usize> = shards.iter().map(|shard| shard.index).collect();
@@ -94,8 +94,8 @@ fn runs(numbers: &[usize]) -> String {
     runs.collect::<Vec<_>>().join(",")
 }
 
-/// Whether a file is a complete document of the requested sweep; `indices` are those of its points. A remark says what another
-/// file is.
+/// Whether a file is a complete document of the requested sweep, whose points have these `indices`. A message
+/// describes any other file.
 pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &[usize]) -> bool {
     if !path.exists() {
         return false;
@@ -128,7 +128,7 @@ fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
     }
 }
 
-/// Every point of the grid, once.
+/// Checks that every point of the grid occurs exactly once.
 pub(crate) fn complete(whole: &impl Divided) -> Result<(), Failure> {
     let refused = |message: String| Err(Failure::input(PART, message));
     let points = whole.points();

@@ -1,4 +1,4 @@
-//! What the tip comes to at one point. Depends on the point alone: a sweep may be done in any order.
+//! The motion at one point. It depends on this point alone: points may be computed in any order.
 
 use super::grid::{Alpha, Place};
 use super::started;
@@ -27,7 +27,7 @@ pub(super) fn point(index: usize, place: Place, tolerance: f64) -> SweepPoint {
     found.unwrap_or_else(|error| SweepPoint { error: Some(error), ..point })
 }
 
-/// What the tip settles into, or what a run comes to.
+/// The motion that the tip settles into, or the result of a run.
 fn come_to(
     point: SweepPoint,
     model: Model,

@@ -32,7 +32,7 @@ impl Part for RasterSweepPoint {
     }
 }
 
-/// What all points share.
+/// Common parameters of all points.
 struct Grid {
     tip: TipFunction,
     footprint: Footprint,
@@ -131,7 +131,7 @@ impl Grid {
         Ok(plan)
     }
 
-    /// Depends on the point alone.
+    /// The point with its results; depends on this point alone.
     fn point(&self, index: usize) -> RasterSweepPoint {
         let (pitch, alpha) = self.place(index);
         let point = RasterSweepPoint::at(index, (pitch, alpha), self.threshold(pitch));
@@ -153,7 +153,7 @@ impl Grid {
         }
     }
 
-    /// αc from line to line, where linear theory has one.
+    /// αc for growth from line to line, if linear theory has one.
     fn threshold(&self, pitch: f64) -> Option<f64> {
         let RasterSweepParameters { r, path, length, .. } = &self.parameters;
         let path = if *path == PathName::Zigzag { RasterPath::Zigzag } else { RasterPath::OneWay };

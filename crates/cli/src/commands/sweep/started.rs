@@ -1,4 +1,4 @@
-//! A point that is a run: what `stickslip run` with the same options says of its end.
+//! A point that is a run: the result of `stickslip run` with the same options.
 
 use crate::failure::Failure;
 use stickslip::{
@@ -9,10 +9,10 @@ use stickslip_outcome::{Motion, Watched};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::{Model, RunError, Scenario, Step};
 
-/// The run of this model that is asked for.
+/// The run of this model.
 ///
 /// # Errors
-/// As of `stickslip run`.
+/// As for `stickslip run`.
 pub(super) fn scenario(
     model: Model,
     run: &SweepRunParameters,
@@ -42,10 +42,10 @@ pub(super) fn scenario(
     Ok(question.resolved(&Context::default())?.prepared()?)
 }
 
-/// So many samples of l in the second half of a run.
+/// Number of samples of l in the second half of a run.
 const SAMPLES: usize = 2001;
 
-/// l in the second half of a run, as it comes.
+/// Statistics of l in the second half of a run, accumulated during the run.
 struct Swing {
     r: f64,
     times: Vec<f64>,
@@ -77,7 +77,7 @@ impl Swing {
     }
 }
 
-/// Where the run comes to.
+/// The point with the result of the run.
 ///
 /// # Errors
 /// The tolerance cannot be met.

@@ -1,4 +1,4 @@
-//! Points side by side on all cores, each kept as soon as it is there.
+//! Parallel computation of points on all cores; each is saved when finished.
 
 use crate::commands::finished::{Finished, Part};
 use crate::commands::progress::Progress;
@@ -14,18 +14,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_tip::stop;
 
-/// What the threads share.
+/// State shared by the threads.
 struct State<P> {
     finished: Finished<P>,
     progress: Progress,
-    /// Points in all.
+    /// Total number of points.
     count: usize,
-    /// Whether all could be written down.
+    /// Whether all points could be saved.
     kept: io::Result<()>,
 }
 
 impl<P: Part> State<P> {
-    /// `None` once a point could not be kept: the others need not be found.
+    /// Saves a point; `None` if one could not be saved, in which case the others are abandoned.
     fn keep(&mut self, point: P) -> Option<()> {
         self.kept = self.finished.add(point);
         let done = self.finished.parts().len();
@@ -34,10 +34,10 @@ impl<P: Part> State<P> {
     }
 }
 
-/// All points that are not finished yet.
+/// Computes all points that are not finished yet.
 ///
 /// # Errors
-/// A signal came, or a point could not be kept.
+/// A signal arrived, or a point could not be saved.
 pub(super) fn compute<P: Part + Send>(
     indices: &[usize],
     finished: Finished<P>,

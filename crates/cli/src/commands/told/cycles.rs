@@ -1,4 +1,4 @@
-//! What is told of periodic motion: cycles, branches of them, sweeps.
+//! Summaries of periodic motion: cycles, branches, sweeps.
 
 use super::{Told, again, digits};
 use crate::commands::job::Product;
@@ -122,12 +122,12 @@ impl Product for SweepDocument {
     }
 }
 
-/// Ensembles of which every number is listed; of more of them l alone.
+/// Largest number of ensembles with all their numbers listed; for more, only l is listed.
 const IN_FULL: usize = 1;
-/// Ensembles that have a row.
+/// Largest number of ensembles with a row.
 const LISTED: usize = 20;
 
-/// Means of ensembles with their standard errors, and how far members are apart.
+/// Adds means of ensembles with their standard errors, and standard deviations of the members.
 fn statistics(summary: Told, ensembles: &[&EnsembleDocument]) -> Told {
     if ensembles.len() <= IN_FULL {
         return ensembles.iter().fold(summary, |summary, ensemble| {

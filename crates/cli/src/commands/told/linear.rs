@@ -1,4 +1,4 @@
-//! What is told of linear theory: stability, boundary, response.
+//! Summaries of linear theory: stability, boundary, response.
 
 use super::{Told, again, digits};
 use crate::commands::job::Product;
@@ -7,7 +7,7 @@ use stickslip::{
     SnakingDocument, StabilityDocument, to_its_digits,
 };
 
-/// What holds of the numbers of a critical point.
+/// Number of significant digits of a critical point.
 const CRITICAL: usize = 10;
 
 impl Product for StabilityDocument {
@@ -122,7 +122,7 @@ impl Product for BoundaryDocument {
     }
 }
 
-/// What leaves nothing unstable.
+/// Adds the conditions under which steady motion is stable at every α.
 fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
     let depths = limits.map(|limits| limits.least_depth_limit.iter().copied().flatten());
     let depths: Vec<f64> = depths.into_iter().flatten().collect();

@@ -1,4 +1,4 @@
-//! What is told of measured data.
+//! Summaries of measured data.
 
 use super::{Told, digits};
 use crate::commands::job::Product;
@@ -65,7 +65,7 @@ impl Product for FitDocument {
     }
 }
 
-/// Such as "1.879 (1.85 to 1.91)".
+/// A value with its interval, such as "1.879 (1.85 to 1.91)".
 fn with_interval(estimate: &EstimateDocument) -> String {
     let value = in_digits(estimate);
     let end = |end: f64| digits(end, 4);
@@ -77,7 +77,7 @@ fn with_interval(estimate: &EstimateDocument) -> String {
     }
 }
 
-/// With one digit more than hold.
+/// A value with one digit more than its interval determines.
 fn in_digits(estimate: &EstimateDocument) -> String {
     let width = estimate.high.zip(estimate.low).map(|(high, low)| 0.5 * (high - low));
     let relative = width.map_or(0.0, |width| width / estimate.value.abs());

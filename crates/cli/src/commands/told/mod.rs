@@ -1,4 +1,4 @@
-//! What was found, for a person: a line or two, aligned values with their errors, and what to try next.
+//! Summaries of results: a headline, aligned values with their errors, and commands to try next.
 
 mod cycles;
 mod linear;
@@ -16,7 +16,7 @@ use crate::message::harmless;
 use std::fmt::Write;
 use stickslip::{Dimension, InUnits, KnownScales, digits};
 
-/// What a person is told of a result.
+/// The summary of a result.
 #[derive(Debug, Default)]
 pub(crate) struct Told {
     headline: String,
@@ -26,21 +26,22 @@ pub(crate) struct Told {
 }
 
 impl Told {
-    /// What was found, and whether what was promised is kept, in a line or two: all that is said beside a file.
+    /// A summary with this headline: the main result, and for a verification whether the tolerance is met. Only this
+    /// is printed when the result goes to a file.
     pub(crate) fn new(headline: impl Into<String>) -> Self {
         let headline = headline.into();
         let lines = headline.split('\n').map(harmless);
         Self { headline: lines.collect::<Vec<_>>().join("\n"), ..Self::default() }
     }
 
-    /// A value under its name. Names of files come back here, as they do in remarks and commands.
+    /// Adds a value under its name. Values are escaped, because they may contain names of files.
     #[must_use]
     pub(crate) fn row(mut self, name: &str, value: impl Into<String>) -> Self {
         self.rows.push((harmless(name).into(), harmless(&value.into()).into()));
         self
     }
 
-    /// The same, if there is one.
+    /// Adds a value, if there is one.
     #[must_use]
     pub(crate) fn maybe(self, name: &str, value: Option<String>) -> Self {
         match value {
@@ -49,7 +50,7 @@ impl Told {
         }
     }
 
-    /// Each value with its unit in nm, s and nN beside the model's, where the document has these.
+    /// Appends the value in nm, s and nN to each row, if the document contains the scales.
     #[must_use]
     pub(crate) fn in_units(mut self, physical: Option<&InUnits>) -> Self {
         let Some(InUnits { scales, .. }) = physical else { return self };
@@ -61,33 +62,33 @@ impl Told {
         self
     }
 
-    /// What a reader should know.
+    /// Adds warnings.
     #[must_use]
     pub(crate) fn remarks(mut self, remarks: &[String]) -> Self {
         self.remarks.extend(remarks.iter().map(|remark| harmless(remark).into_owned()));
         self
     }
 
-    /// A command to try.
+    /// Adds a command to try.
     #[must_use]
     pub(crate) fn next(mut self, command: impl Into<String>) -> Self {
         self.next.push(harmless(&command.into()).into());
         self
     }
 
-    /// What is said beside a file: what was found, and what should be known of it.
+    /// The summary printed when the result goes to a file: headline and warnings.
     pub(crate) fn in_short(&self) -> String {
         let remarks = self.remarks.iter().map(|remark| format!("\nremark: {remark}"));
         self.headline.clone() + &remarks.collect::<String>()
     }
 
-    /// With what it tells of, but for commands to try: whoever takes a document in hand types none.
+    /// The result of an in-process command: the document and its summary, without commands to try.
     pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
         let told = Self { next: vec![], ..self };
         Made { document, text: told.text(), headline: told.headline }
     }
 
-    /// All of it, in lines.
+    /// The whole summary, as lines.
     pub(crate) fn text(&self) -> String {
         let width = self.rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
         let mut text = format!("{}\n", self.headline.trim_end());
@@ -106,13 +107,13 @@ impl Told {
     }
 }
 
-/// The command as it was typed, but for where its result goes, with more options in place of those of the same name.
+/// The command as typed, without its outputs; the options in `more` replace those of the same name.
 pub(crate) fn again(more: &str) -> String {
     let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
     typed(words, more)
 }
 
-/// Of each, the value goes with the option.
+/// Output options, each removed with its value.
 const OUTLET: [&str; 4] = ["-o", "--output", "--plot", "--format"];
 
 fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
@@ -134,7 +135,7 @@ fn quoted(word: String) -> String {
     if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
 }
 
-/// ` = 212 nm` of `7.067(2) σ`, with as many digits.
+/// ` = 212 nm` for `7.067(2) σ`, with as many digits.
 fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
     let (number, unit) = value.rsplit_once(' ')?;
     let dimension = Dimension::of_unit(unit)?;
@@ -146,7 +147,7 @@ fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
     Some(format!(" = {} {}", digits(converted, count.max(3)), dimension.unit()))
 }
 
-/// How many times one thing is another: two digits, of a quantity that no repetition gives more of.
+/// A ratio with two digits: computing times are not more reproducible.
 pub(crate) fn times(ratio: f64) -> String {
     let rounded = format!("{ratio:.1e}").parse().unwrap_or(ratio);
     digits(rounded, 2)
@@ -166,7 +167,7 @@ mod tests {
         assert_eq!(told.text(), text);
     }
 
-    /// Whatever a file is called, or a document holds: ESC, C1, the right-to-left override, and lines of their own.
+    /// Names of files and contents of documents are escaped: ESC, C1, the right-to-left override, and line breaks.
     #[test]
     fn nothing_that_moves_a_cursor_is_printed() {
         let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\u{202e}b\rc\u{7f}\td";

@@ -1,4 +1,4 @@
-//! What is told of surfaces, comparisons and units.
+//! Summaries of surfaces, comparisons and units.
 
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;

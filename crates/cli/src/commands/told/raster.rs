@@ -1,4 +1,4 @@
-//! What is told of rasters.
+//! Summaries of rasters.
 
 use super::{Told, again, digits, times};
 use crate::commands::job::Product;

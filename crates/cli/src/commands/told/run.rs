@@ -1,4 +1,4 @@
-//! What is told of a run.
+//! Summaries of runs.
 
 use super::{Told, again, digits};
 use crate::commands::verify::kept;
@@ -7,7 +7,7 @@ use stickslip::{
     to_its_digits,
 };
 
-/// What is told of a run that became what `end` says.
+/// The summary of a run with the result `end`.
 pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told {
     let verified = document.verification.as_ref().map_or(String::new(), kept);
     let told = Told::new(summary(end) + &verified);
@@ -35,7 +35,7 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told 
     told.next(again(&format!("--until {}", digits(end.end + longer, 2))))
 }
 
-/// What is told of a run in two coordinates.
+/// The summary of a run in two coordinates.
 pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
     let work = &document.work;
     let swing = document.snaking.as_ref();
@@ -71,7 +71,7 @@ pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
         .next(again("-o run.json --plot run.svg"))
 }
 
-/// What is told of a run written as lines.
+/// The summary of a run written as lines.
 pub(in crate::commands) fn of_lines(end: &RunEnd) -> Told {
     Told::new(summary(end)).remarks(&end.remarks)
 }
@@ -94,7 +94,7 @@ fn oscillation(told: Told, found: &OscillationDocument) -> Told {
         .row("slips in a period", found.slips.to_string())
 }
 
-/// One line for a person who sent the run to a file.
+/// The one-line summary of a run that was written to a file.
 fn summary(end: &RunEnd) -> String {
     let work = &end.work;
     let digits = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));

@@ -1,4 +1,4 @@
-//! What is told of a verification.
+//! The summary of a verification.
 
 use super::{Told, digits};
 use crate::commands::job::Product;

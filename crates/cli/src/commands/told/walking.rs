@@ -1,10 +1,10 @@
-//! What is told of steady walks.
+//! The summary of steady walks.
 
 use super::{Told, again, digits};
 use crate::commands::job::Product;
 use stickslip::{WalkDocument, WalkingDocument, to_its_digits};
 
-/// What holds of the numbers of a walk.
+/// Number of significant digits of a walk.
 const WALK: usize = 10;
 
 impl Product for WalkingDocument {

@@ -1,4 +1,4 @@
-//! From what is given to all six quantities.
+//! All six quantities from those given.
 
 use crate::arguments::{ModelArguments, UnitsArguments};
 use crate::failure::{Failure, Typed};
@@ -8,7 +8,7 @@ use stickslip_stability as stability;
 use stickslip_tip::{TipFunction, Wider};
 use stickslip_units::{Physical, Unit};
 
-/// Option, symbol, unit, and the powers with which it enters r (12) and α (13).
+/// A quantity: option, symbol, unit, and its exponents in r (12) and α (13).
 struct Quantity {
     option: &'static str,
     symbol: &'static str,
@@ -26,7 +26,7 @@ const fn quantity(
     Quantity { option, symbol, unit, in_r, in_alpha }
 }
 
-/// In the order of [`Given::values`].
+/// The quantities, in the order of [`Given::values`].
 const QUANTITIES: [Quantity; 6] = [
     quantity("--damping", "Γ", Unit::Damping, (1, 1)),
     quantity("--stiffness", "k", Unit::Stiffness, (-1, -2)),
@@ -38,7 +38,7 @@ const QUANTITIES: [Quantity; 6] = [
 const TIP_WIDTH: usize = 2;
 const INDENTATION_RATE: usize = 3;
 
-/// What the options say, in SI units.
+/// The values of the options, in SI units.
 #[derive(Debug)]
 pub(super) struct Given {
     values: [Option<f64>; 6],
@@ -77,7 +77,7 @@ impl Given {
         Ok(given)
     }
 
-    /// As many quantities are left out as dimensionless numbers are given.
+    /// Checks that as many quantities are missing as dimensionless numbers are given.
     fn judge_number(&self) -> Result<(), Failure> {
         let missing = self.missing();
         let given = usize::from(self.r.is_some()) + usize::from(self.alpha.is_some());
@@ -106,7 +106,7 @@ impl Given {
         (0..6).filter(|i| self.values[*i].is_none()).collect()
     }
 
-    /// r and α with 1 for the quantities that are missing.
+    /// r and α with 1 for the missing quantities.
     fn of_the_known(&self) -> (f64, f64) {
         let product = |power: fn(&Quantity) -> i32| {
             let factor =
@@ -116,7 +116,7 @@ impl Given {
         (product(|q| q.in_r), product(|q| q.in_alpha))
     }
 
-    /// All quantities, those left out from r and α.
+    /// All quantities; the missing ones follow from r and α.
     pub(super) fn solved(&self) -> Result<Physical, Failure> {
         let (known_r, known_alpha) = self.of_the_known();
         let r = self.r.map(|r| r / known_r);
@@ -180,13 +180,12 @@ impl Given {
     }
 }
 
-/// base^(numerator/denominator): exactly base or 1 where that is the result, nothing for a denominator
-/// of 0.
+/// base^(numerator/denominator): exactly base or 1 if that is the result, `None` for a denominator of 0.
 fn power(base: f64, denominator: i32, numerator: i32) -> Option<f64> {
     (denominator != 0).then(|| base.powf(f64::from(numerator) / f64::from(denominator)))
 }
 
-/// σ in m of a tip file that `stickslip tip` wrote of a profile with a unit.
+/// σ in m from a tip file that `stickslip tip` wrote for a profile with a unit.
 fn sigma_of(arguments: &UnitsArguments) -> Result<Option<f64>, Failure> {
     let Some(path) = &arguments.model.tip.tip_file else { return Ok(None) };
     match read_tip(path)? {
@@ -248,7 +247,7 @@ mod tests {
         Physical { damping, stiffness, tip_width, indentation_rate, slope_force, velocity }
     }
 
-    /// Every pair that r and α determine, and every one that they do not.
+    /// Every pair of quantities that r and α determine is recovered, and every other pair is rejected.
     #[test]
     fn what_is_left_out_comes_back() {
         let (r, alpha) = (physical(ALL).r(), physical(ALL).alpha());

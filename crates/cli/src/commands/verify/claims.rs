@@ -1,8 +1,8 @@
-//! What a run says of itself beside its motion: every value that follows from the parameters and the motion is computed
-//! once more.
+//! Check of all values of a run except its motion: each value that follows from the parameters and the motion is
+//! recomputed.
 //!
-//! Samples are read off the dense history, or off the same run made again where none was kept; what became of the run is
-//! judged anew by that run.
+//! Samples are evaluated from the dense history, or from a repetition of the run if none was kept; the result of the
+//! run is recomputed from that repetition.
 
 use crate::commands::model::model_under;
 use crate::commands::progress::Progress;
@@ -20,24 +20,25 @@ use stickslip_outcome::Watched;
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
-/// What is read off a polynomial once more, after its ends were rounded to a document, is the same but for these.
+/// Largest relative difference of values of a polynomial whose coefficients were rounded when the document was
+/// written.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
-/// Machines round sums and functions otherwise: parts of a value that may be off.
+/// Largest relative difference of a value between machines with different arithmetic.
 const DIGITS: f64 = 1e-9;
-/// Errors that a document states may be off by so many times themselves.
+/// Largest ratio between two error estimates in a document.
 const ERRORS: f64 = 9.0;
-/// A slope within a step is off by so many tolerances over its length, at most.
+/// Largest error of a slope within a step, in tolerances over the length of the step.
 const SLOPES: f64 = 200.0;
 
-/// What is left in words of a remark: its numbers have the last digits of a machine.
+/// The words of a warning without its numbers, whose last digits depend on the machine.
 fn words(remark: &str) -> String {
     remark.chars().filter(|c| !(c.is_ascii_digit() || "+-.e".contains(*c))).collect()
 }
 
-/// A column of samples beside what it should hold.
+/// A column of samples, with its recomputed values.
 struct Column {
     field: &'static str,
-    /// How many times what is allowed.
+    /// Difference over its limit.
     excess: f64,
     worst: Option<ClaimDocument>,
 }
@@ -47,7 +48,7 @@ impl Column {
         Self { field, excess: 1.0, worst: None }
     }
 
-    /// What a run does not say needs no proof.
+    /// Compares a value; a missing value is not checked.
     fn see(&mut self, t: f64, claimed: Option<f64>, computed: Option<f64>, allowed: f64) {
         let Some(claimed) = claimed else { return };
         let excess =
@@ -98,7 +99,7 @@ impl Columns {
         }
     }
 
-    /// A sample that was read off this step.
+    /// Compares a sample with the value of its step.
     fn of_history(&mut self, sample: &SampleLine, step: &Step) {
         let rounding = ROUNDINGS * (1.0 + step.extension.abs() + sample.x0.abs());
         let [l, x0, lag, ..] = &mut self.columns;
@@ -110,7 +111,8 @@ impl Columns {
         self.see(sample, &found, (DIGITS + rounding / step.h, DIGITS));
     }
 
-    /// A sample of a run to the same tolerance. Whether l and x0 are right another run says; the lag goes with x0.
+    /// Compares a sample with a run to the same tolerance. l and x0 are checked by the other repetition; the lag
+    /// follows from x0.
     fn of_repetition(&mut self, sample: &SampleLine, step: &Step) {
         let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
         let support = self.support.position(sample.t);
@@ -122,7 +124,8 @@ impl Columns {
         self.see(sample, &found, (DIGITS + off / step.h, DIGITS + off));
     }
 
-    /// Velocity and height may be off by so much, and by some digits of themselves; the weight is that of the height.
+    /// Compares velocity and height with these limits plus a relative round-off; the limit of the weight follows from
+    /// that of the height.
     fn see(&mut self, sample: &SampleLine, found: &SampleLine, (velocity, height): (f64, f64)) {
         let t = sample.t;
         let [_, _, _, velocities, heights, weights] = &mut self.columns;
@@ -139,12 +142,12 @@ impl Columns {
     }
 }
 
-/// What does not follow.
+/// The values that differ from the recomputed ones.
 #[derive(Default)]
 pub(super) struct Claims(Vec<ClaimDocument>);
 
 impl Claims {
-    /// A value beside the one computed: numbers within what is allowed, all else the same.
+    /// Compares a value with the recomputed one: numbers within their limit, all else exactly.
     fn judge(
         &mut self,
         field: &str,
@@ -192,7 +195,7 @@ impl Claims {
         }
     }
 
-    /// The same of what may be left out: then nothing is claimed.
+    /// The same for an optional value; a missing one is not checked.
     fn judge_if<T: Serialize>(
         &mut self,
         field: &str,
@@ -206,7 +209,7 @@ impl Claims {
         }
     }
 
-    /// What follows from the parameters alone.
+    /// Checks values that follow from the parameters alone.
     fn of_parameters(
         &mut self,
         parameters: &ModelParameters,
@@ -225,7 +228,7 @@ impl Claims {
         }
     }
 
-    /// What became of the run.
+    /// Checks the result of the run.
     fn of_end(&mut self, claimed: &RunEnd, computed: &RunEnd, tolerance: f64) {
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let names = (&claimed.work.memory, &computed.work.memory);
@@ -272,7 +275,7 @@ impl Claims {
         }
     }
 
-    /// What is read off the history of a document, and the same numbers in other units.
+    /// Checks values that follow from the history of a document, and their conversions to other units.
     fn of_document(&mut self, run: &RunDocument, trajectory: Option<&Trajectory>) {
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         if let Some(trajectory) = trajectory {
@@ -294,10 +297,10 @@ impl Claims {
     }
 }
 
-/// A run made again as it was asked for: what became of it, and its steps, each shown to `witness`.
+/// The result of a repetition of the run with its own options; `witness` is called with each step.
 ///
 /// # Errors
-/// It cannot be repeated, or was stopped.
+/// The run cannot be repeated, or was interrupted.
 fn again(
     scenario: &Scenario,
     until: f64,
@@ -325,7 +328,7 @@ fn again(
     Ok(found?)
 }
 
-/// Of a document.
+/// Checks a document.
 ///
 /// # Errors
 /// As [`again`].
@@ -368,10 +371,10 @@ pub(super) fn of_document(
     Ok(claims.0)
 }
 
-/// Of lines.
+/// Checks a run written as lines.
 ///
 /// # Errors
-/// As [`again`]; the lines cannot be read.
+/// As [`again`]; or the lines cannot be read.
 pub(super) fn of_lines(
     scenario: &Scenario,
     (parameters, steady): (&ModelParameters, Option<&SteadyState>),
@@ -401,7 +404,7 @@ pub(super) fn of_lines(
     Ok(claims.0)
 }
 
-/// What a document says became of its run.
+/// The result of a run according to its document.
 fn end_of(run: &RunDocument) -> RunEnd {
     RunEnd {
         end: run.parameters.until,
@@ -416,7 +419,7 @@ fn end_of(run: &RunDocument) -> RunEnd {
     }
 }
 
-/// Says of each value that does not follow what it is, on a line of its own; of all of them, their names.
+/// A line for each value that differs, and a list of their names.
 pub(super) fn said_of(differences: &[ClaimDocument]) -> Option<String> {
     let first = differences.first()?;
     let each = differences.iter().filter(|_| differences.len() > 1);
@@ -428,7 +431,7 @@ pub(super) fn said_of(differences: &[ClaimDocument]) -> Option<String> {
     })
 }
 
-/// Such as `samples.lag at t = 20: 3.2, computed 2.1, 1e-9 allowed (2 entries are off)`.
+/// A line such as `samples.lag at t = 20: 3.2, computed 2.1, 1e-9 allowed (2 entries are off)`.
 pub(in crate::commands) fn said(difference: &ClaimDocument) -> String {
     let ClaimDocument { field, t, claimed, computed, allowed, count } = difference;
     let at = t.map_or(String::new(), |t| format!(" at t = {t}"));

@@ -1,4 +1,4 @@
-//! The verification of a run written as lines: read twice, and never held.
+//! Verification of a run written as lines: the file is read twice, and not kept in memory.
 
 use super::{claims, job, repeated, said_of};
 use crate::arguments::OutletArguments;
@@ -14,10 +14,10 @@ use stickslip::{
 use stickslip_tip::{MemoryChoice, Running, Scenario};
 use stickslip_verify::{ComparedSamples, Sample, verify_samples};
 
-/// Line of the first sample.
+/// Number of the line with the first sample.
 const FIRST: u64 = 2;
 
-/// First all lines are looked at, which takes seconds: what is damaged or cut off is known before the run is
+/// First all lines are checked, which takes seconds, so that damage and missing lines are found before the run is
 /// repeated. Then they are compared, one by one, with the repetition.
 pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Result<(), Failure> {
     let named = format!("RUN.jsonl {}", path.display());
@@ -59,7 +59,7 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     failure.map_or(Ok(()), Err)
 }
 
-/// What is run, and how much there is of it.
+/// The definition and the extent of the run.
 fn survey(file: &File) -> Result<(RunHead, Scenario, Extent), Flaw> {
     let mut lines = Lines::of(file)?;
     let head = lines.head()?;
@@ -78,8 +78,8 @@ fn until(scenario: &Scenario, extent: &Extent) -> Result<f64, Flaw> {
     })
 }
 
-/// The memory that was used. Lines that break off do not say what `auto` went over to; it goes over to
-/// modes wherever they apply.
+/// The memory that was used. Incomplete lines do not contain the final choice of `auto`, which is modes whenever it
+/// applies.
 fn memory(scenario: &Scenario, extent: &Extent) -> String {
     if let Some(end) = &extent.end {
         return end.work.memory.clone();
@@ -99,11 +99,11 @@ fn memory(scenario: &Scenario, extent: &Extent) -> String {
     .into()
 }
 
-/// Samples read from the file whenever they are asked for.
+/// Samples read from the file on request.
 struct Samples<'a> {
     file: &'a File,
     number: u64,
-    /// Why the last reading ended early.
+    /// The reason why the last reading ended early.
     flaw: RefCell<Option<Flaw>>,
 }
 
@@ -139,11 +139,11 @@ fn lines(extent: &Extent, until: f64, compared: ComparedSamples) -> LinesDocumen
     }
 }
 
-/// How the rest of a run that was cut off is had.
+/// The advice for an incomplete run.
 const REST: &str = "`stickslip run --resume CHECKPOINT` finishes a run that was started with --checkpoint, any \
                     other is to be run again";
 
-/// What is said, and the exit status, of lines that are wrong, and of lines that end too early.
+/// The message and the exit status for wrong lines, and for incomplete ones.
 fn failure(
     found: &VerificationDocument,
     lines: &LinesDocument,

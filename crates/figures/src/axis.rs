@@ -3,40 +3,40 @@
 use crate::ticks::{self, Tick};
 use stickslip::ScaleName;
 
-/// Spans below this part of the scale are taken for round-off of a constant.
+/// Smallest span, relative to the scale, that is drawn; smaller ones count as round-off of a constant.
 const ROUND_OFF: f64 = 1e-6;
-/// Bound of the numbers that are drawn.
+/// Largest absolute value that is drawn.
 const HUGE: f64 = 1e100;
-/// What is not distinguished: a span of this part of the larger end, and numbers next to 0.
+/// Smallest span relative to the larger end; numbers closer to 0 than this count as 0.
 const LEAST_PART: f64 = 1e-12;
 const TINY: f64 = 1.0 / HUGE;
-/// A logarithmic axis spans no more decades than these below its highest value.
+/// Largest number of decades of a logarithmic axis, counted from its highest value.
 const DECADES: f64 = 60.0;
 
-/// An axis from `low` to `high`, both drawable, above 0 where it is logarithmic.
+/// An axis from `low` to `high`, both drawable, and above 0 if it is logarithmic.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
     pub(crate) low: f64,
     pub(crate) high: f64,
     pub(crate) scale: ScaleName,
-    /// Labelled, and between them.
+    /// Ticks with and without labels.
     pub(crate) ticks: Vec<Tick>,
 }
 
-/// How an axis is fitted to values.
+/// Parameters for fitting an axis to values.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fit {
     pub(crate) scale: ScaleName,
-    /// Part of the span left free at either end.
+    /// Fraction of the span left free at either end.
     pub(crate) padding: f64,
-    /// Size that the quantity has by nature, 0 when unknown. A variation far below it is round-off.
+    /// Typical size of the quantity, 0 if unknown. A variation far below it is round-off.
     pub(crate) natural: f64,
-    /// About how many ticks.
+    /// Approximate number of ticks.
     pub(crate) ticks: f64,
 }
 
 impl Axis {
-    /// From `low` to `high`, where these make a range, with about `count` ticks.
+    /// An axis from `low` to `high`, if these form a range, with about `count` ticks.
     pub(crate) fn new(low: f64, high: f64, scale: ScaleName, count: f64) -> Self {
         match scale {
             ScaleName::Logarithmic => {
@@ -52,8 +52,8 @@ impl Axis {
         }
     }
 
-    /// Fitted to the drawable ones of `values`. A constant is put in the middle of a range a
-    /// quarter of its size wide, rather than its round-off magnified.
+    /// An axis fitted to the drawable ones of `values`. A constant is centred in a range a quarter of its size, so
+    /// that its round-off is not magnified.
     pub(crate) fn fit(values: impl IntoIterator<Item = f64>, fit: Fit) -> Self {
         let logarithmic = fit.scale == ScaleName::Logarithmic;
         let shown = values.into_iter().filter(|v| drawable(*v) && (!logarithmic || *v > 0.0));
@@ -69,7 +69,7 @@ impl Axis {
         Self::new(low, high, fit.scale, fit.ticks)
     }
 
-    /// Where a value lies: 0 at `low`, 1 at `high`; `None` for one that this axis has no place for.
+    /// Relative position of a value: 0 at `low`, 1 at `high`; `None` for a value that cannot be placed on this axis.
     pub(crate) fn part(&self, value: f64) -> Option<f64> {
         let part = match self.scale {
             ScaleName::Linear => (value - self.low) / (self.high - self.low),
@@ -87,14 +87,14 @@ impl Axis {
     }
 }
 
-/// Whether an axis can go from the first to the second: both drawable, and told apart by doubles with some digits left for
-/// what lies between them.
+/// Whether two numbers are the ends of a valid axis: both drawable, and far enough apart for doubles to resolve
+/// values between them.
 pub(crate) fn is_range([low, high]: [f64; 2]) -> bool {
     let size = low.abs().max(high.abs());
     drawable(low) && drawable(high) && high - low >= (LEAST_PART * size).max(TINY)
 }
 
-/// Ends of an axis that holds one value.
+/// Ends of an axis for a single value.
 fn about(value: f64) -> (f64, f64) {
     let value = if drawable(value) { value } else { 0.0 };
     (value, value + value.abs().max(1.0))
@@ -119,13 +119,12 @@ fn logarithmic_range(low: f64, high: f64, padding: f64) -> (f64, f64) {
     (10f64.powf(low - pad), 10f64.powf(high + pad))
 }
 
-/// Whether a number can be put on an axis: finite, and so far from overflow that spans and powers
-/// are.
+/// Whether a number can be placed on an axis: finite, with finite spans and powers.
 pub(crate) fn drawable(value: f64) -> bool {
     value.abs() < HUGE
 }
 
-/// Smallest and largest.
+/// Smallest and largest value.
 pub(crate) fn extremes(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values.into_iter().fold(None, |range, v| match range {
         None => Some((v, v)),

@@ -1,4 +1,4 @@
-//! Kinds over a grid as coloured cells, equal ones of a column in one piece.
+//! Categories over a grid as coloured cells; equal neighbours of a column are merged.
 
 use crate::curve::Frame;
 use crate::style::colour;
@@ -6,8 +6,8 @@ use crate::svg::{Paint, Svg, number};
 use std::fmt::Write;
 use stickslip::CellsDocument;
 
-/// The cells, a path for each kind. Each reaches half-way to its neighbours, those at the ends as far to either side, where
-/// the axes do not cut them.
+/// Draws the cells, a path for each category. Each extends half-way to its neighbours, and those at the ends
+/// symmetrically unless the axes cut them.
 pub(crate) fn draw(cells: &CellsDocument, frame: Frame, svg: &mut Svg) {
     let (x, y) = (edges(&cells.x), edges(&cells.y));
     for (kind, name) in cells.colours.iter().enumerate() {
@@ -37,14 +37,14 @@ fn push(frame: Frame, x: (f64, f64), y: (f64, f64), path: &mut String) {
     let _ = write!(path, "M{left} {bottom}H{right}V{top}H{left}Z");
 }
 
-/// Values from the lowest to the highest, and the place where each was.
+/// The values in ascending order, with the index of each.
 pub(crate) fn ascending(values: &[f64]) -> (Vec<f64>, Vec<usize>) {
     let mut places: Vec<usize> = (0..values.len()).collect();
     places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
     (places.iter().map(|place| values[*place]).collect(), places)
 }
 
-/// Where cells about these middles begin and end; none begins below 0 that is about more.
+/// The edges of cells with these centres; the first edge is not below 0 if all centres are above 0.
 pub(crate) fn edges(middles: &[f64]) -> Vec<f64> {
     let between: Vec<f64> = middles.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
     let beyond = |end: f64, edge: Option<&f64>| end + edge.map_or(0.0, |edge| end - edge);

@@ -1,8 +1,8 @@
-//! Colours by height. All are told apart by the colour-blind and in print.
+//! Colour scales for heights, suitable for colour-blind readers and for print.
 
 use stickslip::ColoursName;
 
-/// The colour at a part of the scale, 0 to 1.
+/// The colour at a position on the scale, 0 to 1.
 pub(crate) fn at(colours: ColoursName, part: f64) -> [u8; 3] {
     let part = part.clamp(0.0, 1.0);
     let of = |gradient: colorous::Gradient, part| {
@@ -17,7 +17,7 @@ pub(crate) fn at(colours: ColoursName, part: f64) -> [u8; 3] {
     }
 }
 
-/// As SVG has it.
+/// The colour in SVG notation.
 pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

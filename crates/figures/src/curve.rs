@@ -1,4 +1,4 @@
-//! Curves: from their data to paths and marks within the axes.
+//! Conversion of curves from data to paths and marks within the axes.
 
 use crate::axis::{Axis, drawable};
 use crate::style::{BAND_OPACITY, Mark, Pen, SHADE_OPACITY, Shape, colour};
@@ -7,11 +7,11 @@ use crate::thin::{Point, thin};
 use std::fmt::Write;
 use stickslip::{ColourName, CurveDocument, StyleName};
 
-/// About how many points all lines of a panel may have together, so that a file of three panels
-/// stays below 300 kB (a point takes some 14 bytes).
+/// Approximate largest number of points of all lines in a panel, so that a file with three panels stays below 300 kB
+/// (about 14 bytes per point).
 const POINTS: usize = 12_000;
 
-/// Axes and their place on the sheet.
+/// Axes and their position on the canvas.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame<'a> {
     pub(crate) x: &'a Axis,
@@ -20,7 +20,7 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// The place of a value, in units.
+    /// The position of a value on the canvas, in units.
     pub(crate) fn place(&self, (x, y): Point) -> Option<Point> {
         let (x, y) = (self.x.part(x)?, self.y.part(y)?);
         Some((self.at.left + x * self.at.width(), self.at.bottom - y * self.at.height()))
@@ -58,13 +58,13 @@ impl Frame<'_> {
         }
     }
 
-    /// Whether a mark there shows.
+    /// Whether a mark at this position is visible.
     fn is_near(&self, (x, y): Point) -> bool {
         let Rect { left, top, right, bottom } = self.at;
         (left - 10.0..=right + 10.0).contains(&x) && (top - 10.0..=bottom + 10.0).contains(&y)
     }
 
-    /// The places of a curve, broken where it has no value, and cut to what can show.
+    /// The curve on the canvas, divided at missing values, and clipped to the visible part.
     fn stretches(&self, x: &[f64], y: &[Option<f64>]) -> Vec<Vec<Point>> {
         let places: Vec<Option<Point>> =
             x.iter().zip(y).map(|(x, y)| self.place((*x, (*y)?))).collect();
@@ -89,7 +89,7 @@ impl Frame<'_> {
             .collect()
     }
 
-    /// The area between a curve and the top of the axes.
+    /// Draws the area between a curve and the top of the axes.
     fn shade_above(&self, curve: &CurveDocument, svg: &mut Svg) {
         let across = (self.at.left, self.at.right);
         for stretch in self.stretches(&curve.x, &curve.y) {
@@ -104,7 +104,7 @@ impl Frame<'_> {
         }
     }
 
-    /// The area between two curves, with its edges.
+    /// Draws the area between two curves, with its edges.
     fn band(&self, curve: &CurveDocument, pen: Pen, svg: &mut Svg) {
         let none = vec![];
         let low = curve.low.as_ref().unwrap_or(&none);
@@ -120,12 +120,12 @@ impl Frame<'_> {
     }
 }
 
-/// Whether a curve has a point to show.
+/// Whether a curve has no point to draw.
 pub(crate) fn is_empty(curve: &CurveDocument) -> bool {
     !curve.x.iter().zip(&curve.y).any(|(x, y)| drawable(*x) && y.is_some_and(drawable))
 }
 
-/// Filled, or an outline with a white ground that lets through what is below.
+/// Paint of a mark: filled, or an outline with a translucent white interior.
 pub(crate) fn marked(colour: &str, filled: bool) -> Paint<'_> {
     if filled {
         return Paint::fill(colour);

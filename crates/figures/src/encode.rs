@@ -1,4 +1,4 @@
-//! The bytes of a file that shows a figure.
+//! Conversion of a figure to the bytes of a file.
 
 use crate::error::FigureError;
 use crate::format::FigureFormat;
@@ -6,11 +6,11 @@ use crate::sheet::sheet;
 use crate::size::Size;
 use stickslip::FigureDocument;
 
-/// Draws a figure. The same figure gives the same bytes.
+/// Draws a figure. Equal figures give equal bytes.
 ///
 /// # Errors
 ///
-/// If a picture is too large.
+/// The picture is too large.
 pub fn draw(
     figure: &FigureDocument,
     format: FigureFormat,
@@ -29,7 +29,7 @@ pub fn draw(
 ///
 /// # Errors
 ///
-/// If the picture of a map cannot be packed.
+/// The image of a map cannot be compressed.
 pub fn svg(figure: &FigureDocument, size: &Size) -> Result<String, FigureError> {
     sheet(figure, size, true)
 }

@@ -1,4 +1,4 @@
-//! Why a figure cannot be drawn as asked.
+//! Errors of drawing.
 
 use thiserror::Error;
 
@@ -6,24 +6,24 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// The name of the file does not say how to store it.
+    /// The file name has no extension of a known format.
     #[error("the extension chooses the format: end the name in .svg, .png or .pdf")]
     Extension,
-    /// Built without the feature of that name.
+    /// The program was built without this feature.
     #[error("this build writes no {0}: name the figure .svg, or build with --features {1}")]
     Missing(&'static str, &'static str),
-    /// Not a width; the narrowest and the widest in millimetres and in pixels.
+    /// An invalid width; the valid range in millimetres and in pixels.
     #[error(
         "say the width and its unit, such as 85mm or 600px: from {0:.0}mm to {1:.0}mm, {2}px to {3}px"
     )]
     Width(f64, f64, f64, f64),
-    /// Not a resolution; the least and the most.
+    /// An invalid resolution; the smallest and the largest one.
     #[error("the pixels in an inch may be {0} to {1}")]
     Resolution(f64, f64),
-    /// A document that has nothing to draw.
+    /// The document has nothing to draw.
     #[error("{0}")]
     Nothing(String),
-    /// What the document holds cannot be computed with.
+    /// The document contains invalid data.
     #[error("the document is damaged: {0}")]
     Damaged(String),
     /// The SVG cannot be read.
@@ -32,7 +32,7 @@ pub enum FigureError {
     /// The picture is too large, in pixels.
     #[error("{0} by {1} pixels are too many: choose a smaller width or fewer pixels to the inch")]
     Pixels(u64, u64),
-    /// The picture cannot be packed.
+    /// The picture cannot be compressed.
     #[error("the pixels cannot be packed: {0}")]
     Png(String),
 }

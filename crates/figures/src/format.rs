@@ -3,7 +3,7 @@
 use crate::error::FigureError;
 use std::path::Path;
 
-/// How a figure is stored.
+/// Storage formats of figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureFormat {
     /// Vector graphics for the web.
@@ -17,12 +17,12 @@ pub enum FigureFormat {
 }
 
 impl FigureFormat {
-    /// By the extension of `path`, in letters of either case. A build without a format says so here,
-    /// before the work, rather than when the figure is there.
+    /// The format by the extension of `path`, in any case. A build without this format returns an error here, before
+    /// the computation.
     ///
     /// # Errors
     ///
-    /// If the extension names none, or one that this build does not write.
+    /// The extension is unknown, or this build lacks the format.
     pub fn of(path: &Path) -> Result<Self, FigureError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         match extension.as_deref() {

@@ -1,4 +1,4 @@
-//! The legend: samples and names in rows above the axes, where they hide nothing.
+//! The legend: samples and names in rows above the axes.
 
 use crate::curve::{is_empty, marked, shape};
 use crate::style::{BAND_OPACITY, LEGEND_SIZE, Mark, Pen, Shape, colour};
@@ -8,9 +8,9 @@ use stickslip::PanelDocument;
 
 /// Length of a sample line.
 const LINE: f64 = 34.0;
-/// Between a sample and its name.
+/// Distance between a sample and its name.
 const GAP: f64 = 8.0;
-/// Between an entry and the next.
+/// Distance between two entries.
 const SPACE: f64 = 20.0;
 const ROW: f64 = 24.0;
 
@@ -26,14 +26,14 @@ enum Sample {
     Cell(&'static str),
 }
 
-/// Entries with their places, in units from the upper left corner.
+/// Entries of a legend with their positions, in units from the upper left corner.
 pub(crate) struct Legend<'a> {
     entries: Vec<(f64, f64, Entry<'a>)>,
     rows: usize,
 }
 
 impl<'a> Legend<'a> {
-    /// Of the cells that are there and the curves that have a name, broken into rows of the given width.
+    /// The legend of all cells and named curves, divided into rows of the given width.
     pub(crate) fn of(panel: &'a PanelDocument, most: f64) -> Self {
         let mut legend = Self { entries: vec![], rows: 0 };
         let mut x = f64::INFINITY;

@@ -1,11 +1,11 @@
-//! Figures: from a document to a figure as data, and from that to SVG, PNG and PDF.
+//! Figures: from a document to a figure as data, and from a figure to SVG, PNG and PDF.
 //!
-//! [`of`] makes the figure of any saved document, a `FigureDocument`: panels of curves, maps and cells with
-//! their axes, which can be saved and drawn again. [`draw`] makes the bytes of a file of it, [`svg`] an SVG
-//! document. Nothing here knows of files or arguments. The same document gives the same bytes.
+//! [`of`] makes the figure of any saved document, a `FigureDocument`: panels of curves, maps and cells with their
+//! axes, which can be saved and drawn later. [`draw`] returns the bytes of a file, [`svg`] an SVG document. The crate
+//! uses no files and no arguments. Equal documents give equal bytes.
 //!
-//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines. Both carry the font
-//! DejaVu Sans; an SVG names it and leaves it to the viewer.
+//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines. Both contain the font
+//! DejaVu Sans; an SVG file only names it, and the viewer supplies it.
 
 mod axis;
 mod cells;

@@ -1,4 +1,4 @@
-//! Height maps: one colour for each height, and a bar that says which.
+//! Height maps: one colour for each height, and a colour bar.
 
 use crate::axis::{Axis, Fit, extremes};
 use crate::colours::{at, hex};
@@ -13,17 +13,17 @@ const BAR_GAP: f64 = 16.0;
 const BAR: f64 = 18.0;
 const BAR_STEPS: usize = 128;
 
-/// A map, the part of it that shows, and the scale of its heights.
+/// A map, its visible part, and its scale of heights.
 pub(crate) struct Map<'a> {
     document: &'a MapDocument,
-    /// First and last column, first and last row that show, and one more.
+    /// First visible column and one past the last; first visible row and one past the last.
     columns: (usize, usize),
     rows: (usize, usize),
     scale: Axis,
 }
 
 impl<'a> Map<'a> {
-    /// The cells whose middle lies within the ranges.
+    /// The cells with centres within the ranges.
     pub(crate) fn new(document: &'a MapDocument, x: Option<[f64; 2]>, y: Option<[f64; 2]>) -> Self {
         let columns = within(&document.x, x);
         let rows = within(&document.y, y);
@@ -39,7 +39,7 @@ impl<'a> Map<'a> {
         Self { document, columns, rows, scale }
     }
 
-    /// The edges of what shows, half a cell beyond the first and the last middle.
+    /// The edges of the visible part, half a cell beyond the first and the last centre.
     pub(crate) fn ranges(&self) -> ((f64, f64), (f64, f64)) {
         let of = |middles: &[f64], (from, to): (usize, usize)| {
             edges(middles.get(from..to).unwrap_or(&[]), middles)
@@ -47,13 +47,13 @@ impl<'a> Map<'a> {
         (of(&self.document.x, self.columns), of(&self.document.y, self.rows))
     }
 
-    /// Room right of the axes for the bar, its numbers and its label.
+    /// Space to the right of the axes for the bar, its numbers and its label.
     pub(crate) fn margin_right(&self) -> f64 {
         let widest = self.scale.labelled().map(|(_, l)| width(l, TICK_SIZE)).fold(0.0, f64::max);
         BAR_GAP + BAR + 10.0 + widest + 1.9 * LABEL_SIZE
     }
 
-    /// The picture, stretched over the axes.
+    /// Draws the image, stretched over the axes.
     pub(crate) fn draw(&self, axes: Rect, svg: &mut Svg) -> Result<(), FigureError> {
         let ((from, to), (first, last)) = (self.columns, self.rows);
         let rows: Vec<&[f64]> =
@@ -63,7 +63,7 @@ impl<'a> Map<'a> {
         Ok(())
     }
 
-    /// The bar and its numbers, right of the axes.
+    /// Draws the bar and its numbers, to the right of the axes.
     pub(crate) fn draw_bar(&self, axes: Rect, svg: &mut Svg) {
         let left = axes.right + BAR_GAP;
         let bar = Rect { left, right: left + BAR, ..axes };
@@ -91,7 +91,7 @@ impl<'a> Map<'a> {
 
 const FIT: Fit = Fit { scale: ScaleName::Linear, padding: 0.0, natural: 0.0, ticks: 5.0 };
 
-/// From the first middle within the range to beyond the last; all where none is.
+/// Indices of the first centre within the range and one past the last; all centres if none is within.
 fn within(middles: &[f64], range: Option<[f64; 2]>) -> (usize, usize) {
     let all = (0, middles.len());
     let Some([low, high]) = range else { return all };
@@ -102,7 +102,7 @@ fn within(middles: &[f64], range: Option<[f64; 2]>) -> (usize, usize) {
     }
 }
 
-/// Half a cell beyond the first and the last of `shown`, the size of cells taken from all.
+/// Half a cell beyond the first and the last of `shown`; the size of a cell is computed from all centres.
 fn edges(shown: &[f64], all: &[f64]) -> (f64, f64) {
     let (first, last) = extremes(shown.iter().copied()).unwrap_or((0.0, 0.0));
     let (low, high) = extremes(all.iter().copied()).unwrap_or((0.0, 0.0));

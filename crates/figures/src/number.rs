@@ -1,6 +1,6 @@
-//! Numbers in titles, legends and at ticks.
+//! Number formats of titles, legends and ticks.
 
-/// At most seven digits, no zeros behind, a power of ten where it is shorter: 1.079036, 1.2, 1×10^{-9}.
+/// At most seven digits, no trailing zeros, a power of ten if that is shorter: 1.079036, 1.2, 1×10^{-9}.
 pub(crate) fn seven_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.6e}").parse().unwrap_or(value);
     let (digits, exponent) = (rounded.to_string(), format!("{rounded:e}"));
@@ -13,7 +13,7 @@ pub(crate) fn seven_digits(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// At most four decimals, no zeros behind; what these would round away by its leading digits.
+/// At most four decimals, no trailing zeros; smaller numbers by their leading digits.
 pub(crate) fn short(value: f64) -> String {
     if value.abs() > 1e-12 && value.abs() < 5e-4 || value.abs() >= 1e7 {
         return seven_digits(format!("{value:.2e}").parse().unwrap_or(value));

@@ -1,4 +1,4 @@
-//! One set of axes with what it shows.
+//! A panel: one set of axes with its content.
 
 use crate::axis::{Axis, Fit};
 use crate::cells;
@@ -11,17 +11,17 @@ use crate::svg::{Anchor, Paint, Rect, Svg, Text};
 use crate::text::{width, wrapped};
 use stickslip::{ArrowName, ColourName, PanelDocument};
 
-/// Room right of the axes, for half of the last tick label.
+/// Space to the right of the axes, for half of the last tick label.
 const MARGIN_RIGHT: f64 = 28.0;
-/// Room above the axes when no legend is there.
+/// Space above the axes without a legend.
 const MARGIN_TOP: f64 = 16.0;
-/// Room below the axes, for tick labels and axis label.
+/// Space below the axes, for tick labels and axis label.
 const MARGIN_BOTTOM: f64 = 54.0;
 const HEADING_LINE: f64 = 1.5 * LABEL_SIZE;
-/// About as far apart are the ticks.
+/// Approximate distance of the ticks, horizontal and vertical.
 const TICK_DISTANCE: (f64, f64) = (95.0, 52.0);
 
-/// Axes fitted to what they show.
+/// A panel with axes fitted to its content.
 pub(crate) struct Panel<'a> {
     pub(crate) document: &'a PanelDocument,
     x: Axis,
@@ -30,7 +30,7 @@ pub(crate) struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    /// For axes of about that width and height.
+    /// A panel with axes of about this width and height.
     pub(crate) fn new(document: &'a PanelDocument, (width, height): (f64, f64)) -> Self {
         let map =
             document.map.as_ref().map(|map| Map::new(map, document.x_range, document.y_range));
@@ -49,18 +49,18 @@ impl<'a> Panel<'a> {
         Self { document, x, y, map }
     }
 
-    /// Room that tick labels and axis label need on the left.
+    /// Space for tick labels and axis label on the left.
     pub(crate) fn margin_left(&self) -> f64 {
         let widest = self.y.labelled().map(|(_, l)| width(l, TICK_SIZE)).fold(0.0, f64::max);
         widest + 16.0 + 1.7 * LABEL_SIZE
     }
 
-    /// Room right of the axes.
+    /// Space to the right of the axes.
     pub(crate) fn margin_right(&self) -> f64 {
         self.map.as_ref().map_or(MARGIN_RIGHT, Map::margin_right)
     }
 
-    /// Height beside that of the axes and their margins, with axes between `left` and `right`.
+    /// Height of heading and legend, with axes between `left` and `right`.
     pub(crate) fn head(&self, (left, right): (f64, f64)) -> f64 {
         let lines = self.heading(right - left).len() as f64;
         HEADING_LINE * lines + Legend::of(self.document, right - left).height()
@@ -109,7 +109,7 @@ impl<'a> Panel<'a> {
         Ok(())
     }
 
-    /// Shades and grid lines.
+    /// Draws shaded intervals and grid lines.
     fn ground(&self, frame: Frame, svg: &mut Svg) {
         let at = frame.at;
         for [from, to] in &self.document.shades {
@@ -144,7 +144,7 @@ impl<'a> Panel<'a> {
         Some(at.bottom - self.y.part(value)? * at.height())
     }
 
-    /// Outward, the small ones shorter; and their labels.
+    /// Draws the ticks outwards, minor ones shorter, and their labels.
     fn ticks(&self, frame: Frame, svg: &mut Svg) {
         let (at, ink, size) = (frame.at, Paint::stroke(INK, 1.0), TICK_SIZE);
         let length = |label: &Option<String>| if label.is_some() { 5.0 } else { 3.0 };
@@ -166,7 +166,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Of the axes.
+    /// Draws the labels of the axes.
     fn labels(&self, space: Rect, at: Rect, svg: &mut Svg) {
         let (size, middle) = (LABEL_SIZE, Anchor::Middle);
         let (across, upward) = (0.5 * (at.left + at.right), 0.5 * (at.top + at.bottom));
@@ -177,7 +177,7 @@ impl<'a> Panel<'a> {
         svg.text(Text { x, y, label, size, anchor: middle, upright: true });
     }
 
-    /// The heading in lines as wide as the axes.
+    /// The heading, broken into lines as wide as the axes.
     fn heading(&self, width: f64) -> Vec<String> {
         wrapped(&self.document.heading, LABEL_SIZE, width)
     }
@@ -208,12 +208,12 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// Whether marks are drawn, which are not to be cut in half at the ends.
+/// Whether marks are drawn, which must not be cut at the ends.
 fn has_marks(document: &PanelDocument) -> bool {
     document.curves.iter().any(|c| !Pen::of(c.style, None).is_line())
 }
 
-/// Full width unless marks are drawn or a curve winds back.
+/// The horizontal axis: without padding unless marks are drawn or a curve turns back.
 fn abscissas(document: &PanelDocument, ticks: f64) -> Axis {
     let winding = document.curves.iter().any(|c| !c.x.is_sorted());
     let padding = match (winding, has_marks(document)) {
@@ -227,7 +227,7 @@ fn abscissas(document: &PanelDocument, ticks: f64) -> Axis {
     Axis::fit(curves.chain(of_cells), Fit { scale, padding, natural: 0.0, ticks })
 }
 
-/// With air above and below what the abscissas show.
+/// The vertical axis: with padding above and below the values within the horizontal range.
 fn ordinates(document: &PanelDocument, x: &Axis, ticks: f64) -> Axis {
     let shown = |c: &'_ f64| (x.low..=x.high).contains(c);
     let of_cells = document.cells.iter().flat_map(|cells| cells.y.iter().copied());

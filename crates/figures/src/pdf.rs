@@ -8,12 +8,12 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 use resvg::tiny_skia::{PathSegment, Pixmap, Transform};
 use resvg::usvg::{ClipPath, Fill, Group, ImageKind, LineCap, LineJoin, Node, Paint, Path, Stroke};
 
-/// Of zlib: most of what it can do, in little time.
+/// Compression level of zlib, a compromise of size and time.
 const LEVEL: u8 = 6;
-/// Points in a unit.
+/// Points per unit.
 const POINT: f32 = 0.5;
 
-/// A page of the size of `svg`, which has no ground.
+/// A page of the size of `svg`, without a background.
 pub(crate) fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
     let tree = tree(svg)?;
     let (width, height) = (POINT * tree.size().width(), POINT * tree.size().height());
@@ -29,7 +29,7 @@ struct Drawing {
     content: Content,
     /// Opacities in use.
     opacities: Vec<f32>,
-    /// Width, height and pixels.
+    /// Width, height and pixels of each image.
     images: Vec<(i32, i32, Vec<u8>)>,
 }
 
@@ -130,7 +130,7 @@ impl Drawing {
         }
     }
 
-    /// What `draw` draws is that opaque.
+    /// Calls `draw` with this opacity.
     fn with_opacity(&mut self, opacity: f32, draw: impl FnOnce(&mut Self)) {
         if opacity >= 1.0 {
             return draw(self);
@@ -146,7 +146,7 @@ impl Drawing {
         self.content.restore_state();
     }
 
-    /// Pictures lie below all else.
+    /// Draws all images, which are below everything else.
     fn images(&mut self, group: &Group, page: Transform) {
         for node in group.children() {
             match node {

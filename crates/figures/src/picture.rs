@@ -1,13 +1,13 @@
-//! The pixels of a height map as a PNG within an SVG.
+//! PNG images of height maps within an SVG.
 
 use crate::error::FigureError;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// More columns or rows than these do not show: they are averaged.
+/// Largest number of columns and rows; more are averaged.
 const MOST: (usize, usize) = (1700, 840);
 
-/// A PNG of rows from below, coloured by `colour`, as a data URL.
+/// A PNG image of rows in upward order, coloured by `colour`, as a data URL.
 pub(crate) fn data_url(
     rows: &[&[f64]],
     colour: impl Fn(f64) -> [u8; 3],
@@ -19,8 +19,8 @@ pub(crate) fn data_url(
     Ok(format!("data:image/png;base64,{}", STANDARD.encode(file)))
 }
 
-/// A PNG file of so many columns and rows, which says how many pixels there are in an inch. Compressed fast: a
-/// picture is up to twice as large, and takes half the time.
+/// A PNG file with these numbers of columns and rows, and its resolution in pixels per inch. Fast compression: the
+/// file is up to twice as large, in half the time.
 pub(crate) fn png_file(
     (width, height): (usize, usize),
     colours: png::ColorType,
@@ -46,7 +46,7 @@ pub(crate) fn png_file(
     Ok(bytes)
 }
 
-/// Blocks of rows and columns averaged, so many that no more than [`MOST`] are left.
+/// Averages over blocks of rows and columns, with at most [`MOST`] blocks.
 fn averaged(rows: &[&[f64]]) -> Vec<Vec<f64>> {
     let width = rows.first().map_or(0, |row| row.len());
     let (by_x, by_y) = (width.div_ceil(MOST.0).max(1), rows.len().div_ceil(MOST.1).max(1));

@@ -7,10 +7,10 @@ use crate::vector::tree;
 use resvg::tiny_skia::{Color, FilterQuality, Pixmap, PixmapPaint, Transform};
 use resvg::usvg::{Group, Image, ImageKind, Node};
 
-/// More pixels than these take above 240 MB, being compressed; a page of A4 has 22 million at 480 in an inch.
+/// Largest number of pixels: compression of more takes above 240 MB. A page of A4 has 22 million at 480 per inch.
 const MOST: f64 = 3.2e7;
 
-/// Draws `svg`, which has no ground, on white.
+/// Draws `svg`, which has no background, on white.
 pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
     let tree = tree(svg)?;
     let (density, dots_per_inch) = size.pixels();
@@ -29,7 +29,7 @@ pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
     png_file(size, png::ColorType::Rgb, &without_alpha(picture), Some(dots_per_inch))
 }
 
-/// Red, green and blue, in the room that they had with the opacity of what is opaque.
+/// Red, green and blue of an opaque picture, in the same storage.
 fn without_alpha(picture: Pixmap) -> Vec<u8> {
     let pixels = picture.width() as usize * picture.height() as usize;
     let mut kept = picture.take();
@@ -44,8 +44,8 @@ fn without_alpha(picture: Pixmap) -> Vec<u8> {
     kept
 }
 
-/// Draws the pictures within the SVG, which lie below all else. resvg would do it with decoders of four formats;
-/// ours is PNG.
+/// Draws the images within the SVG, which are below everything else. resvg would need decoders of four formats; only
+/// PNG occurs here.
 fn draw_images(group: &Group, scale: Transform, picture: &mut Pixmap) {
     for node in group.children() {
         match node {

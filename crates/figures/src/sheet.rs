@@ -1,4 +1,4 @@
-//! Panels in rows under a title, as one SVG document.
+//! The canvas: panels in rows under a title, as one SVG document.
 
 use crate::error::FigureError;
 use crate::panel::Panel;
@@ -8,26 +8,26 @@ use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
 use crate::text::wrapped;
 use stickslip::{FigureDocument, PanelDocument};
 
-/// Columns narrower than this leave no room for axes: panels are then set below each other.
+/// Smallest width of a column; with less, panels are placed below each other.
 const NARROWEST: f64 = 240.0;
 const TITLE_LINE: f64 = 1.4 * TITLE_SIZE;
-/// Height of a panel that is alone in its figure, of one that is not, and of one with cells, in parts of the width
-/// of the figure; and the least and the most of all of them.
+/// Height of a panel over the width of the figure: for a single panel, for one of several, and for one with cells;
+/// and the limits of all these.
 const ALONE: f64 = 0.6;
 const SHARED: f64 = 0.3;
 const CELLS: f64 = 0.69;
 const HEIGHTS: (f64, f64) = (230.0, 640.0);
-/// The same of a map, whose height is that of its way across beside that along, where that is in between.
+/// Limits of the same ratio for a map, whose height otherwise follows from its own ratio of height to width.
 const MAPS: (f64, f64) = (0.25, 0.47);
 
-/// A panel and the columns that it takes: the first, and one more than the last.
+/// A panel with its columns: the first, and one past the last.
 struct Placed<'a> {
     panel: Panel<'a>,
     columns: (usize, usize),
     height: f64,
 }
 
-/// Draws a figure; for a viewer with a ground of its own and its size, else upon a ground and in units.
+/// Draws a figure: without background and size for a viewer that has its own, else on a background and in units.
 pub(crate) fn sheet(
     figure: &FigureDocument,
     size: &Size,
@@ -73,7 +73,7 @@ pub(crate) fn sheet(
     Ok(svg.finish((width, height), written))
 }
 
-/// The panels by rows: as many as their spans let in.
+/// The panels by rows, filled as far as their spans allow.
 fn rows(figure: &FigureDocument, columns: usize, width: f64) -> Vec<Vec<Placed<'_>>> {
     let mut rows: Vec<Vec<Placed>> = vec![];
     let alone = figure.panels.len() == 1;
@@ -113,7 +113,7 @@ fn height(panel: &PanelDocument, width: f64, alone: bool) -> f64 {
     (part * width + 24.0).clamp(HEIGHTS.0, HEIGHTS.1)
 }
 
-/// Where axes begin and end in each column, alike in all rows.
+/// Left and right ends of the axes in each column, the same in all rows.
 fn sides(rows: &[Vec<Placed>], columns: usize, width: f64) -> Vec<(f64, f64)> {
     let column = width / columns as f64;
     let all = || rows.iter().flatten();

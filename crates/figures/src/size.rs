@@ -1,25 +1,25 @@
-//! How large a figure is.
+//! Size of a figure.
 
 use crate::error::FigureError;
 
-/// Units in a millimetre: a unit is half a point, 1/144 inch.
+/// Units per millimetre: a unit is half a point, 1/144 inch.
 const UNITS: f64 = 144.0 / 25.4;
-/// Units of a figure for which no width was asked.
+/// Default width of a figure, in units.
 const DEFAULT: f64 = 900.0;
-/// Narrower axes have no room for their labels.
+/// Smallest width of a figure, in units; narrower axes have no space for labels.
 const NARROWEST: f64 = 280.0;
 const WIDEST: f64 = 20_000.0;
-/// Pixels for each unit of the default, which makes 288 in an inch.
+/// Pixels per unit at the default resolution, 288 per inch.
 #[cfg(feature = "png")]
 const DENSITY: f64 = 2.0;
 const DOTS: (f64, f64) = (10.0, 10_000.0);
 
-/// Width of a figure in the unit in which it was asked for.
+/// Width of a figure, in the unit of the request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Width {
-    /// On paper. Letters have 7 to 9 points whatever the width.
+    /// Width on paper. Letters have 7 to 9 points for any width.
     Millimetres(f64),
-    /// On a screen, and in a PNG of whatever resolution. Letters are 14 to 18 pixels high.
+    /// Width on a screen, and of a PNG at any resolution. Letters are 14 to 18 pixels high.
     Pixels(f64),
 }
 
@@ -33,7 +33,7 @@ pub struct Size {
 impl std::str::FromStr for Width {
     type Err = FigureError;
 
-    /// Such as `85mm` or `600px`.
+    /// Parses a width such as `85mm` or `600px`.
     fn from_str(text: &str) -> Result<Self, FigureError> {
         let lower = text.trim().to_ascii_lowercase();
         let number = |digits: &str| digits.trim().parse::<f64>().ok().filter(|w| w.is_finite());
@@ -58,11 +58,11 @@ impl Width {
 }
 
 impl Size {
-    /// Of a width, 900 px where there is none, with so many pixels to an inch in a PNG.
+    /// A size with this width, by default 900 px, and this resolution of a PNG in pixels per inch.
     ///
     /// # Errors
     ///
-    /// If the resolution is out of reason.
+    /// The resolution is out of range.
     pub fn new(width: Option<Width>, dots_per_inch: Option<f64>) -> Result<Self, FigureError> {
         match dots_per_inch {
             Some(dots) if !(DOTS.0..=DOTS.1).contains(&dots) => {
@@ -77,7 +77,7 @@ impl Size {
         self.width.map_or(DEFAULT, Width::units)
     }
 
-    /// Width and height for the SVG.
+    /// Width and height as written in the SVG.
     pub(crate) fn written(&self, height: f64) -> (String, String) {
         let number = crate::svg::number;
         match self.width {
@@ -88,8 +88,8 @@ impl Size {
         }
     }
 
-    /// Pixels of a PNG for each unit, and for each inch. A width in pixels is that of the PNG; its resolution then
-    /// says how large these are.
+    /// Pixels of a PNG per unit and per inch. A width in pixels is that of the PNG; the resolution then determines
+    /// its size on paper.
     #[cfg(feature = "png")]
     pub(crate) fn pixels(&self) -> (f64, f64) {
         let per_inch = 144.0;

@@ -4,7 +4,7 @@
 
 use stickslip::{ColourName, StyleName};
 
-/// Of tick labels, axis labels, legends and titles.
+/// Font sizes of tick labels, axis labels, legends and titles.
 pub(crate) const TICK_SIZE: f64 = 14.0;
 pub(crate) const LABEL_SIZE: f64 = 16.0;
 pub(crate) const LEGEND_SIZE: f64 = 14.0;
@@ -13,11 +13,11 @@ pub(crate) const TITLE_SIZE: f64 = 18.0;
 pub(crate) const INK: &str = "#000000";
 pub(crate) const GRID: &str = "#E8E8E8";
 
-/// How light an area is filled.
+/// Opacity of a filled area.
 pub(crate) const SHADE_OPACITY: f64 = 0.16;
 pub(crate) const BAND_OPACITY: f64 = 0.30;
 
-/// The colours of Okabe and Ito, which the colour-blind can tell apart, and greys.
+/// The colours of Okabe and Ito, which colour-blind readers can distinguish, and greys.
 pub(crate) fn colour(name: ColourName) -> &'static str {
     match name {
         ColourName::Blue => "#0072B2",
@@ -46,7 +46,7 @@ pub(crate) enum Shape {
 /// How points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Mark {
-    /// Width, and the dashes as SVG has them; empty for a solid line.
+    /// Width, and the dashes in SVG notation; empty for a solid line.
     Line { width: f64, dashes: &'static str },
     /// An area between two curves.
     Band,

@@ -4,7 +4,7 @@ use crate::style::INK;
 use crate::text::{Level, SMALL, spans};
 use std::fmt::Write;
 
-/// Where a text stands beside its place.
+/// Horizontal alignment of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -31,7 +31,7 @@ impl Rect {
     }
 }
 
-/// A text and how it is set.
+/// A text with its attributes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Text<'a> {
     pub(crate) x: f64,
@@ -39,7 +39,7 @@ pub(crate) struct Text<'a> {
     pub(crate) label: &'a str,
     pub(crate) size: f64,
     pub(crate) anchor: Anchor,
-    /// Upward, about its place.
+    /// Whether the text runs upwards, rotated about its position.
     pub(crate) upright: bool,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Paint<'a> {
     pub(crate) stroke: Option<&'a str>,
     pub(crate) width: f64,
     pub(crate) dashes: &'a str,
-    /// Edges on pixels: areas that touch leave no seam.
+    /// Whether edges are aligned with pixels, so that adjacent areas have no gap.
     pub(crate) crisp: bool,
 }
 
@@ -72,7 +72,7 @@ pub(crate) struct Svg {
     clips: usize,
 }
 
-/// A number with at most two decimals: a hundredth of a unit does not show.
+/// A number with at most two decimals, a hundredth of a unit.
 pub(crate) fn number(value: f64) -> String {
     let value = (value.clamp(-1e6, 1e6) * 100.0).round() / 100.0;
     // No minus before 0.
@@ -89,7 +89,7 @@ pub(crate) fn polyline(points: &[(f64, f64)]) -> String {
 }
 
 impl Svg {
-    /// The document: `width` and `height` in units, `size` what the viewer is told of its size.
+    /// The document; `width` and `height` are in units, `size` is written as its size for the viewer.
     pub(crate) fn finish(self, (width, height): (f64, f64), size: (String, String)) -> String {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" \
@@ -102,7 +102,7 @@ impl Svg {
         )
     }
 
-    /// What is drawn until the end of the group shows within the rectangle alone.
+    /// Begins a group that is clipped to the rectangle.
     pub(crate) fn open_clip(&mut self, within: Rect) {
         self.clips += 1;
         let id = format!("clip{}", self.clips);
@@ -137,7 +137,7 @@ impl Svg {
         self.path(&polyline(&[from, to]), paint);
     }
 
-    /// A picture, a data URL, stretched over the rectangle.
+    /// Draws an image, a data URL, stretched over the rectangle.
     pub(crate) fn image(&mut self, at: Rect, url: &str) {
         let (x, y) = (number(at.left), number(at.top));
         let (width, height) = (number(at.width()), number(at.height()));
@@ -189,7 +189,7 @@ fn attributes(paint: Paint) -> String {
     text
 }
 
-/// The spans of a label, those off the line smaller and moved.
+/// The spans of a label; subscripts and superscripts are smaller and shifted.
 fn marked_up(label: &str, size: f64) -> String {
     let small = number(SMALL * size);
     let mut text = String::new();
@@ -212,7 +212,7 @@ fn marked_up(label: &str, size: f64) -> String {
     text
 }
 
-/// Downward from the line.
+/// Downward shift of a level from the base line.
 fn offset(level: Level, size: f64) -> f64 {
     match level {
         Level::Line => 0.0,
@@ -221,7 +221,7 @@ fn offset(level: Level, size: f64) -> f64 {
     }
 }
 
-/// What XML takes for signs is written as names; what it cannot hold is left out.
+/// A text with XML's special characters escaped and invalid ones removed.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -1,9 +1,9 @@
-//! Labels: `_` sets the next character, or what stands in braces, below the line, `^` above it.
+//! Labels: `_` makes the next character, or the content of braces, a subscript, and `^` a superscript.
 //!
-//! `α_c` is α with a subscript c, `10^{-3}` ten to the minus three; `\_` and `\^` are the characters
-//! themselves. A hyphen between digits and what is above the line is set as a minus.
+//! `α_c` is α with a subscript c, `10^{-3}` ten to the minus three; `\_` and `\^` are the characters themselves. A
+//! hyphen between digits and in a superscript is set as a minus.
 
-/// Where a piece of a label stands.
+/// Vertical level of a piece of a label.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
     Line,
@@ -18,7 +18,7 @@ pub(crate) struct Span {
     pub(crate) level: Level,
 }
 
-/// Size of what is below or above the line, in parts of the rest.
+/// Size of subscripts and superscripts, relative to the text.
 pub(crate) const SMALL: f64 = 0.72;
 
 /// The pieces of a label.
@@ -62,7 +62,7 @@ pub(crate) fn width(label: &str, size: f64) -> f64 {
     spans(label).iter().map(of).sum()
 }
 
-/// Of a character, in parts of the size; by classes, each with its widest member.
+/// Width of a character relative to the font size; each class has the width of its widest member.
 fn advance(letter: char) -> f64 {
     match letter {
         'i' | 'j' | 'l' | '\'' | '|' | 'ι' => 0.34,

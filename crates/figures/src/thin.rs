@@ -1,11 +1,11 @@
-//! Fewer points, the same picture.
+//! Reduction of the number of points without a visible change.
 
-/// A point of a picture.
+/// A point of a figure.
 pub(crate) type Point = (f64, f64);
 
-/// The points of a stretch of curve that show when `columns` columns of pixels span `low` to `high`: of
-/// consecutive points in one column only the lowest and the highest, in their order, besides the
-/// ends of the curve. Stretches without that many points stay as they are.
+/// The visible points of a stretch of curve, if `columns` columns of pixels span `low` to `high`: of consecutive
+/// points in one column only the lowest and the highest are kept, in their order, and the ends of the curve.
+/// Stretches with fewer points are unchanged.
 pub(crate) fn thin(points: Vec<Point>, (low, high): (f64, f64), columns: usize) -> Vec<Point> {
     if points.len() <= 2 * columns {
         return points;
@@ -35,7 +35,7 @@ fn push_extremes(run: &[Point], kept: &mut Vec<Point>) {
     }
 }
 
-/// Adds first and last of `points`; a repetition does not show.
+/// Adds the first and the last of `points`; a repetition is invisible.
 fn with_ends(points: &[Point], kept: Vec<Point>) -> Vec<Point> {
     let ends = (points.first().copied(), points.last().copied());
     ends.0.into_iter().chain(kept).chain(ends.1).collect()

@@ -1,20 +1,20 @@
 //! Ticks: multiples of 1, 2 or 5 on a linear axis, decades on a logarithmic one.
 
-/// Numbers from here on are written as a power of ten.
+/// Smallest number written as a power of ten.
 const LARGE: f64 = 1e6;
-/// Tick distances below are written as a power of ten.
+/// Tick distance below which numbers are written as powers of ten.
 const SMALL: f64 = 9e-5;
-/// Up to so many decades have small ticks at 2 … 9.
+/// Largest number of decades with minor ticks at 2 … 9.
 const MOST_MINOR: i32 = 8;
-/// A logarithmic axis that spans less than these decades has its ticks at 1, 2 and 5; below the second, at equal
+/// A logarithmic axis with fewer decades than this has ticks at 1, 2 and 5; below the second limit, at equal
 /// distances.
 const FEW_DECADES: f64 = 1.7;
 const NO_DECADE: f64 = 0.6;
 
-/// Ticks tried for on an axis on which fewer leave but one.
+/// Number of ticks to try on an axis that would otherwise have only one.
 const MOST_TRIED: f64 = 20.0;
 
-/// A tick, and its label if it is not one of the small ones.
+/// A tick, with a label unless it is a minor one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
@@ -38,7 +38,7 @@ pub(crate) fn linear(low: f64, high: f64, count: f64) -> Vec<Tick> {
     (0..=ticks).map(tick).collect()
 }
 
-/// About `count` labelled ticks, at decades where these are many enough.
+/// About `count` labelled ticks, at decades if there are enough of them.
 pub(crate) fn logarithmic(low: f64, high: f64, count: f64) -> Vec<Tick> {
     let span = (high / low).log10();
     if span < NO_DECADE {
@@ -65,7 +65,7 @@ pub(crate) fn logarithmic(low: f64, high: f64, count: f64) -> Vec<Tick> {
         .collect()
 }
 
-/// Such as 0.02, 10^{-6} or 5×10^{-6}.
+/// A label such as 0.02, 10^{-6} or 5×10^{-6}.
 fn power_label(power: i32, digit: i32, plain: bool) -> String {
     if plain {
         let decimals = usize::try_from(-power).unwrap_or(0);
@@ -75,7 +75,7 @@ fn power_label(power: i32, digit: i32, plain: bool) -> String {
     if digit == 1 { raised } else { format!("{digit}×{raised}") }
 }
 
-/// With the digits of the step.
+/// A label with as many digits as the tick distance.
 fn label(value: f64, step: f64, largest: f64) -> String {
     let value = if value.abs() < 1e-6 * step { 0.0 } else { value };
     let finest = exponent(step);
@@ -88,7 +88,7 @@ fn label(value: f64, step: f64, largest: f64) -> String {
     text.replace('-', "−")
 }
 
-/// 1, 2 or 5 times a power of ten, near `rough` or a little above.
+/// 1, 2 or 5 times a power of ten, close to `rough` or slightly above.
 fn nice_step(rough: f64) -> f64 {
     let power = 10f64.powi(exponent(rough));
     let factor = match rough / power {
@@ -100,7 +100,7 @@ fn nice_step(rough: f64) -> f64 {
     factor * power
 }
 
-/// Decimal exponent of the leading digit; the margin keeps 1e-3 from being taken for 9.99e-4.
+/// Decimal exponent of the leading digit; a margin protects 1e-3 from being read as 9.99e-4.
 fn exponent(value: f64) -> i32 {
     (value.abs().log10() + 1e-9).floor() as i32
 }
@@ -109,7 +109,7 @@ fn digits(count: i32) -> usize {
     usize::try_from(count).unwrap_or(0)
 }
 
-/// Such as 1.5×10^{-7}.
+/// A label such as 1.5×10^{-7}.
 fn scientific(value: f64, power: i32, digits: usize) -> String {
     let mantissa = value / 10f64.powi(power);
     if mantissa.abs() < 1e-12 {

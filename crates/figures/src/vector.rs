@@ -1,4 +1,4 @@
-//! An SVG read again, its texts set in the font that we carry, whatever fonts the system has.
+//! Parsing of an SVG, with its texts set in the built-in font, independent of the fonts of the system.
 
 use crate::error::FigureError;
 use resvg::usvg::{Options, Tree};

@@ -1,4 +1,4 @@
-//! The stability boundary, and what is born along it.
+//! Figure of the stability boundary, and of the oscillation at onset.
 
 use super::drawn::{Drawn, View};
 use super::labels::{ALPHA, R};
@@ -10,12 +10,12 @@ use stickslip::{
     PanelDocument, ScaleName, SpacingName, StyleName,
 };
 
-/// Room above the boundary.
+/// Space above the boundary, as a factor of the largest α.
 const AIR: f64 = 1.15;
 
 impl Drawn for BoundaryDocument {
-    /// The critical α over r, the unstable region above it shaded, and the lines within
-    /// that where further pairs of roots cross.
+    /// The critical α against r, with the unstable region above shaded, and lines in it at which further pairs of
+    /// roots cross the imaginary axis.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         if self.r.is_empty() {
             let message = "steady motion is stable for every α at each of these r";
@@ -57,8 +57,8 @@ impl Drawn for BoundaryDocument {
     }
 }
 
-/// d ln α/d(a²), a half the peak-to-peak of x0: the small oscillation exists above the boundary where it is positive,
-/// below where it is negative.
+/// d ln α/d(a²), with a = half the peak-to-peak of x0: the small oscillation exists above the boundary if it is
+/// positive, below if it is negative.
 ///
 /// # Errors
 /// None of the points of the boundary has a criticality.
@@ -107,18 +107,18 @@ fn scale(document: &BoundaryDocument) -> ScaleName {
     }
 }
 
-/// That of the first point.
+/// The model at the first point.
 fn models(document: &BoundaryDocument) -> Vec<ModelParameters> {
     let first = document.r.first().zip(document.alpha.first());
     first.map(|(r, alpha)| document.parameters.at(*r, *alpha)).into_iter().collect()
 }
 
-/// The law of all points, at whatever α and r.
+/// The law that all points share; α and r are arbitrary.
 fn any(document: &BoundaryDocument) -> ModelParameters {
     document.parameters.at(document.parameters.r_range[0], 0.0)
 }
 
-/// A name in either region, where it is highest, but away from the sides.
+/// Names of both regions, placed where the regions are highest, but not at the sides.
 fn notes(document: &BoundaryDocument, panel: &PanelDocument) -> Vec<NoteDocument> {
     let (Some([left, right]), Some([bottom, top])) = (panel.x_range, panel.y_range) else {
         return vec![];

@@ -1,4 +1,4 @@
-//! Both motions, and how far apart they are.
+//! Figure of a comparison: both motions, and their difference.
 
 use super::drawn::{Drawn, View};
 use super::tip::model_name;

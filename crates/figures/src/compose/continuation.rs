@@ -11,10 +11,10 @@ use stickslip::{
     PanelDocument, ScaleName, SpecialName, StyleName,
 };
 
-/// A branch over less than this part of the abscissas shows as a dot, if at all, and has no name of its own.
+/// Branches that span less than this fraction of the axis have no name.
 const SHORT: f64 = 0.01;
 
-/// Of branches, in order.
+/// Colours of the branches, in order.
 const COLOURS: [ColourName; 6] = [
     ColourName::Blue,
     ColourName::Vermillion,
@@ -25,7 +25,7 @@ const COLOURS: [ColourName; 6] = [
 ];
 
 impl Drawn for ContinueDocument {
-    /// Amplitude and period over the parameter, stable parts solid and unstable ones dashed.
+    /// Amplitude and period against the parameter, solid for stable cycles and dashed for unstable ones.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let lengths = |b: &CycleBranch| {
             [&b.alpha, &b.r, &b.period, &b.amplitude_x0].map(Vec::len) == [b.stable.len(); 4]
@@ -58,7 +58,7 @@ struct Point {
     period: f64,
 }
 
-/// A stretch of a branch that is stable all along, or unstable.
+/// A stretch of a branch with one stability.
 struct Piece {
     branch: usize,
     stable: bool,
@@ -68,7 +68,7 @@ struct Piece {
 struct Branches {
     pieces: Vec<Piece>,
     short: Vec<bool>,
-    /// Kind and place of what is special, by kind.
+    /// Special points, by kind.
     special: Vec<(SpecialName, Vec<Point>)>,
 }
 
@@ -100,7 +100,7 @@ impl Branches {
         Self { short: short(&document.branches, parameter), pieces, special }
     }
 
-    /// One quantity over the parameter.
+    /// One quantity against the parameter.
     fn panel(
         &self,
         labels: (&str, &str),
@@ -137,7 +137,7 @@ impl Branches {
         panel
     }
 
-    /// The name of piece n: that of its branch and stability, once.
+    /// The legend entry of piece n, branch and stability, on its first use only.
     fn name(&self, n: usize) -> String {
         let piece = &self.pieces[n];
         let (branch, is_short) = (piece.branch, self.short[piece.branch]);
@@ -167,7 +167,7 @@ fn points(branch: &CycleBranch, parameter: impl Fn(f64, f64) -> f64) -> Vec<Poin
     (0..branch.stable.len()).map(place).collect()
 }
 
-/// The branch cut where its stability changes: at the special point between, or half-way.
+/// The branch, divided where its stability changes: at the special point between two cycles, or half-way.
 fn cut(branch: usize, points: &[Point], stable: &[bool], joints: &[Point]) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = vec![];
     for (i, (point, stable)) in points.iter().zip(stable).enumerate() {
@@ -192,7 +192,7 @@ fn cut(branch: usize, points: &[Point], stable: &[bool], joints: &[Point]) -> Ve
     pieces
 }
 
-/// The special point between two neighbours: one whose period and amplitude lie between theirs.
+/// The special point between two neighbours, recognised by a period and an amplitude between theirs.
 fn between(a: &Point, b: &Point, joints: &[Point]) -> Option<Point> {
     let within = |a: f64, b: f64, v: f64| {
         let slack = 1e-9 * (a.abs() + b.abs()) + 0.05 * (b - a).abs();
@@ -222,7 +222,7 @@ fn joint(a: &Point, b: &Point, joints: &[Point]) -> Point {
     })
 }
 
-/// Of each branch, whether it is short beside the range of all of them; the first never is.
+/// For each branch, whether it is short relative to the common range; the first never is.
 fn short(branches: &[CycleBranch], parameter: impl Fn(f64, f64) -> f64) -> Vec<bool> {
     let span = |branch: &CycleBranch| {
         extremes(branch.alpha.iter().zip(&branch.r).map(|(alpha, r)| parameter(*alpha, *r)))
@@ -237,7 +237,7 @@ fn short(branches: &[CycleBranch], parameter: impl Fn(f64, f64) -> f64) -> Vec<b
     branches.iter().enumerate().map(is_short).collect()
 }
 
-/// Outlines, which let the branches through: they meet where the marks are.
+/// The mark of a special point: an outline, so that the branches remain visible.
 fn mark(kind: SpecialName) -> StyleName {
     match kind {
         SpecialName::Hopf => StyleName::OpenDots,

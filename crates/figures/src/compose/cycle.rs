@@ -1,4 +1,4 @@
-//! A limit cycle: spring, velocity, the ripple left behind.
+//! Figure of a limit cycle: spring, velocity, and the ripple far behind the tip.
 
 use super::dense::Part;
 use super::drawn::{Drawn, View};
@@ -11,12 +11,13 @@ use stickslip::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, Sty
 use stickslip_surface::Surface;
 use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_weights};
 
-/// Of the ripple.
+/// Number of wavelengths of the ripple shown.
 const WAVELENGTHS: f64 = 3.0;
 const POINTS: usize = 1500;
-/// On either side of them; a wave so much shorter than the tip is wide leaves no ripple.
+/// Largest number of periods computed on either side of them; a wave that would need more is much shorter than the
+/// tip and leaves no ripple.
 const MOST_PERIODS: f64 = 3000.0;
-/// Of all periods: 300 MB with the visits that they are read off as.
+/// Largest number of steps in all these periods: 300 MB with their history.
 const MOST_STEPS: f64 = 1e6;
 
 impl Drawn for CycleDocument {
@@ -44,7 +45,7 @@ impl Drawn for CycleDocument {
     }
 }
 
-/// u far behind the tip: what the motion has left that went on for long enough.
+/// u far behind the tip, after infinitely long motion.
 fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, FigureError> {
     // What is shown follows from the motion alone.
     let period = motion.end() - motion.start();

@@ -1,20 +1,20 @@
-//! A motion drawn from its dense history: no peak is lost between samples, however long the run.
+//! Curves from the dense history of a motion, which include every peak in runs of any length.
 
 use stickslip::{CurveDocument, StyleName};
 use stickslip_tip::{Step, Trajectory};
 
-/// Points within a step: its polynomials are of degree 5 and less.
+/// Points per step, whose polynomials have degree 5 or less.
 const PARTS: usize = 16;
-/// Columns of what is drawn as a line: more than pixels on a page.
+/// Columns of a curve; more than the pixels of a page.
 const COLUMNS: usize = 1200;
-/// Columns of an envelope at most, and oscillations in a column at least.
+/// Largest number of columns of an envelope, and smallest number of oscillations per column.
 const ENVELOPE: usize = 400;
 const OSCILLATIONS: f64 = 1.5;
 
-/// A quantity at a time of a step.
+/// A quantity as a function of a step and a time in it.
 pub(super) type Quantity<'a> = &'a dyn Fn(&Step, f64) -> f64;
 
-/// Lowest and highest value in each column, in the order in which they are taken, and when.
+/// Lowest and highest value in each column, in temporal order, with their times.
 struct Columns {
     points: Vec<[(f64, f64); 2]>,
 }
@@ -28,7 +28,7 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// What is between these times, all if there are none.
+    /// The part between these times; by default all.
     pub(super) fn of(trajectory: &'a Trajectory, range: Option<[f64; 2]>) -> Self {
         let (start, end) = (trajectory.start(), trajectory.end());
         let [from, to] = range.unwrap_or([start, end]);
@@ -40,12 +40,12 @@ impl<'a> Part<'a> {
         Self { steps: &steps[first..last.max(first + 1).min(steps.len())], span: (from, to) }
     }
 
-    /// The last of it.
+    /// The last part of this length.
     pub(super) fn tail(&self, trajectory: &'a Trajectory, length: f64) -> Self {
         Self::of(trajectory, Some([(self.span.1 - length).max(self.span.0), self.span.1]))
     }
 
-    /// Times at which it is sampled, and the steps that hold them.
+    /// Sample times, with the steps that contain them.
     fn samples(&self) -> impl Iterator<Item = (&'a Step, f64)> + use<'a> {
         let (from, to) = self.span;
         let within = move |step: &'a Step| {
@@ -57,7 +57,7 @@ impl<'a> Part<'a> {
         first.into_iter().chain(inner).chain(last)
     }
 
-    /// How often the quantity turns down.
+    /// Number of maxima of the quantity.
     pub(super) fn maxima(&self, of: Quantity) -> usize {
         let mut last = [f64::INFINITY; 2];
         let mut maxima = 0;
@@ -94,7 +94,7 @@ impl<'a> Part<'a> {
         Columns { points }
     }
 
-    /// A line, with the lowest and the highest value of each column where there are more samples than that.
+    /// The quantity as a curve, reduced to the lowest and the highest value of each column if there are more samples.
     pub(super) fn line(&self, name: &str, of: Quantity) -> CurveDocument {
         let (x, y): (Vec<f64>, Vec<f64>) = if PARTS * self.steps.len() <= 2 * COLUMNS {
             self.samples().map(|(step, t)| (t, of(step, t))).unzip()
@@ -111,8 +111,8 @@ impl<'a> Part<'a> {
         CurveDocument::new(StyleName::Line, name, &x, &y)
     }
 
-    /// The band between the lowest and the highest value of each column, where so many oscillations would run into
-    /// each other.
+    /// The quantity as a band between the lowest and the highest value of each column, for motions with too many
+    /// oscillations to draw.
     pub(super) fn envelope(&self, name: &str, of: Quantity, oscillations: usize) -> CurveDocument {
         let count = ((oscillations as f64 / OSCILLATIONS) as usize).clamp(8, ENVELOPE);
         let columns = self.columns(of, count).points;
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use stickslip_tip::STAGES;
 
-    /// Steps of length 1 in which the tip rests, but in step `slip` it jumps by 1.
+    /// Steps of length 1 in which the tip is at rest, except a jump by 1 in step `slip`.
     fn trajectory(steps: usize, slip: usize) -> Trajectory {
         let mut x0 = 0.0;
         let step = |i: usize| {

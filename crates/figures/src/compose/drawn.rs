@@ -1,24 +1,24 @@
-//! What has a figure, and what may be asked of it.
+//! Documents that have a figure, and options of a figure.
 
 use crate::error::FigureError;
 use stickslip::{FigureDocument, KnownScales, Tabular};
 
-/// What is asked of a figure beyond what its document says.
+/// Options of a figure, in addition to its document.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct View {
-    /// First and last abscissa of the first panel, and of those with the same axis label.
+    /// First and last abscissa of the first panel, and of all panels with the same axis label.
     pub x_range: Option<[f64; 2]>,
-    /// First and last ordinate of the first panel, and of those with the same axis label.
+    /// First and last ordinate of the first panel, and of all panels with the same axis label.
     pub y_range: Option<[f64; 2]>,
-    /// Of axes in nm, s and nN, in place of those that the document may have.
+    /// Scales for axes in nm, s and nN; by default those of the document, if it has any.
     pub scales: Option<KnownScales>,
 }
 
 /// A document that has a figure.
 pub trait Drawn: Tabular {
-    /// The figure; within `view.x_range` as fine as the document allows.
+    /// The figure, with the resolution that `view.x_range` requires as far as the document permits.
     ///
     /// # Errors
-    /// The document is damaged, or holds nothing that could be drawn.
+    /// The document is damaged, or contains nothing to draw.
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError>;
 }

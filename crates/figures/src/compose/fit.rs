@@ -1,4 +1,4 @@
-//! A fit: data, model, what is left, and the profiles of the likelihood.
+//! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
@@ -8,7 +8,7 @@ use stickslip::{
     NumberFitted, PanelDocument, StyleName,
 };
 
-/// 95 % of the likelihood are within this root.
+/// Signed root of the likelihood at the ends of a 95 % interval.
 const END: f64 = 1.96;
 
 impl Drawn for FitDocument {
@@ -40,7 +40,7 @@ impl Drawn for FitDocument {
     }
 }
 
-/// Where α and r are known or fitted.
+/// The model, if α and r are known or fitted.
 fn models(fit: &FitDocument) -> Vec<ModelParameters> {
     let value = |name: &str| {
         let fitted = fit.numbers.iter().find(|n| n.name == name).map(|n| n.estimate.value);
@@ -73,7 +73,7 @@ fn symbol(name: &str) -> &str {
     }
 }
 
-/// Data and model, and what is left.
+/// Data and model, and the residuals.
 fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     let is_series = matches!(data.kind.as_str(), "onsets" | "wavelengths");
     let (x, y) = match data.kind.as_str() {
@@ -107,7 +107,7 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     [above, below]
 }
 
-/// The signed root of the likelihood over the number.
+/// The signed root of the likelihood against the parameter.
 fn profile(number: &NumberFitted, unit: Option<&str>) -> PanelDocument {
     let unit = unit.filter(|_| number.name == "width").map(|unit| format!(" ({unit})"));
     let label = format!("{}{}", symbol(&number.name), unit.unwrap_or_default());

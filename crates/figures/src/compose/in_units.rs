@@ -1,9 +1,9 @@
-//! A finished figure with its axes in nm, s and nN: what an axis is a multiple of stands in its label.
+//! Conversion of a finished figure to nm, s and nN; the unit of an axis is read from its label.
 
 use super::View;
 use stickslip::{CurveDocument, Dimension, FigureDocument, KnownScales, PanelDocument};
 
-/// By what the numbers along an axis are multiplied, and its label then.
+/// An axis: the factor of its numbers, and its new label.
 struct Axis {
     factor: f64,
     label: String,
@@ -27,7 +27,7 @@ impl Axis {
     }
 }
 
-/// `None` of a label without a unit, or of one that the scales do not tell.
+/// The converted axis; `None` for a label without a unit, or with a unit of unknown scale.
 fn scaled(label: &str, scales: &KnownScales) -> Option<Axis> {
     let (name, unit) = label.strip_suffix(')')?.rsplit_once(" (")?;
     let dimension = Dimension::of_unit(unit)?;
@@ -35,7 +35,7 @@ fn scaled(label: &str, scales: &KnownScales) -> Option<Axis> {
     Some(Axis { factor: dimension.factor(scales)?, label })
 }
 
-/// What is asked of a figure in units, in the model's own: of its first panel's axes.
+/// The options of a figure converted to the model's units, with the axes of its first panel.
 pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View) -> View {
     let along = |label: &str, range: Option<[f64; 2]>| {
         range.map(|ends| ends.map(|end| end / Axis::of(label, scales).factor))

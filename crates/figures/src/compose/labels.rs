@@ -1,26 +1,26 @@
-//! What axes are called, and where an axis becomes one of decades.
+//! Labels of axes, and the criterion for a logarithmic axis.
 
 /// r, (12).
 pub(super) const R: &str = "r = Γv₀/(kσ)";
 /// α, (13).
 pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
-/// Of the spring.
+/// Labels of l against time.
 pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
-/// Of the tip.
+/// Labels of the tip's velocity against time.
 pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
-/// Of a spring whose end moves on a path: the lateral force.
+/// Labels of the spring extension against time, for a support on a path: the lateral force.
 pub(super) const LAG: (&str, &str) = ("t (Γ/k)", "R − x₀ (σ)");
-/// Of a tip without a spring.
+/// Labels of the position of a tip without a spring.
 pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
-/// Of the support.
+/// Label of the position of the support.
 pub(super) const WAY: &str = "R (σ)";
-/// Of what pushes it.
+/// Labels of the external force against time.
 pub(super) const FORCE: (&str, &str) = ("t (Γ/k)", "F_{ext} (kσ)");
-/// Of the surface.
+/// Labels of the surface.
 pub(super) const SURFACE: (&str, &str) = ("x (σ)", "u (kσ²/a)");
 
-/// Natural size of the dimensionless quantities: variations far below are round-off.
+/// Typical size of the dimensionless quantities: far smaller variations are round-off.
 pub(super) const NATURAL: Option<f64> = Some(1.0);
 
-/// Values that span more than this ratio are drawn on a logarithmic axis.
+/// Ratio of largest to smallest value above which an axis is logarithmic.
 pub(super) const WIDE: f64 = 30.0;

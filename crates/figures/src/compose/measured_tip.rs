@@ -1,4 +1,4 @@
-//! A measured footprint: data, fit, and what it leaves.
+//! Figure of a measured footprint: data, fit, and residuals.
 
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
@@ -8,7 +8,7 @@ use stickslip::{
     MeasuredTipDocument, ModelParameters, PanelDocument, StyleName, TipDocument,
 };
 
-/// Of the fitted curve.
+/// Number of points of the fitted curve.
 const POINTS: usize = 600;
 
 impl Drawn for MeasuredTipDocument {
@@ -60,7 +60,7 @@ impl Drawn for MeasuredTipDocument {
     }
 }
 
-/// Ground and footprint at a position.
+/// Height of background and footprint at a position.
 fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
     let y = (x - tip.centre) / tip.sigma.value;
     let term = |g: &GaussianDocument| {
@@ -71,7 +71,7 @@ fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
     tip.ground(x) + tip.apex * f
 }
 
-/// Such as "1.88 ± 0.02".
+/// A value with its error, such as "1.88 ± 0.02".
 pub(super) fn with_error(estimate: &EstimateDocument) -> String {
     let (Some(low), Some(high)) = (estimate.low, estimate.high) else {
         return short(estimate.value);

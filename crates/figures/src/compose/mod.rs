@@ -1,4 +1,4 @@
-//! From a document to its figure as data.
+//! Figures as data, from documents.
 
 mod boundary;
 mod compare;
@@ -37,11 +37,11 @@ use stickslip::{
 pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
 
-/// The figure of a document; in nm, s and nN where the view or the document has the scales of an experiment. Ranges are
-/// in the units drawn.
+/// The figure of a document; in nm, s and nN if the view or the document contains the scales of an experiment. Ranges
+/// are in the units of the axes.
 ///
 /// # Errors
-/// The document is damaged, or holds nothing that could be drawn.
+/// The document is damaged, or contains nothing to draw.
 pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
     let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
     let Some(scales) = known else { return shown(document, view) };
@@ -53,7 +53,7 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
     Ok(in_units(shown(document, &view)?, &scales))
 }
 
-/// The figure in the model's own units.
+/// The figure in the model's units.
 fn shown<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
     let mut figure = document.figure(view)?;
     figure.panels.iter().try_for_each(judge)?;
@@ -73,7 +73,7 @@ fn shown<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument,
     Ok(figure)
 }
 
-/// Refuses grids that are not as large as their axes.
+/// Rejects grids whose size differs from that of their axes.
 fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
     let fits = |x: &[f64], y: &[f64], rows: &[usize]| {
         rows.len() == y.len() && rows.iter().all(|row| *row == x.len())
@@ -92,14 +92,14 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
     Err(FigureError::Damaged("a map has not as many rows and columns as its axes".into()))
 }
 
-/// Whether an axis can go from the first of these to the second: below 1e100, and apart by at least 1e-12 of the larger and
-/// by 1e-100.
+/// Whether two numbers are the ends of a valid axis: below 1e100, and apart by at least 1e-12 of the larger and by
+/// 1e-100.
 #[must_use]
 pub fn can_be_drawn(range: [f64; 2]) -> bool {
     is_range(range)
 }
 
-/// Formats of the documents that have a figure.
+/// Formats of all documents that have a figure.
 pub const FORMATS: [&str; 19] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
@@ -122,27 +122,27 @@ pub const FORMATS: [&str; 19] = [
     FigureDocument::FORMAT,
 ];
 
-/// Takes a document of whatever kind it turns out to be.
+/// A function of a document whose type is determined at run time.
 pub trait Taker {
-    /// What it makes of it.
+    /// Result of the function.
     type Taken;
 
-    /// Takes the document.
+    /// Applies the function to the document.
     fn take<D>(self, document: D) -> Self::Taken
     where
         D: Drawn + Tabular + Serialize + Clone + Send + Sync + 'static;
 }
 
-/// The document that a stream holds, whatever it is of [`FORMATS`]; of something else no more is read than it takes to
-/// tell.
+/// The document in a stream, of any of [`FORMATS`]; a stream of another kind is read only as far as necessary to
+/// recognise that.
 ///
 /// # Errors
-/// It is no JSON, a document without a figure, or damaged.
+/// The stream is not JSON, is a document without a figure, or is damaged.
 pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
     saved_as(source, Boxed)
 }
 
-/// The same, for one who takes it as what it is.
+/// Applies a function to the document in a stream, with its own type.
 ///
 /// # Errors
 /// As [`saved`].
@@ -186,7 +186,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
     )
 }
 
-/// Asks no more of a document than its figure.
+/// Keeps a document as a trait object with its figure.
 struct Boxed;
 
 impl Taker for Boxed {
@@ -197,10 +197,11 @@ impl Taker for Boxed {
     }
 }
 
-/// What is born along a boundary; in units where the view or the document has the scales of an experiment.
+/// Figure of the oscillation along a boundary; in physical units if the view or the document contains the scales of
+/// an experiment.
 ///
 /// # Errors
-/// The document is damaged, or no onset is known along it.
+/// The document is damaged, or contains no onset.
 pub fn onset_of(document: &BoundaryDocument, view: &View) -> Result<FigureDocument, FigureError> {
     let figure = boundary::onset_of(document)?;
     let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));

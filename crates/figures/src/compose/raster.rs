@@ -1,4 +1,4 @@
-//! Rasters: the surface with its crests, and the lags, which the instrument shows as lateral force.
+//! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
@@ -12,13 +12,13 @@ use stickslip::{
     ScaleName, StyleName,
 };
 
-/// Crests are marked on a patch: between these parts of the length, around this part of the lines and over no more than
-/// that of them, and no more crests than leave the surface to be seen.
+/// The patch with marked crests: between these fractions of the length, centred at this fraction of the lines and at
+/// most that large; and the largest number of crests that leaves the surface visible.
 const MARKED: (f64, f64) = (0.4, 0.65);
 const MARKED_LINES: f64 = 0.72;
 const MARKED_PART: f64 = 0.4;
 const MOST_CRESTS: i64 = 24;
-/// Colours are those of the heights between these parts of the length: pits at the ends are deeper.
+/// The colour scale covers the heights between these fractions of the length, because pits at the ends are deeper.
 const COLOURED: (f64, f64) = (0.2, 0.85);
 
 impl Drawn for RasterDocument {
@@ -79,7 +79,7 @@ impl Drawn for RasterCompareDocument {
 }
 
 impl Drawn for RasterSurfaceDocument {
-    /// A height map, or profiles where there are too few rows for one.
+    /// A height map, or profiles if there are too few rows for a map.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = &self.parameters.model_parameters();
         let title = format!("{}, {}", model_name(model), path_name(&self.parameters));
@@ -102,7 +102,7 @@ impl Drawn for RasterSurfaceDocument {
     }
 }
 
-/// Whether a map can have these columns or rows.
+/// Whether these positions are evenly spaced, as a map requires.
 fn is_even(v: &[f64]) -> bool {
     let [first, .., last] = v else { return false };
     let step = (last - first) / (v.len() - 1) as f64;
@@ -121,7 +121,7 @@ fn path_name(parameters: &Raster) -> String {
     format!("{path}{pitch}{shape}")
 }
 
-/// Such as "ripples: 6.12 ± 0.21 σ at 46.0 ± 2.2°, coherence 0.998".
+/// A heading such as "ripples: 6.12 ± 0.21 σ at 46.0 ± 2.2°, coherence 0.998".
 fn heading(document: &RasterDocument) -> String {
     let regime = document.regime;
     let Some(p) = &document.pattern else { return regime.to_string() };
@@ -149,7 +149,7 @@ fn heights(map: HeightMap) -> MapDocument {
     }
 }
 
-/// The lowest and the highest between the ends of the lines.
+/// The lowest and the highest height away from the ends of the lines.
 fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
     let (low, high) = (map.x.first()?, map.x.last()?);
     let (from, to) = (low + COLOURED.0 * (high - low), low + COLOURED.1 * (high - low));
@@ -161,7 +161,7 @@ fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
     (low < high).then_some([low, high])
 }
 
-/// Crests of the wave whose length and angle are reported, in phase with the surface on a patch of it: straight lines
+/// Crests of the wave with the reported wavelength and angle, in phase with the surface on the patch: straight lines
 /// qx + κy + φ = 2πm.
 fn crests(map: &HeightMap, (q, kappa): (f64, f64)) -> Option<CurveDocument> {
     let (x, y) = patch(map)?;
@@ -187,7 +187,7 @@ fn crests(map: &HeightMap, (q, kappa): (f64, f64)) -> Option<CurveDocument> {
     Some(curve)
 }
 
-/// From and to in x and y: the middle of the lines, and as much or less of the last half of them.
+/// Ranges of the patch in x and y: the middle of the lines, in the last half of them.
 fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
     let ([left, .., right], [low, .., high]) = (&*map.x, &*map.y) else { return None };
     let (length, across) = (right - left, high - low);
@@ -197,7 +197,7 @@ fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
     Some((x, [middle - half, middle + half]))
 }
 
-/// φ of the heights on the patch, each less the mean of its row there: Σ w u e^{-i(qx + κy)} has the phase φ.
+/// Phase φ of the heights on the patch, each minus the mean of its row: Σ w u e^{-i(qx + κy)} has the phase φ.
 fn phase(map: &HeightMap, (x, y): (&[f64; 2], &[f64; 2]), (q, kappa): (f64, f64)) -> Option<f64> {
     let part = |at: f64, ends: &[f64; 2]| (at - ends[0]) / (ends[1] - ends[0]);
     let window = |part: f64| {
@@ -218,7 +218,7 @@ fn phase(map: &HeightMap, (x, y): (&[f64; 2], &[f64; 2]), (q, kappa): (f64, f64)
     (cos.hypot(sin) > 0.0).then(|| sin.atan2(cos))
 }
 
-/// Where the line qx + κy = c enters and leaves a rectangle.
+/// Intersections of the line qx + κy = c with a rectangle.
 fn ends(c: f64, (q, kappa): (f64, f64), (x, y): (&[f64; 2], &[f64; 2])) -> Option<[(f64, f64); 2]> {
     let inside = |at: f64, ends: &[f64; 2]| {
         let slack = 1e-9 * (ends[1] - ends[0]);
@@ -233,7 +233,7 @@ fn ends(c: f64, (q, kappa): (f64, f64), (x, y): (&[f64; 2], &[f64; 2])) -> Optio
     Some([first, last])
 }
 
-/// The lag along each line, where the support is above x.
+/// The lag along each line against the position x of the support.
 fn lags(document: &RasterDocument, x: Vec<f64>) -> Result<PanelDocument, FigureError> {
     let (plan, lines) = document.scanned()?;
     let is_repeated = document.parameters.path == PathName::Repeat;
@@ -272,8 +272,8 @@ fn lags(document: &RasterDocument, x: Vec<f64>) -> Result<PanelDocument, FigureE
 mod tests {
     use super::*;
 
-    /// Every mark runs along a crest of the surface, in the direction of the wave vector that it is drawn from: the heights are
-    /// those of a wave that is put in, under a slope and a harmonic.
+    /// Every mark runs along a crest of the surface, perpendicular to its wave vector. Test surface: a given wave
+    /// with a slope and a harmonic.
     #[test]
     fn marks_run_along_crests() {
         for (q, kappa) in [(0.99, -0.96), (0.8, 0.4), (0.5, 1.1), (0.9, 0.0)] {

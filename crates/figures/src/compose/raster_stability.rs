@@ -1,4 +1,4 @@
-//! Growth of ripples from line to line.
+//! Figure of the growth of ripples from line to line.
 
 use super::drawn::{Drawn, View};
 use super::tip::{model_name, tip_name};

@@ -1,4 +1,4 @@
-//! Rasters over pitch and α: their regimes, or what is measured of their ripples.
+//! Figure of a raster sweep: regimes over pitch and α, or wavelength, angle and coherence of the ripples.
 
 use super::drawn::{Drawn, View};
 use super::tip::tip_name;
@@ -10,7 +10,7 @@ use stickslip::{
     PathName, PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
 };
 
-/// In the legend, from calm to stuck.
+/// Regimes with their colours, in the order of the legend.
 const REGIMES: [(RasterRegimeName, ColourName); 6] = [
     (RasterRegimeName::Steady, ColourName::Silver),
     (RasterRegimeName::Ripples, ColourName::Sky),
@@ -19,7 +19,7 @@ const REGIMES: [(RasterRegimeName, ColourName); 6] = [
     (RasterRegimeName::StuckAtTheEdge, ColourName::Grey),
     (RasterRegimeName::Unknown, ColourName::Black),
 ];
-/// With more points than these there is no room for an angle in each.
+/// Largest number of points with a printed angle.
 const MOST_ANGLES: usize = 150;
 
 impl Drawn for RasterSweepDocument {
@@ -94,7 +94,7 @@ fn ends(values: &[f64]) -> Option<[f64; 2]> {
     Some([*edges.first()?, *edges.last()?])
 }
 
-/// That of what is ordered.
+/// The crest angle at a point with ripples or pits.
 fn angle(point: &RasterSweepPoint) -> Option<NoteDocument> {
     let is_ordered =
         matches!(point.regime, Some(RasterRegimeName::Ripples | RasterRegimeName::Pits));
@@ -103,7 +103,7 @@ fn angle(point: &RasterSweepPoint) -> Option<NoteDocument> {
     Some(NoteDocument::new(&text, (point.pitch, point.alpha)))
 }
 
-/// αc from line to line over the pitch; none where it lies beyond the axes.
+/// αc for growth from line to line against the pitch; `None` if it is outside of the axes.
 fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
     let parameters = &document.parameters;
     let (x, pitches) = ascending(&parameters.pitch);
@@ -119,7 +119,7 @@ fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
     y.iter().any(|y| y.is_finite()).then_some(curve)
 }
 
-/// Wavelength, angle and coherence of ripples over what varies.
+/// Wavelength, angle and coherence of ripples against the parameter that varies.
 fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<PanelDocument> {
     type Measure = fn(&PatternDocument) -> Option<f64>;
     let measures: [(&str, Measure); 3] = [

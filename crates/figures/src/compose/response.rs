@@ -1,15 +1,15 @@
-//! The linear response to weak pulses.
+//! Figure of the linear response to weak pulses.
 
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::error::FigureError;
 use stickslip::{CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName};
 
-/// A pulse lasts for so many of its widths on either side.
+/// Half length of a pulse shown, in its widths.
 const WIDTHS: f64 = 5.0;
 
 impl Drawn for ResponseDocument {
-    /// The deviation, and a ground where so many modes do not give it.
+    /// The deviation, with the time range shaded in which the listed modes are insufficient.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = &self.parameters.model_parameters();
         let title = format!("Linear response, {}", model_name(model));

@@ -1,4 +1,4 @@
-//! A run: spring, velocity, force, surface.
+//! Figure of a run: spring, velocity, force, surface.
 
 mod ground;
 
@@ -16,13 +16,13 @@ use stickslip::{
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
 
-/// From so many oscillations on their envelope is drawn, and the last of them beside it.
+/// Number of oscillations above which their envelope is drawn, with the last ones in a second panel.
 const MANY: usize = 50;
 const SHOWN: f64 = 6.0;
-/// Points of a force, and of each pulse.
+/// Number of points of a force, and of each pulse.
 const FORCE_POINTS: usize = 2000;
 const PULSE_POINTS: usize = 120;
-/// Of a friction loop.
+/// Number of points of a friction loop.
 const LOOP_POINTS: u32 = 4000;
 
 impl Drawn for RunDocument {
@@ -68,19 +68,19 @@ impl Drawn for RunDocument {
     }
 }
 
-/// Columns of a figure of two: the whole is wider than the detail.
+/// Columns of a figure with detail panels: the whole run takes more than the detail.
 const COLUMNS: usize = 3;
 
-/// What of a run is shown, and the length in time of the detail beside it if its oscillations are many.
+/// The visible part of a run, and the duration of the detail panel if there are many oscillations.
 #[derive(Debug, Clone, Copy)]
 struct Shown<'a> {
     part: Part<'a>,
-    /// Periods, in which there may be several slips.
+    /// Number of periods; each may contain several slips.
     oscillations: usize,
     detail: Option<f64>,
 }
 
-/// The whole, and the end of it beside it.
+/// A panel of the whole run, and one of its end.
 type Row = (PanelDocument, Option<PanelDocument>);
 
 impl<'a> Shown<'a> {
@@ -129,23 +129,23 @@ fn title(run: &RunDocument) -> String {
     format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
 }
 
-/// A constant, and its name.
+/// A constant level, and its name.
 pub(super) type Level = (f64, String);
 
-/// l0, where the support moves steadily.
+/// The level l0, if the support moves steadily.
 fn steady(run: &RunDocument) -> Option<Level> {
     let steady = run.steady_state.as_ref().filter(|_| run.parameters.support_path.is_none())?;
     Some((steady.l, format!("steady state, l₀ = {}", short(steady.l))))
 }
 
-/// r, likewise.
+/// The level r, if the support moves steadily.
 fn dragged(run: &RunDocument) -> Option<Level> {
     let moves = run.parameters.support_path.is_none() && !run.parameters.law.no_spring;
     let r = run.parameters.r.unwrap_or_default();
     moves.then(|| (r, format!("support, r = {}", short(r))))
 }
 
-/// The lag against the way of the support, on a path: the friction loop.
+/// The lag against the position of a support on a path: the friction loop.
 fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocument> {
     let Support::Path(path) = trajectory.support() else { return None };
     let even =
@@ -160,7 +160,7 @@ fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocumen
     Some(panel)
 }
 
-/// A curve against time with a constant.
+/// A curve against time, with a constant level.
 pub(super) fn against(
     labels: (&str, &str),
     curve: CurveDocument,
@@ -177,7 +177,7 @@ pub(super) fn against(
     panel
 }
 
-/// y0 against time, and the path of the tip along and across the scan.
+/// y0 against time, and the path of the tip in the plane.
 fn across(run: &RunDocument) -> Vec<PanelDocument> {
     let (samples, Some(y0)) = (&run.samples, &run.samples.y0) else { return vec![] };
     let swing = CurveDocument::new(StyleName::Line, "y₀(t), samples", &samples.t, y0);
@@ -224,7 +224,7 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
     Some(panel)
 }
 
-/// The surface at the end of what is shown: all of it, and, where there are many ripples, the last of them.
+/// The surface at the end of the visible part: all of it, and, if there are many ripples, the last of them.
 fn surfaces(
     scenario: &Scenario,
     trajectory: &Trajectory,

@@ -1,4 +1,4 @@
-//! Growth exponents in the complex plane.
+//! Figure of growth exponents in the complex plane.
 
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
@@ -10,7 +10,7 @@ use stickslip::{
     StyleName,
 };
 
-/// Part of the width that the unstable half has at least, even when no root is there.
+/// Smallest fraction of the width for the unstable half-plane.
 const UNSTABLE_PART: f64 = 0.15;
 const PADDING: f64 = 0.06;
 
@@ -35,7 +35,7 @@ impl Drawn for StabilityDocument {
     }
 }
 
-/// Growth exponents known to this error, in a panel.
+/// A panel of growth exponents with this error.
 pub(super) fn exponents(name: &str, roots: &[ComplexDocument], error: f64) -> PanelDocument {
     let mut panel = PanelDocument::new(name, ("Re λ (k/Γ)", "Im λ (k/Γ)"));
     let (x, y) = axes(roots);
@@ -53,7 +53,7 @@ pub(super) fn exponents(name: &str, roots: &[ComplexDocument], error: f64) -> Pa
     panel
 }
 
-/// The roots in a part of the plane, with those below the real axis.
+/// The roots in a part of the plane, with their complex conjugates.
 fn dots(
     roots: &[ComplexDocument],
     name: &str,
@@ -67,7 +67,7 @@ fn dots(
     dots
 }
 
-/// Both axes hold the origin, and the abscissas a part of the unstable half.
+/// Ranges of both axes, which include the origin, and some of the unstable half-plane.
 fn axes(roots: &[ComplexDocument]) -> ([f64; 2], [f64; 2]) {
     let of = |part: fn(&ComplexDocument) -> f64| {
         let values = roots.iter().map(part).filter(|v| v.is_finite());

@@ -1,4 +1,4 @@
-//! Surfaces, and their images.
+//! Figures of surfaces and images.
 
 use super::drawn::{Drawn, View};
 use super::labels::{NATURAL, SURFACE};
@@ -11,11 +11,11 @@ use stickslip::{
     SurfaceCurve, SurfaceDocument,
 };
 
-/// So many surfaces have a panel each; more are drawn upon each other, by colour.
+/// Largest number of surfaces with their own panels; more are overlaid in colours.
 const MOST_PANELS: usize = 8;
-/// Shown of a surface that nothing has touched, beyond what has been.
+/// Width of the untouched surface shown on either side, in σ.
 const UNTOUCHED: f64 = 6.0;
-/// What changes by less than this part of all heights counts as untouched.
+/// Change relative to all heights below which a surface counts as untouched.
 const LEVEL: f64 = 1e-3;
 
 impl Drawn for SurfaceDocument {
@@ -30,7 +30,7 @@ impl Drawn for SurfaceDocument {
     }
 }
 
-/// A height map for every time, with one scale of colours for all.
+/// A height map for every time, with a common colour scale.
 fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     let heights = document.images.iter().flat_map(|image| image.u.iter().flatten().copied());
     let range = extremes(heights.filter(|u| u.is_finite()));
@@ -50,7 +50,7 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     document.images.iter().map(panel).collect()
 }
 
-/// Panels with the same axes: surfaces upon each other would hide one another.
+/// Panels with the same axes: overlaid surfaces would hide each other.
 fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
     let all = surfaces.iter().flat_map(|s| s.u.iter().copied().filter(|u| u.is_finite()));
     let Some((low, high)) = extremes(all) else { return vec![] };
@@ -81,7 +81,7 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
     overlaid(panels)
 }
 
-/// All in the first panel, in colours and dashes of their own.
+/// All curves in the first panel, with different colours and dashes.
 fn overlaid(panels: Vec<PanelDocument>) -> Vec<PanelDocument> {
     use stickslip::ColourName::{Black, Blue, Green, Orange, Purple, Sky, Vermillion};
     const COLOURS: [stickslip::ColourName; 7] =
@@ -97,7 +97,7 @@ fn overlaid(panels: Vec<PanelDocument>) -> Vec<PanelDocument> {
     vec![first]
 }
 
-/// The abscissas without what lies far beyond all that the tip has touched.
+/// The range of positions without the surface far from the tip's path.
 fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
     let (first, last) = (*surface.x.first()?, *surface.x.last()?);
     let end = *surface.u.last()?;
@@ -108,7 +108,7 @@ fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
     Some([first, to])
 }
 
-/// Such as "t = 457".
+/// A label such as "t = 457".
 fn time(t: f64) -> String {
     format!("t = {}", short(t))
 }

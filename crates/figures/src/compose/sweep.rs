@@ -1,4 +1,4 @@
-//! A sweep: a phase diagram over two parameters, amplitude and period over one.
+//! Figure of a sweep: a phase diagram over two parameters, amplitude and period over one.
 
 mod cells;
 mod row;
@@ -11,10 +11,10 @@ use crate::number::short;
 use stickslip::{FigureDocument, ModelParameters, SweepDocument, SweepParameters};
 use varied::varied;
 
-/// Refuses a grid that no picture shows, before its points are computed.
+/// Rejects a grid that no picture can show, before its points are computed.
 ///
 /// # Errors
-/// It is a single point, or has more than two parameters that vary.
+/// The grid is a single point, or has more than two parameters that vary.
 pub fn judge_sweep(parameters: &SweepParameters) -> Result<(), FigureError> {
     match varied(parameters).len() {
         1 | 2 => Ok(()),
@@ -40,7 +40,7 @@ impl Drawn for SweepDocument {
     }
 }
 
-/// What does not vary.
+/// The parameters that do not vary, as text.
 fn fixed(parameters: &SweepParameters) -> String {
     let SweepParameters { tips, beta, r, alpha, alpha_above, .. } = parameters;
     let mut said = vec![];
@@ -60,7 +60,7 @@ fn fixed(parameters: &SweepParameters) -> String {
     said.join(", ")
 }
 
-/// That of the first point.
+/// The model of the first point.
 fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
     let first = |values: &Option<Vec<f64>>| values.as_ref().and_then(|v| v.first().copied());
     let (alpha, alpha_above) = (first(&parameters.alpha), first(&parameters.alpha_above));

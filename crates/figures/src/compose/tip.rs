@@ -1,12 +1,12 @@
-//! What a tip and a model are called in titles.
+//! Names of tips and models in titles.
 
 use crate::number::{seven_digits, short};
 use stickslip::{GaussianDocument, ModelParameters, TipDocument};
 
-/// Numbers closer than this are taken for the same.
+/// Largest difference of numbers that count as equal.
 const SAME: f64 = 1e-9;
 
-/// Such as "β = 1" for the triple Gaussian (48) of width 1.
+/// A name such as "β = 1" for the triple Gaussian (48) of width 1.
 pub(crate) fn tip_name(tip: &TipDocument) -> String {
     match tip {
         TipDocument::Bessel {} => "f = J₀(x)".into(),
@@ -23,7 +23,7 @@ pub(crate) fn model_name(model: &ModelParameters) -> String {
     format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), wider_name(model))
 }
 
-/// Tip, and what a wider law adds: the same at every α and r.
+/// Tip and extensions of the basic model, which are the same at every α and r.
 pub(crate) fn law_name(model: &ModelParameters) -> String {
     format!("{}{}", tip_name(&model.tip), wider_name(model))
 }
@@ -62,7 +62,7 @@ fn is(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * b.abs().max(1.0)
 }
 
-/// β and the width of a triple Gaussian: exp(-x²/2w²) - β exp(-(x ± 2w)²/2w²)… as (48) has it.
+/// β and the width of a triple Gaussian (48), exp(-x²/2w²) - β exp(-(x ± 2w)²/2w²)…; `None` for any other sum.
 fn triple(gaussians: &[GaussianDocument]) -> Option<(f64, f64)> {
     let [a, b, c] = gaussians else { return None };
     let mut all = [a, b, c];

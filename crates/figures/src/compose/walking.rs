@@ -1,4 +1,4 @@
-//! Growth exponents of steady walks in the complex plane.
+//! Figure of the growth exponents of steady walks, in the complex plane.
 
 use super::drawn::{Drawn, View};
 use super::stability::exponents;

@@ -1,4 +1,4 @@
-//! The surface that a run leaves, with the tip on it.
+//! The surface after a run, with the tip.
 
 use crate::axis::extremes;
 use crate::compose::labels::{NATURAL, SURFACE};
@@ -7,21 +7,21 @@ use crate::number::short;
 use stickslip::{ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName};
 use stickslip_surface::Surface;
 
-/// Shown on either side of the tip's way.
+/// Margin on either side of the tip's path, in σ.
 pub(super) const MARGIN: f64 = 12.0;
-/// The tip's own groove reaches so far behind it.
+/// Length of the tip's own groove behind it, in σ.
 const GROOVE: f64 = 4.0;
-/// Ripples that take less of the height than this are drawn alone, and what is beyond is cut.
+/// Ripples with less than this fraction of the height are drawn alone, and the rest is cut off.
 const LEAST_PART: f64 = 0.3;
-/// A tip that made fewer has left no ripples.
+/// Largest number of slips that count as no ripples.
 const FEW: usize = 4;
-/// Distance of the points, and how many there are at least and at most.
+/// Spacing of the points, and their smallest and largest number.
 const SPACING: f64 = 0.1;
 const POINTS: (f64, f64) = (1500.0, 120_000.0);
 const ENVELOPE: usize = 400;
 const RIPPLES: f64 = 1.5;
 
-/// A surface at time `end`, and where the tip is then.
+/// A surface at time `end`, with the position of the tip.
 pub(super) struct Ground<'a> {
     pub(super) surface: Surface<'a>,
     pub(super) start: f64,
@@ -30,7 +30,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The surface, and that at the start if that is of interest.
+    /// The surface, and the initial one if it is of interest.
     pub(super) fn lines(
         &self,
         range: (f64, f64),
@@ -50,7 +50,7 @@ impl Ground<'_> {
         Ok(panel)
     }
 
-    /// From lowest to highest, where ripples of that wavelength would run into each other.
+    /// The band from lowest to highest point, for ripples too dense to draw.
     pub(super) fn envelope(
         &self,
         range: (f64, f64),
@@ -106,8 +106,8 @@ impl Ground<'_> {
         panel
     }
 
-    /// The ordinates: those of the ripples behind the tip, where its own pit and what it has not reached yet would
-    /// leave little room for them; and a mark where the tip is.
+    /// Fits the ordinates to the ripples behind the tip, if its own pit and the untouched surface would leave too
+    /// little space for them; and marks the tip.
     fn fit(&self, panel: &mut PanelDocument, x: &[f64], u: &[f64], count: usize) {
         let all = extremes(u.iter().copied());
         let behind = x.iter().zip(u).filter(|(x, _)| **x < self.tip - GROOVE).map(|(_, u)| *u);

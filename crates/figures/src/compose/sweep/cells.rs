@@ -1,4 +1,4 @@
-//! The phase diagram: what the motion comes to, over two parameters.
+//! The phase diagram: regimes over two parameters.
 
 use super::varied::{Phase, Varied};
 use crate::cells::ascending;
@@ -10,7 +10,7 @@ use stickslip::{
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::{TipFunction, Wider};
 
-/// A column of cells for every value of the slow parameter, and the lines of theory across them.
+/// A column of cells for every value of the slow parameter, with the lines of theory.
 pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> PanelDocument {
     let mut panel = PanelDocument::new("", (slow.label, fast.label));
     let mut kinds = vec![vec![None; slow.values.len()]; fast.values.len()];
@@ -39,7 +39,7 @@ fn ends(values: &[f64]) -> Option<[f64; 2]> {
     (first < last).then_some([first, last])
 }
 
-/// αc and the trapping threshold, where α is one of the axes.
+/// αc and the trapping threshold, if α is one of the axes.
 fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocument> {
     let parameters = &document.parameters;
     let is_above = fast.label != ALPHA;
@@ -67,7 +67,7 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     ]
 }
 
-/// The slow parameter, αc and the trapping threshold there; NaN where there is none.
+/// The slow parameter, αc and the trapping threshold at each value; NaN if there is none.
 fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64) {
     let parameters = &document.parameters;
     let of_r = slow.label == R;

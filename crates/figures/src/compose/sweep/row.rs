@@ -1,5 +1,5 @@
-//! Amplitude and period of what the motion comes to, over one parameter. Steady and trapped tips have neither: they
-//! are marked at the foot of the axes.
+//! Amplitude and period against one parameter. Steady and trapped tips have neither: they are marked at the foot of
+//! the axes.
 
 use super::varied::{Phase, Varied};
 use crate::axis::extremes;
@@ -52,7 +52,7 @@ fn panel(
     panel
 }
 
-/// First and last ordinate, and that of points without a value: at the foot of the axes, never at a value.
+/// First and last ordinate, and the ordinate of points without a value, at the foot of the axes and below all values.
 fn range(
     all: Option<(f64, f64)>,
     positive: Option<(f64, f64)>,
@@ -70,7 +70,7 @@ fn range(
 }
 
 impl Phase {
-    /// The silver of areas is too light for dots.
+    /// The colour of a dot; the silver of areas would be too light.
     fn mark(self) -> stickslip::ColourName {
         if self == Self::Steady { stickslip::ColourName::Grey } else { self.colour() }
     }

@@ -1,4 +1,4 @@
-//! What a sweep varies, and what its points come to.
+//! Parameters that a sweep varies, and regimes of its points.
 
 use crate::compose::labels::{ALPHA, R};
 use stickslip::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
@@ -8,7 +8,7 @@ use stickslip::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
 pub(super) struct Varied<'a> {
     pub(super) values: &'a [f64],
     pub(super) label: &'static str,
-    /// Index of a point in the grid to its place along this axis.
+    /// Number of consecutive points with the same value of this parameter.
     pub(super) stride: usize,
 }
 
@@ -18,7 +18,8 @@ impl Varied<'_> {
     }
 }
 
-/// Those that vary, the slowest first; seeds only where nothing else does: their points share a place.
+/// The parameters that vary, the slowest first. Seeds are included only if nothing else varies, because their points
+/// coincide.
 pub(super) fn varied(parameters: &SweepParameters) -> Vec<Varied<'_>> {
     let mut all = all(parameters);
     all.retain(|axis| axis.values.len() > 1);
@@ -48,7 +49,7 @@ fn all(parameters: &SweepParameters) -> Vec<Varied<'_>> {
     all
 }
 
-/// Kinds of motion.
+/// Regimes of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Phase {
     Steady,

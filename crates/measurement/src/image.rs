@@ -1,11 +1,11 @@
-//! A measured image of a footprint: how wide each Gaussian of its profile is across the way of the tip.
+//! A measured image of a footprint: the width of each Gaussian of its profile across the scan.
 //!
 //! ```text
 //! z(x,y) = ground + apex Σ_k a_k exp(-(x - c_k)²/(2 w_k²)) exp(-(y - y0)²/(2 v_k²))
 //! ```
 //!
-//! a, c and w are those of the profile along x through the middle, as [`tip`](crate::tip) finds them; v and y0 are fitted to all
-//! pixels, the ground and the height projected out.
+//! a, c and w are those of the profile along x through the middle, from [`tip`](crate::tip); v and y0 are fitted to
+//! all pixels, with background and height projected out.
 
 use crate::least_squares::{Minimum, Residuals, forward, minimum};
 use crate::profile::{Profile, ProfileError};
@@ -22,54 +22,55 @@ pub struct Image {
     rows: Vec<Vec<f64>>,
 }
 
-/// Why there is no footprint in an image.
+/// The reason why an image gives no footprint.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ImageError {
-    /// Too few rows or columns, or not as many as there are positions.
+    /// Too few rows or columns, or a different number than that of positions.
     #[error(
         "{columns} × {rows} pixels: at least {FEWEST} either way are needed, and rows of equal length"
     )]
     Size {
-        /// Pixels in a row.
+        /// Number of pixels in a row.
         columns: usize,
-        /// Rows.
+        /// Number of rows.
         rows: usize,
     },
     /// Heights that are not finite, or all the same.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// Nothing was found.
+    /// No footprint was found.
     #[error("no footprint stands out of its ground")]
     Nothing,
 }
 
-/// What an image tells beyond the profile through its middle, in its units but for the widths.
+/// Results for f(x,y) from an image, in the units of the image except the widths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Across {
-    /// v, in σ: one for each Gaussian of the tip.
+    /// v of each Gaussian of the tip, in σ.
     pub widths: Vec<f64>,
-    /// y0, where f is even about across.
+    /// y0, the centre of symmetry across the scan.
     pub centre: f64,
-    /// Standard deviation of what the fit leaves of all pixels.
+    /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
-    /// Standard deviation of what is not smooth from pixel to pixel along a row.
+    /// Standard deviation of the noise from pixel to pixel along a row.
     pub noise: f64,
 }
 
-/// Fewest pixels either way.
+/// Smallest number of pixels in either direction.
 const FEWEST: usize = 12;
-/// Pixels that are enough for a fit.
+/// Number of pixels that is sufficient for a fit.
 const ENOUGH: usize = 20_000;
-/// Part of an image at each side that is taken for ground.
+/// Width of the frame that counts as background, as a fraction of the image.
 const FRAME: f64 = 0.1;
-/// Rows are averaged for a profile within this part of the half width across: f falls by 0.1 % there.
+/// Half width of the band of rows averaged for a profile, as a fraction of the half width across: f falls by 0.1 %
+/// there.
 const BAND: f64 = 0.05;
 /// Step of y0/σ and ln v.
 const STEP: f64 = 1e-5;
 
 impl Image {
     /// # Errors
-    /// Too small, not even rows, or not finite.
+    /// The image is too small, its rows are uneven, or a value is not finite.
     pub fn new(x: Vec<f64>, y: Vec<f64>, rows: Vec<Vec<f64>>) -> Result<Self, ImageError> {
         let size = ImageError::Size { columns: x.len(), rows: rows.len() };
         let is_even = rows.len() == y.len() && rows.iter().all(|row| row.len() == x.len());
@@ -83,7 +84,7 @@ impl Image {
         Ok(Self { x, y, rows })
     }
 
-    /// Every `every`th pixel either way: x, y and height.
+    /// Every `every`th pixel in both directions: x, y and height.
     fn pixels(&self, every: usize) -> impl Iterator<Item = [f64; 3]> {
         let rows = self.y.iter().zip(&self.rows).step_by(every);
         rows.flat_map(move |(y, row)| {
@@ -91,7 +92,7 @@ impl Image {
         })
     }
 
-    /// Heights less the plane through the frame.
+    /// Heights minus the plane through the frame.
     fn above_ground(&self) -> Option<Vec<[f64; 3]>> {
         let within = |at: f64, ends: &[f64]| {
             let (first, last) = (ends[0], ends[ends.len() - 1]);
@@ -109,7 +110,7 @@ impl Image {
     /// The profile along x through the middle of the footprint.
     ///
     /// # Errors
-    /// Nothing stands out of the ground.
+    /// No footprint rises above the background.
     pub fn profile(&self) -> Result<Profile, ImageError> {
         let above = self.above_ground().ok_or(ImageError::Nothing)?;
         let extreme = above.iter().map(|p| p[2]).max_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -134,7 +135,7 @@ impl Image {
         Ok(Profile::new(self.x.clone(), (0..self.x.len()).map(mean).collect())?)
     }
 
-    /// How wide its Gaussians are across; `tip` is that of [`Image::profile`].
+    /// The widths of the Gaussians across the scan; `tip` is the result for [`Image::profile`].
     ///
     /// # Errors
     /// No fit was found.
@@ -164,7 +165,7 @@ impl Image {
         0.5 * (self.y[0] + self.y[self.y.len() - 1])
     }
 
-    /// The median of what [`Profile::noise`] is of each row.
+    /// The median over the rows of [`Profile::noise`].
     fn noise(&self) -> f64 {
         let of = |row: &Vec<f64>| Profile::new(self.x.clone(), row.clone()).ok().map(|p| p.noise());
         let mut noises: Vec<f64> = self.rows.iter().filter_map(of).collect();
@@ -173,14 +174,14 @@ impl Image {
     }
 }
 
-/// Pixels, and what of the model stays as it is.
+/// Pixels, and the fixed parts of the model.
 struct Problem {
     pixels: Vec<[f64; 3]>,
-    /// Of each Gaussian its part at every pixel along x, amplitude and all.
+    /// For each Gaussian its factor along x at every pixel, with its amplitude.
     along: Vec<Vec<f64>>,
-    /// To which width across it belongs: twins share theirs.
+    /// For each Gaussian the index of its width across; symmetric pairs share one.
     group: Vec<usize>,
-    /// Along x, of each group.
+    /// Widths along x, of each group.
     widths: Vec<f64>,
     middle: f64,
     sigma: f64,
@@ -213,11 +214,11 @@ impl Problem {
     }
 }
 
-/// Widths across beyond these, in σ, are none.
+/// Admissible widths across, in σ.
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.02..=50.0;
 
 impl Residuals for Problem {
-    /// Of y0, in σ from the middle, and ln v of each group.
+    /// Residuals as a function of y0, in σ from the middle, and ln v of each group.
     fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
         let (centre, widths) = (parameters[0], &parameters[1..]);
         if !widths.iter().all(|w| WIDTHS.contains(&w.exp())) {

@@ -1,30 +1,30 @@
-//! A value with the interval that holds it.
+//! A value with its interval.
 
-/// Estimated, with its 95 % interval.
+/// An estimate with its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// As estimated from the data.
+    /// The estimate.
     pub value: f64,
-    /// Lower end; −∞ where nothing is below which the data exclude.
+    /// Lower end; −∞ if the data exclude no small value.
     pub low: f64,
-    /// Upper end; ∞ where the data exclude nothing above.
+    /// Upper end; ∞ if the data exclude no large value.
     pub high: f64,
 }
 
 impl Estimate {
-    /// Half the length of the interval over the value.
+    /// Half the length of the interval, relative to the value.
     #[must_use]
     pub fn relative(&self) -> f64 {
         0.5 * (self.high - self.low) / self.value.abs()
     }
 
-    /// Whether a value is within it.
+    /// Whether the interval contains a value.
     #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 
-    /// Both ends moved out by a factor that stands for what is independent of all else, its logarithm in quadrature.
+    /// The interval widened by a factor for an independent error, with its logarithm added in quadrature.
     #[must_use]
     pub fn wider_by(self, factor: f64) -> Self {
         let moved = |end: f64| {
@@ -43,7 +43,7 @@ impl Estimate {
         }
     }
 
-    /// From values of resampled data, by their percentiles, of several ways to draw them the widest.
+    /// The interval of resampled values, by percentiles; of several resampling methods the widest.
     #[must_use]
     pub fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
         let mut found: Option<Self> = None;
@@ -63,10 +63,10 @@ impl Estimate {
     }
 }
 
-/// Of what an interval holds.
+/// Half of the probability within an interval.
 const HALF: f64 = 0.475;
 
-/// Between the sorted values.
+/// Quantile of sorted values, interpolated.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]

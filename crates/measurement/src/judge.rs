@@ -1,8 +1,8 @@
-//! What the noise of a raw table does to the answers that are made of it.
+//! Effect of the noise of a raw table on its results.
 //!
-//! αc feels f'' and with it the noise of neighbouring rows, over their distance squared: 2 % of noise can halve
-//! αc. How large the noise is, is told by sixth differences, in which a smooth f all but vanishes; what it does, by
-//! adding as much again, and by αc of the few Gaussians that follow the rows as far as the noise lets them.
+//! αc depends on f'' and therefore on the noise of neighbouring rows divided by their distance squared: 2 % of noise
+//! can halve αc. The size of the noise is estimated from sixth differences, in which a smooth f nearly vanishes; its
+//! effect, by adding as much noise again, and by αc of a fit with few Gaussians.
 
 use crate::Profile;
 use crate::tip::{Request, tip};
@@ -13,46 +13,46 @@ use std::f64::consts::PI;
 use stickslip_stability::critical;
 use stickslip_tip::{TipFunction, Wider};
 
-/// What a raw table x, f is good for.
+/// Quality of a raw table x, f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
-    /// Noise does next to nothing.
+    /// The effect of noise is negligible.
     Sound,
-    /// Too few rows to tell their noise from their shape.
+    /// Too few rows to separate noise from shape.
     Few {
-        /// As given.
+        /// The text as given.
         rows: usize,
     },
-    /// Noise is felt.
+    /// Noise has an effect.
     Felt {
-        /// By how much αc(1) may be off, relatively.
+        /// Estimated relative error of αc(1).
         change: f64,
     },
-    /// Noise, and not the footprint, decides αc.
+    /// Noise, and not the footprint, determines αc.
     Decided {
-        /// αc(1) of the table as it is.
+        /// αc(1) of the table.
         table: f64,
-        /// αc(1) of a sum of few Gaussians through the noise, if there is one.
+        /// αc(1) of a fit with few Gaussians, if there is one.
         fitted: Option<f64>,
     },
 }
 
-/// Fewer rows have no sixth differences to speak of.
+/// Smallest number of rows for sixth differences.
 const FEWEST_ROWS: usize = 16;
-/// A relative change of αc at r = 1 that is told, and one from which on a table is none of the tip.
+/// Relative change of αc at r = 1 that is reported, and the one above which a table is rejected.
 const TOLD: f64 = 0.02;
 const REFUSED: f64 = 0.1;
-/// Where noise can change αc by no more, nobody tries how much it does.
+/// Bound on the relative change of αc below which the effect of noise is not computed.
 const NOT_TOLD: f64 = 0.1 * TOLD;
-/// A sum over many random rows is at most so many standard deviations.
+/// Largest value of a sum over many random rows, in standard deviations.
 const LARGEST_DRAW: f64 = 5.0;
-/// How often noise is added.
+/// Number of repetitions with added noise.
 const DRAWS: u64 = 5;
 /// Binomial coefficients of a sixth difference, and the root of the sum of their squares.
 const SIXTH: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
 const SIXTH_NORM: f64 = 30.397;
 
-/// Judges a table of which `tip` was made.
+/// Classifies the table from which `tip` was made.
 #[must_use]
 pub fn judge((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Verdict {
     let rows = x.len();
@@ -105,8 +105,8 @@ fn again((x, f): (&[f64], &[f64]), noise: f64, table: f64) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
-/// A bound of what noise adds to ∫f''(y) e^{-iqy}dy, to which 1/αc(1) is proportional, at any wave number that rows
-/// resolve: q² times its transform, a sum over random rows, and q times its value at 0.
+/// Bound on the contribution of noise to ∫f''(y) e^{-iqy}dy, to which 1/αc(1) is proportional, at any wave number
+/// that the rows resolve: q² times the transform of the noise, a sum over random rows, plus q times its value at 0.
 fn most_felt(x: &[f64], noise: f64) -> f64 {
     let length = x[x.len() - 1];
     let spacing = length / (x.len() - 1) as f64;
@@ -114,7 +114,7 @@ fn most_felt(x: &[f64], noise: f64) -> f64 {
     LARGEST_DRAW * noise * (q * q * (spacing * length).sqrt() + q)
 }
 
-/// Standard deviation of what is not smooth from row to row.
+/// Standard deviation of the noise from row to row.
 fn noise(f: &[f64]) -> f64 {
     let difference = |rows: &[f64]| rows.iter().zip(SIXTH).map(|(f, c)| f * c).sum::<f64>();
     let squares: Vec<f64> = f.windows(7).map(|rows| difference(rows).powi(2)).collect();
@@ -130,7 +130,7 @@ mod tests {
     use super::noisy_table::table;
     use super::*;
 
-    /// Where the bound says that it cannot be felt, it is not.
+    /// If the bound excludes an effect of noise, there is none.
     #[test]
     fn noise_that_is_not_tried_changes_nothing() {
         for (rows, noise) in [(60, 1e-7), (60, 2e-6), (200, 1e-8), (200, 1e-7), (600, 1e-9)] {

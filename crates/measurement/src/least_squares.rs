@@ -1,15 +1,15 @@
-//! Levenberg and Marquardt's method, of the crate `levenberg-marquardt` (MINPACK's `lmder`).
+//! The Levenberg-Marquardt method, from the crate `levenberg-marquardt` (MINPACK's `lmder`).
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, storage::Owned};
 use stickslip_tip::stop;
 
-/// Residuals as a function of parameters that are of order 1.
+/// Residuals as a function of parameters of order 1.
 pub(crate) trait Residuals {
-    /// At these parameters; `None` where there are none, which a search keeps away from.
+    /// The residuals at these parameters; `None` outside of the domain, which the search avoids.
     fn at(&self, parameters: &[f64]) -> Option<Vec<f64>>;
 
-    /// Their derivatives by each parameter, a column each; `here` are the residuals.
+    /// The derivatives of the residuals, a column for each parameter; `here` are the residuals.
     fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>>;
 
     /// Relative changes of the sum and of the parameters at which a search ends.
@@ -18,7 +18,7 @@ pub(crate) trait Residuals {
     }
 }
 
-/// Derivatives by differences to one side, to the other where the model ends.
+/// Derivatives by forward differences, or backward ones at the edge of the domain.
 pub(crate) fn forward(
     model: &(impl Residuals + ?Sized),
     (here, at): (&[f64], &[f64]),
@@ -36,17 +36,17 @@ pub(crate) fn forward(
     (0..at.len()).map(column).collect()
 }
 
-/// Where a search ended.
+/// The end point of a search.
 #[derive(Debug, Clone)]
 pub(crate) struct Minimum {
     pub(crate) parameters: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
-    /// Σ of their squares.
+    /// Sum of the squared residuals.
     pub(crate) sum: f64,
 }
 
 impl Minimum {
-    /// A place as it is; `None` where there are no residuals.
+    /// The given point; `None` outside of the domain.
     pub(crate) fn at(model: &dyn Residuals, parameters: &[f64]) -> Option<Self> {
         let residuals = model.at(parameters)?;
         let sum = squares(&residuals);
@@ -54,13 +54,13 @@ impl Minimum {
     }
 }
 
-/// A failed trial is so many times as bad as the start: the search turns back and shortens its step.
+/// Factor of the residuals reported for a failed trial, which makes the search shorten its step.
 const FAILED: f64 = 10.0;
-/// Evaluations for each parameter.
+/// Largest number of evaluations per parameter.
 const PATIENCE: usize = 40;
 
-/// The least sum of squares that is downhill from `start`; `None` where there are no residuals, or where the work is
-/// asked to [`stop`].
+/// The local minimum of the sum of squares found from `start`; `None` outside of the domain, or if the work is told
+/// to [`stop`].
 pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
     if stop::is_asked() {
         return None;
@@ -90,7 +90,7 @@ pub(crate) fn squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|v| v * v).sum()
 }
 
-/// Derivatives by central differences, one-sided where the model ends.
+/// Derivatives by central differences, one-sided at the edge of the domain.
 pub(crate) fn differences(
     model: &(impl Residuals + ?Sized),
     (here, at): (&[f64], &[f64]),
@@ -118,9 +118,9 @@ pub(crate) fn differences(
 struct Problem<'a> {
     model: &'a dyn Residuals,
     at: DVector<f64>,
-    /// Residuals at `at`, if there are any.
+    /// Residuals at `at`, if it is in the domain.
     here: Option<Vec<f64>>,
-    /// The least of all that were met.
+    /// The best point so far.
     best: Minimum,
     worst: f64,
 }

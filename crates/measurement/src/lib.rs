@@ -1,9 +1,9 @@
-//! From measured data to the numbers of the model, with intervals.
+//! Estimation of the parameters of the model from measured data, with intervals.
 //!
-//! [`tip`] makes a footprint of a measured profile: noisy, tilted, off centre, in any unit of length. [`judge`] says
-//! what the noise of a raw table would do to the onset of stick-slip. [`fit`] finds α, r, the width
-//! and more from ripples, lateral forces, onsets and wavelengths. Knows no files and no units: lengths and heights
-//! are those of the data, whatever they are.
+//! [`tip`] fits a footprint to a measured profile, which may be noisy, tilted, off centre, and in any unit of length.
+//! [`judge`] estimates the effect of the noise of a raw table on the onset of stick-slip. [`fit`] estimates α, r, the
+//! width and more from ripples, lateral forces, onsets and wavelengths. The crate uses no files and no units: lengths
+//! and heights are those of the data.
 //!
 //! ```
 //! use stickslip_measurement::{Profile, Request, tip};

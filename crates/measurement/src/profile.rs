@@ -1,25 +1,25 @@
-//! A measured profile: positions and heights, as they came.
+//! A measured profile: positions and heights.
 
 use thiserror::Error;
 
-/// Fewest rows that say something of a shape, an offset, a slope and a noise.
+/// Smallest number of rows that determines a shape, an offset, a slope and a noise.
 pub(crate) const FEWEST_ROWS: usize = 12;
-/// Most rows that are taken.
+/// Largest number of rows.
 pub const MOST_ROWS: usize = 100_000;
 
-/// Why a profile was refused.
+/// The reason why a profile was rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProfileError {
     /// Too few or too many rows.
     #[error("there are {found} rows: {least} to {most} will do", least = FEWEST_ROWS, most = MOST_ROWS)]
     Rows {
-        /// Rows given.
+        /// Number of rows.
         found: usize,
     },
     /// An entry that is not finite.
     #[error("row {row} is not a pair of finite numbers")]
     NotFinite {
-        /// Counted from 1.
+        /// Row, from 1.
         row: usize,
     },
     /// Positions that are all the same.
@@ -38,10 +38,10 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Rows in any order; several may have the same position.
+    /// A profile from rows in any order; several may have the same position.
     ///
     /// # Errors
-    /// Too few or too many rows, not finite, no extent or no height.
+    /// Too few or too many rows, a value that is not finite, no extent or no height.
     pub fn new(x: Vec<f64>, f: Vec<f64>) -> Result<Self, ProfileError> {
         let found = x.len().min(f.len());
         if !(FEWEST_ROWS..=MOST_ROWS).contains(&found) {
@@ -91,7 +91,7 @@ impl Profile {
         (last - first) / (self.x.len() - 1) as f64
     }
 
-    /// Whether it looks like one half of an even profile about position 0: it begins there, with its apex.
+    /// Whether the profile may be one half of an even one about position 0: it begins there, with its apex.
     #[must_use]
     pub fn is_half(&self) -> bool {
         let (first, last) = self.ends();
@@ -107,9 +107,9 @@ impl Profile {
         apex.is_some_and(|(i, _)| self.x[i] - first < 0.15 * extent)
     }
 
-    /// Standard deviation of what is not smooth from row to row, by the pseudo-residuals of Gasser, Sroka and
-    /// Jennen-Steinmetz (1986): what a row is off the line between its neighbours. The median of their sizes, so that
-    /// a few steep places do not count.
+    /// Standard deviation of the noise from row to row, by the pseudo-residuals of Gasser, Sroka and Jennen-Steinmetz
+    /// (1986): the distance of each row from the line between its neighbours. The median of their absolute values
+    /// reduces the influence of a few steep places.
     pub(crate) fn noise(&self) -> f64 {
         let mut sizes: Vec<f64> = (1..self.x.len() - 1)
             .filter_map(|i| {
@@ -128,5 +128,5 @@ impl Profile {
     }
 }
 
-/// Half of a normal distribution is within so many standard deviations.
+/// Median of the absolute value of a standard normal variable.
 const MEDIAN_OF_NORMAL: f64 = 0.674_489_75;

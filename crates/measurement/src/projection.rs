@@ -1,27 +1,26 @@
-//! Parameters that a model is linear in, solved for wherever the others are: variable projection (Golub and Pereyra
-//! 1973).
+//! Elimination of linear parameters at every value of the others: variable projection (Golub and Pereyra 1973).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The part of the data that a sum of columns makes up.
+/// The projection of data on the span of some columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Projected {
-    /// One for each column.
+    /// Coefficient of each column.
     pub(crate) coefficients: Vec<f64>,
-    /// What is left of the data.
+    /// Residuals of the data.
     pub(crate) residuals: Vec<f64>,
-    /// An orthonormal basis of the columns, and below it that of the ridge.
+    /// An orthonormal basis of the columns, extended by the rows of the ridge.
     basis: DMatrix<f64>,
 }
 
 impl Projected {
-    /// Of no columns.
+    /// The projection on no columns.
     pub(crate) fn nothing(residuals: Vec<f64>) -> Self {
         Self { coefficients: vec![], residuals, basis: DMatrix::zeros(0, 0) }
     }
 
-    /// What of these values no sum of the columns makes up. Of c_k ∂columns_k it is Kaufman's (1975) derivative of the
-    /// residuals, but for its sign.
+    /// The component of these values orthogonal to the columns. For c_k ∂columns_k it is Kaufman's (1975) derivative
+    /// of the residuals, except for its sign.
     pub(crate) fn beyond(&self, mut values: Vec<f64>) -> Vec<f64> {
         for column in self.basis.column_iter() {
             let column = &column.as_slice()[..values.len()];
@@ -32,10 +31,11 @@ impl Projected {
     }
 }
 
-/// A column that the others make up already gets next to none of it, and no other suffers.
+/// Ridge parameter: a column in the span of the others gets a coefficient close to 0, without an effect on the
+/// others.
 const RIDGE: f64 = 1e-9;
 
-/// Least squares of `Σ_k c_k columns_k` to the data by a QR factorisation; `None` where something is not finite.
+/// Least squares of `Σ_k c_k columns_k` to the data by a QR factorisation; `None` if a value is not finite.
 pub(crate) fn project(columns: &[Vec<f64>], data: &[f64]) -> Option<Projected> {
     let (rows, count) = (data.len(), columns.len());
     let sizes: Vec<f64> = columns
@@ -69,7 +69,7 @@ pub(crate) fn project(columns: &[Vec<f64>], data: &[f64]) -> Option<Projected> {
 mod tests {
     use super::*;
 
-    /// A line through points of a line; the twin of a column takes nothing from the others.
+    /// A straight line is found from its points; a duplicate column does not change the others.
     #[test]
     fn what_columns_make_up_is_found() {
         let x: Vec<f64> = (0..9).map(f64::from).collect();

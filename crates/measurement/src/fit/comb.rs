@@ -1,5 +1,5 @@
-//! What a track itself says of its ripples and its noise, whatever the model: a wave of any shape that repeats itself,
-//! and the scatter from one wavelength to the next.
+//! Analysis of a track without a model: a periodic wave of any shape, and the noise from the scatter between
+//! wavelengths.
 
 use super::data::{Data, Track};
 use super::noise::{Noise, one_line};
@@ -18,7 +18,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// `None` for a series.
+    /// The rows of a track; `None` for a series.
     pub(super) fn of(data: &Data) -> Option<Self> {
         let one = |track: &Track| {
             let rows = track.x.len();
@@ -41,13 +41,13 @@ impl Rows {
         last - first
     }
 
-    /// From -1 to 1.
+    /// Relative position, from -1 to 1.
     fn part(&self, x: f64) -> f64 {
         let (first, last) = ends(&self.x);
         (2.0 * x - first - last) / (last - first)
     }
 
-    /// A column for each line, 0 on the others.
+    /// A column for each line, 0 on the other lines.
     fn columns(&self, value: impl Fn(f64) -> f64) -> Vec<Vec<f64>> {
         let on = |line: &Range<usize>| {
             let mut column = vec![0.0; self.x.len()];
@@ -62,7 +62,7 @@ impl Rows {
         [self.columns(|_| 1.0), self.columns(|x| self.part(x))].concat()
     }
 
-    /// cos and sin of so many turns per length, times a power of the position.
+    /// cos and sin of a number of turns per length, times a power of the position.
     fn wave(&self, turns: f64, power: i32) -> Vec<Vec<f64>> {
         let (first, last) = ends(&self.x);
         let middle = 0.5 * (first + last);
@@ -78,27 +78,27 @@ impl Rows {
 /// A wave of any shape fitted to a track.
 #[derive(Debug, Clone)]
 pub(super) struct Comb {
-    /// In the unit of the positions.
+    /// Wavelength, in the unit of the positions.
     pub(super) length: f64,
-    /// Wavelengths along a line.
+    /// Number of wavelengths along a line.
     pub(super) count: f64,
     harmonics: usize,
-    /// Cosine and sine of each harmonic, and what the wave changes by with its length.
+    /// Cosine and sine of each harmonic, and the derivative of the wave by its wavelength.
     pub(super) wave: Vec<Vec<f64>>,
     residuals: Vec<f64>,
 }
 
-/// Most harmonics; rows of a wavelength that each needs, and rows in all.
+/// Largest number of harmonics; rows per wavelength that each requires, and total number of rows.
 const HARMONICS: f64 = 12.0;
 const ROWS_OF_A_WAVE: f64 = 4.0;
 const ROWS_IN_ALL: f64 = 6.0;
-/// By how much of a turn at the ends the wavelength is improved.
+/// Largest correction of the wavelength, in turns at the ends.
 const OFF: f64 = 0.4;
-/// Counts of wavelengths that differ by less are next to each other.
+/// Largest difference between counts of wavelengths that count as the same wave.
 const NEXT: f64 = 0.15;
 
 impl Comb {
-    /// Near this wavelength; `None` where there are too few rows for one.
+    /// A fit close to this wavelength; `None` if there are too few rows for one.
     pub(super) fn near(rows: &Rows, length: f64) -> Option<Self> {
         let longest = rows.lines.iter().map(Range::len).max()? as f64;
         let count = rows.extent() / length;
@@ -121,7 +121,7 @@ impl Comb {
         Self::at(rows, 0.5 * (low + high), harmonics)
     }
 
-    /// The same at this wavelength, if it is next to this one's: waves of two lengths would differ by what drifts.
+    /// The fit at this wavelength, if it is close to the current one: waves of two lengths would differ by a drift.
     pub(super) fn moved(self, rows: &Rows, length: f64) -> Self {
         if (rows.extent() / length - self.count).abs() > NEXT {
             return self;
@@ -142,7 +142,7 @@ impl Comb {
         (1..=harmonics).flat_map(|k| rows.wave(k as f64 * turns, 0)).collect()
     }
 
-    /// Coefficients of the wave, and what it leaves.
+    /// Coefficients of the wave, and its residuals.
     fn fitted(rows: &Rows, turns: f64, harmonics: usize) -> Option<(Vec<f64>, Vec<f64>)> {
         let mut columns = Self::columns(rows, turns, harmonics);
         let count = columns.len();
@@ -151,7 +151,7 @@ impl Comb {
         Some((found.coefficients[..count].to_vec(), found.residuals))
     }
 
-    /// Columns of the first harmonics, and of every ground.
+    /// Columns of the first harmonics, and of every background.
     pub(super) fn first(&self, rows: &Rows, harmonics: usize) -> Vec<Vec<f64>> {
         let most = (2 * harmonics * rows.lines.len()).min(self.wave.len() - 1);
         let mut found = rows.ground();
@@ -159,12 +159,12 @@ impl Comb {
         found
     }
 
-    /// Columns of the whole wave, and of every ground.
+    /// Columns of the whole wave, and of every background.
     pub(super) fn all(&self, rows: &Rows) -> Vec<Vec<f64>> {
         [rows.ground(), self.wave.clone()].concat()
     }
 
-    /// Waves of twice the length: what is the same in every other ripple only.
+    /// Waves of twice the length: components that alternate from ripple to ripple.
     pub(super) fn doubled(&self, rows: &Rows) -> Vec<Vec<f64>> {
         if self.count < FEWEST {
             return vec![];
@@ -173,7 +173,7 @@ impl Comb {
         waves.flat_map(|k| rows.wave(k / self.length, 0)).collect()
     }
 
-    /// First harmonics that grow, shrink or shift along the track.
+    /// First harmonics that grow, decay or shift along the track.
     pub(super) fn drifting(&self, rows: &Rows) -> Vec<Vec<f64>> {
         if self.count < FEWEST {
             return vec![];
@@ -186,8 +186,8 @@ impl Comb {
         found
     }
 
-    /// How the noise is to be judged when these columns are fitted besides: its level at low wave numbers, of which the
-    /// columns take most, is held to that between the columns.
+    /// Level of the noise if these columns are fitted in addition. They remove most of its low wave numbers, so that
+    /// its level there is taken from the wave numbers between the columns.
     pub(super) fn level(&self, rows: &Rows, besides: &[Vec<f64>], noise: &Noise) -> Level {
         let freedom = self.freedom(noise, besides.len());
         let sound = Level { scale: 1.0, freedom };
@@ -207,7 +207,7 @@ impl Comb {
         }
     }
 
-    /// The noise that is left when these columns are fitted too.
+    /// The noise of the residuals if these columns are fitted in addition.
     pub(super) fn noise(&self, rows: &Rows, besides: &[Vec<f64>]) -> Noise {
         let columns = [self.all(rows), besides.to_vec()].concat();
         let found = project(&columns, &rows.y);
@@ -218,34 +218,34 @@ impl Comb {
         Noise::of(&residuals, &rows.lines, (columns.len(), within.min(rows.y.len())))
     }
 
-    /// Columns of all that is periodic, doubled or drifting.
+    /// Columns of all periodic, doubled and drifting components.
     pub(super) fn besides(&self, rows: &Rows) -> Vec<Vec<f64>> {
         let found = [self.doubled(rows), self.drifting(rows)].concat();
         if 2 * (found.len() + self.wave.len()) > rows.y.len() { vec![] } else { found }
     }
 
-    /// Rows that are left to judge the noise by.
+    /// Degrees of freedom of the estimate of the noise.
     pub(super) fn freedom(&self, noise: &Noise, besides: usize) -> f64 {
         let taken = (self.wave.len() + besides) as f64;
         (noise.effective() - 0.5 * taken).max(4.0)
     }
 }
 
-/// How far an estimate of noise is to be trusted.
+/// Reliability of an estimate of the noise.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Level {
-    /// Variances are larger by this.
+    /// Factor of the variances.
     pub(super) scale: f64,
-    /// Rows by which they are judged.
+    /// Degrees of freedom of the estimate.
     pub(super) freedom: f64,
 }
 
-/// Wavelengths that it takes to see what changes from one to the next.
+/// Smallest number of wavelengths that shows changes from one to the next.
 const FEWEST: f64 = 3.0;
-/// Harmonics of twice the wavelength that are looked at.
+/// Number of harmonics of twice the wavelength that are tested.
 const DOUBLED: usize = 5;
 
-/// The change of a wave with its turns.
+/// The derivative of a wave by its number of turns.
 fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
     let mut found = vec![0.0; rows.x.len()];
     let lines = rows.lines.len();
@@ -263,8 +263,8 @@ fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
     found
 }
 
-/// The probability that noise alone has a wave as strong as the strongest of the track, whose length was looked for
-/// among `trials`; 1 where the rows are too few to say.
+/// The probability that noise alone contains a wave as strong as the strongest of the track, whose length was chosen
+/// among `trials`; 1 if there are too few rows.
 pub(super) fn by_chance(rows: &Rows, length: f64, trials: f64) -> Option<f64> {
     let comb = Comb::near(rows, length)?;
     let besides = comb.besides(rows);

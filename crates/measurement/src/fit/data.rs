@@ -1,4 +1,4 @@
-//! What was measured.
+//! Measured data.
 
 use thiserror::Error;
 
@@ -9,21 +9,21 @@ pub struct Track {
     pub x: Vec<f64>,
     /// Heights or forces, in any unit.
     pub y: Vec<f64>,
-    /// What one unit of the model is, if it is known, but for σ: k/a for heights (in units of height over length²), k for
-    /// forces. The gain is fitted where it is not.
+    /// Scale of the model in units of the data, without σ, if known: k/a for heights (in units of height over
+    /// length²), k for forces. An unknown gain is fitted.
     pub gain: Option<f64>,
-    /// How many rows, at even distances, each of these is the mean of.
+    /// Number of evenly spaced rows averaged into each of these.
     pub averaged: usize,
 }
 
 impl Track {
-    /// Rows as they were measured.
+    /// Rows without averaging.
     #[must_use]
     pub fn new(x: Vec<f64>, y: Vec<f64>, gain: Option<f64>) -> Self {
         Self { x, y, gain, averaged: 1 }
     }
 
-    /// Distance of the rows as they were measured.
+    /// Distance of the rows before averaging.
     pub(super) fn spacing(&self) -> f64 {
         let (first, last) = self
             .x
@@ -33,7 +33,7 @@ impl Track {
     }
 }
 
-/// The direction in which the tip moved over the positions of a track.
+/// Direction in which the tip moved along the positions of a track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scan {
     /// Towards larger positions.
@@ -54,80 +54,81 @@ impl Scan {
     }
 }
 
-/// Most rows of one file.
+/// Largest number of rows of one file.
 const MOST_ROWS: usize = 5_000_000;
-/// More rows than this are averaged in groups: a wavelength keeps dozens of them, and their noise falls as they grow fewer.
+/// Largest number of rows kept; more are averaged in groups, which keeps dozens of rows per wavelength and reduces
+/// their noise.
 const KEPT_ROWS: usize = 2048;
 
-/// What was measured, of one motion or of a series of them.
+/// Measured data of one motion or of a series of motions.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Data {
     /// Heights of the surface far behind the tip, along its path: `gain` ℓ² u(x/ℓ).
     Ripple(Track),
-    /// Lateral force over the way of the support: `gain` ℓ (lag).
+    /// Lateral force against the position of the support: `gain` ℓ (lag).
     Friction(Track),
-    /// A loop: `y` is the force forwards, the second column that backwards over the same positions.
+    /// A loop: `y` is the force on the trace, the second column that on the retrace over the same positions.
     Loop(Track, Vec<f64>),
-    /// Loads at which stick-slip sets in, at these velocities.
+    /// Loads at the onset of stick-slip, at these velocities.
     Onsets {
-        /// Of the support, in any unit.
+        /// Velocity of the support, in any unit.
         velocity: Vec<f64>,
-        /// In any unit: α is in proportion to it.
+        /// Load, in any unit; α is proportional to it.
         load: Vec<f64>,
     },
     /// Wavelengths of ripples at these velocities and loads.
     Wavelengths {
-        /// Of the support, in any unit.
+        /// Velocity of the support, in any unit.
         velocity: Vec<f64>,
-        /// In any unit: α is in proportion to it.
+        /// Load, in any unit; α is proportional to it.
         load: Vec<f64>,
-        /// In the unit of lengths.
+        /// Wavelength, in the unit of lengths.
         wavelength: Vec<f64>,
     },
 }
 
-/// Why data were refused.
+/// The reason why data were rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DataError {
-    /// Columns that are not finite, or not of one length.
+    /// Columns that are not finite, or of different lengths.
     #[error("row {row} is not finite, or not complete")]
     NotFinite {
-        /// Counted from 1.
+        /// Row, from 1.
         row: usize,
     },
     /// A velocity, load or wavelength that is not above 0.
     #[error("row {row}: velocities, loads and wavelengths must be above 0")]
     NotPositive {
-        /// Counted from 1.
+        /// Row, from 1.
         row: usize,
     },
-    /// More rows than are taken.
+    /// Too many rows.
     #[error("{rows} rows: at most {MOST_ROWS} are read; average neighbouring rows first")]
     Many {
-        /// In one of the data.
+        /// Number of rows in one data set.
         rows: usize,
     },
     /// Positions that are all the same.
     #[error("all positions are the same")]
     NoExtent,
-    /// A series at fewer places than numbers to fit.
+    /// A series at fewer places than parameters to fit.
     #[error(
         "{rows} rows at {places} different velocities and loads: {parameters} numbers need as many different ones at least"
     )]
     Places {
         /// Rows of the series.
         rows: usize,
-        /// Different ones among them.
+        /// Number of different velocities and loads.
         places: usize,
-        /// Numbers fitted.
+        /// Number of fitted parameters.
         parameters: usize,
     },
-    /// Fewer rows than numbers to fit.
+    /// Fewer rows than parameters to fit.
     #[error("{rows} rows are too few for {parameters} numbers")]
     Rows {
-        /// In all data.
+        /// Number of rows in all data.
         rows: usize,
-        /// Those fitted.
+        /// Number of fitted parameters.
         parameters: usize,
     },
 }
@@ -142,7 +143,7 @@ impl Data {
         }
     }
 
-    /// Phases that are searched.
+    /// Number of phases to search.
     pub(super) fn phases(&self) -> usize {
         match self {
             Self::Ripple(_) | Self::Friction(_) => 1,
@@ -151,7 +152,7 @@ impl Data {
         }
     }
 
-    /// Whether it says how high or strong the motion is, and not its shape alone.
+    /// Whether the data determine the size of the motion, and not only its shape.
     pub(super) fn has_gain(&self) -> bool {
         match self {
             Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => {
@@ -161,7 +162,7 @@ impl Data {
         }
     }
 
-    /// Numbers that are projected out: offset, slope, gain.
+    /// Number of linear parameters, which are projected out: offset, slope, gain.
     pub(super) fn linear(&self) -> usize {
         match self {
             Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => {
@@ -175,11 +176,10 @@ impl Data {
         self.phases() == 0
     }
 
-    /// The rows by ascending position, and where there are more than a few thousand the means of groups of
-    /// neighbours.
+    /// The rows by ascending position; if there are more than a few thousand, the means of groups of neighbours.
     ///
     /// # Errors
-    /// Rows that are not finite, not complete, or too many.
+    /// Rows that are not finite, incomplete, or too many.
     pub fn reduced(self) -> Result<Self, DataError> {
         self.judge()?;
         Ok(match self {
@@ -193,7 +193,7 @@ impl Data {
         })
     }
 
-    /// How many different velocities, or velocities and loads, a series has; `None` for a track.
+    /// Number of different velocities, or of velocities and loads, of a series; `None` for a track.
     pub(super) fn places(&self) -> Option<usize> {
         let mut places: Vec<(u64, u64)> = match self {
             Self::Onsets { velocity, .. } => velocity.iter().map(|v| (v.to_bits(), 0)).collect(),
@@ -234,7 +234,7 @@ impl Data {
     }
 }
 
-/// A track, and the way back of a loop, by ascending position and in groups.
+/// A track, and the retrace of a loop, by ascending position and averaged in groups.
 fn reduced(track: Track, back: Vec<f64>) -> (Track, Vec<f64>) {
     let Track { x, y, gain, averaged } = track;
     let mut order: Vec<usize> = (0..x.len()).collect();

@@ -1,4 +1,4 @@
-//! What a fit comes to.
+//! The result of a fit.
 
 use super::data::Scan;
 use super::likelihood::Fitted as FittedNumber;
@@ -9,45 +9,45 @@ use super::verdict::Judged;
 /// The best fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// Each number fitted.
+    /// The fitted parameters.
     pub numbers: Vec<FittedNumber>,
-    /// All numbers, the known ones too.
+    /// All parameters, including the known ones.
     pub values: Values,
-    /// Correlations of the logarithms of those fitted.
+    /// Correlations of the logarithms of the fitted parameters.
     pub correlations: Vec<Vec<f64>>,
-    /// What was fitted to each of the data.
+    /// The fit of each data set.
     pub parts: Vec<Part>,
-    /// Rows in all, and numbers fitted, offsets, slopes, gains and phases among them.
+    /// Total number of rows.
     pub rows: usize,
-    /// The latter.
+    /// Number of fitted parameters, including offsets, slopes, gains and phases.
     pub parameters: usize,
     /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
     pub alternatives: Vec<Alternative>,
-    /// The best fit with a depth limit, where the request leaves it out and the data do not exclude it at 95 %.
+    /// The best fit with a depth limit, if the request has none and the data do not exclude one at 95 %.
     pub with_depth_limit: Option<Alternative>,
-    /// Whether the model explains the data: intervals are given only where it does.
+    /// Whether the model explains the data: intervals are given only if it does.
     pub explained: bool,
-    /// Probability by chance of what one model leaves of several data; `None` of one.
+    /// Probability by chance of the joint residual of several data sets; `None` for a single one.
     pub joint: Option<f64>,
-    /// What should be known before it is believed.
+    /// Warnings about the result.
     pub remarks: Vec<String>,
 }
 
-/// Of one of the data, in its units.
+/// The fit of one data set, in its units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// The model at every row; of a loop forwards, then backwards. Loads at onset, or wavelengths, of a series.
+    /// The model at every row; for a loop trace, then retrace. For a series loads at onset, or wavelengths.
     pub model: Vec<f64>,
-    /// Standard deviation of what is left; of a series relative.
+    /// Standard deviation of the residuals; relative for a series.
     pub residual: f64,
-    /// Offset at position 0, slope, and gain, as far as there are such.
+    /// Offset at position 0, if fitted.
     pub offset: Option<f64>,
-    /// Per length.
+    /// Slope per length, if fitted.
     pub slope: Option<f64>,
-    /// Of an unknown one, over σ² for heights and over σ for forces.
+    /// Fitted gain, over σ² for heights and over σ for forces.
     pub gain: Option<f64>,
-    /// The direction of the scan; `None` of a series.
+    /// The direction of the scan; `None` for a series.
     pub scan: Option<Scan>,
-    /// Whether the model explains it.
+    /// Tests of the model against these data.
     pub judged: Judged,
 }

@@ -1,7 +1,7 @@
-//! Whether a surface that saturates explains the data as well.
+//! Test of a depth limit as an alternative explanation of the data.
 //!
-//! A depth limit makes ripples of nearly the shape that the basic law makes at another α and r, and heights of unknown
-//! gain tell the two apart by that shape alone. So the numbers are fitted once more with a depth limit.
+//! A depth limit gives ripples of nearly the same shape as the basic model at another α and r, and heights of unknown
+//! gain contain only this shape. Therefore the parameters are fitted once more with a depth limit.
 
 use super::data::Data;
 use super::likelihood::Around;
@@ -10,14 +10,14 @@ use super::problem::Problem;
 use super::rivals::Alternative;
 use crate::least_squares::minimum;
 
-/// α/αc and r from where the search begins if none is found near the best fit: the basic law may have its best fit in a
-/// valley of its own.
+/// α/αc and r of a second starting point, if the search from the best fit fails: the basic model may have its best
+/// fit in a separate valley.
 const ELSEWHERE: (f64, f64) = (1.15, 1.0);
-/// Depth limits that are tried, in kσ²/a: that of a surface a few ripples deep, and one that is hardly felt.
+/// Depth limits to try, in kσ²/a: that of a surface a few ripples deep, and one with a weak effect.
 const TRIED: [f64; 2] = [4.0, 16.0];
 
-/// The best fit with a depth limit, if the data do not exclude it at 95 % and it changes a number by more than half of
-/// its interval; `None` where the request says what the depth limit is, or the data have a gain.
+/// The best fit with a depth limit, if the data do not exclude it at 95 % and it changes a parameter by more than
+/// half of its interval; `None` if the request contains a depth limit, or the data have a gain.
 pub(super) fn with_depth_limit(problem: &Problem, around: &Around) -> Option<Alternative> {
     let name = Name::DepthLimit;
     let is_asked = problem.free.contains(&name) || problem.held.get(name).is_some();
@@ -44,7 +44,7 @@ pub(super) fn with_depth_limit(problem: &Problem, around: &Around) -> Option<Alt
     try_from(&best).or_else(|| try_from(&elsewhere(problem, &best)?))
 }
 
-/// A motion of the same wavelength at [`ELSEWHERE`].
+/// A model at [`ELSEWHERE`] with the same wavelength.
 fn elsewhere(problem: &Problem, best: &Values) -> Option<Values> {
     let r = problem.held.get(Name::R).unwrap_or(ELSEWHERE.1);
     let near = best.with(Name::R, r);

@@ -1,5 +1,5 @@
-//! 95 % intervals by profile likelihood: how far a number can be held off its best value before the rest, fitted anew,
-//! leaves too much.
+//! 95 % intervals by profile likelihood: the range over which a parameter can be fixed while the refitted residuals
+//! of the others stay below a limit.
 
 use super::parameters::Name;
 use super::problem::Problem;
@@ -9,58 +9,58 @@ use crate::least_squares::{Minimum, minimum, squares};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// A number as fitted.
+/// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// Which.
+    /// The parameter.
     pub name: Name,
-    /// With its interval; ends that the data do not exclude are 0 or infinite.
+    /// Estimate with interval; ends that the data do not exclude are 0 or infinite.
     pub estimate: Estimate,
-    /// Its profile: values, and the root of what each leaves over the best, less 1, times the degrees of freedom.
+    /// The profile: values, and the root of the relative excess of the sum of squares times the degrees of freedom.
     pub profile: Vec<(f64, f64)>,
 }
 
-/// A minimum that the data hardly exclude.
+/// Another minimum that the data hardly exclude.
 pub(super) struct Rival {
-    /// By how much more it leaves, in units of the variance of the noise.
+    /// Excess of the sum of squares over the best, in units of the variance of the noise.
     pub(super) behind: f64,
-    /// Logarithms of the numbers.
+    /// Logarithms of the parameters.
     pub(super) at: Vec<f64>,
-    /// Their deviations, if rows are independent.
+    /// Standard deviations of the parameters for independent rows.
     pub(super) deviations: Vec<f64>,
 }
 
-/// A number is followed to this many times, or part of, its best value.
+/// Largest factor between a parameter and its best value in a profile.
 const FARTHEST: f64 = 20.0;
-/// A number of a wider law that is next to unfelt where it is best, down to where it is.
+/// The same factor for a parameter of the extended model with little effect at its best value.
 const FARTHEST_OF_A_LAW: f64 = 1e5;
-/// Points on the way to an end.
+/// Largest number of points of a profile on either side.
 const MOST_POINTS: usize = 7;
-/// The root that is looked for is met to this.
+/// Tolerance of the root at the end of an interval.
 const MET: f64 = 0.02;
 
-/// The best fit, and how it may vary.
+/// The best fit, and its neighbourhood.
 pub(super) struct Around<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) best: &'a Minimum,
-    /// Derivatives of the residuals by what is searched.
+    /// Derivatives of the residuals by the searched parameters.
     pub(super) slopes: Vec<Vec<f64>>,
-    /// Of what is searched, if rows are independent and the variance is that of the residuals.
+    /// Covariance of the searched parameters for independent rows with the variance of the residuals.
     independent: DMatrix<f64>,
-    /// The same with the noise as it was judged.
+    /// Covariance of the same parameters with the estimated noise.
     pub(super) covariance: DMatrix<f64>,
-    /// Rows less numbers.
+    /// Degrees of freedom: rows minus parameters.
     pub(super) freedom: f64,
-    /// Half of a 95 % interval is so many standard deviations.
+    /// Half of a 95 % interval, in standard deviations.
     quantile: f64,
-    /// Mean squares by which other footprints that may be the tip's move each logarithm.
+    /// Mean squares of the change of each logarithm over other possible footprints.
     moved: Vec<f64>,
     /// Other minima that the data hardly exclude.
     rivals: Vec<Rival>,
 }
 
 impl<'a> Around<'a> {
-    /// `None` where the derivatives have no end.
+    /// The neighbourhood of a minimum; `None` if a derivative is not finite.
     pub(super) fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
         let slopes = problem.slopes(&best.residuals, &best.parameters)?;
         let columns: Vec<DVector<f64>> = slopes.iter().cloned().map(DVector::from_vec).collect();
@@ -86,7 +86,7 @@ impl<'a> Around<'a> {
         })
     }
 
-    /// With the noise as it was judged: (J'J)⁻¹ J'ΣJ (J'J)⁻¹, as of least squares that take no account of correlations.
+    /// Adds the estimated noise: (J'J)⁻¹ J'ΣJ (J'J)⁻¹, the covariance of least squares that ignore correlations.
     pub(super) fn judged(mut self, verdict: &Verdict) -> Self {
         let square = self.best.sum / self.freedom;
         let inverse = &self.independent / square.max(f64::MIN_POSITIVE);
@@ -95,7 +95,7 @@ impl<'a> Around<'a> {
         self
     }
 
-    /// With the error of a measured footprint: the logarithms fitted with others that may be the tip's.
+    /// Adds the error of a measured footprint, from fits with other possible footprints.
     pub(super) fn with_footprints(mut self, fitted: &[Minimum]) -> Self {
         if fitted.is_empty() {
             return self;
@@ -107,40 +107,40 @@ impl<'a> Around<'a> {
         self
     }
 
-    /// By how much noise is larger for this combination of rows than if they were independent.
+    /// Factor of the standard deviation of this parameter by correlation of the noise.
     fn factor(&self, i: usize) -> f64 {
         let ratio = self.covariance[(i, i)] / self.independent[(i, i)];
         if ratio.is_finite() && ratio > 0.0 { ratio.sqrt() } else { 1.0 }
     }
 
-    /// By how much more another minimum leaves than the best, in units of the variance of the noise.
+    /// Excess of the sum of squares at another minimum over the best, in units of the variance of the noise.
     pub(super) fn behind(&self, other: &Minimum) -> f64 {
         let count = self.problem.free.len();
         let square = (0..count).map(|i| self.factor(i).powi(2)).sum::<f64>() / count.max(1) as f64;
         (other.sum / self.best.sum - 1.0) * self.freedom / square
     }
 
-    /// With the minima that the data hardly exclude: intervals reach over theirs.
+    /// Adds the minima that the data hardly exclude, over which intervals are extended.
     pub(super) fn with_rivals(self, rivals: Vec<Rival>) -> Self {
         Self { rivals, ..self }
     }
 
-    /// By how much more a minimum may leave that 95 % intervals reach over.
+    /// Largest excess of a minimum that 95 % intervals include.
     pub(super) fn most(&self) -> f64 {
         self.quantile.powi(2)
     }
 
-    /// Of each number if rows are independent.
+    /// Standard deviation of each parameter for independent rows.
     pub(super) fn deviations(&self) -> Vec<f64> {
         (0..self.problem.free.len()).map(|i| self.independent[(i, i)].max(0.0).sqrt()).collect()
     }
 
-    /// Standard deviation of the logarithm of one that is searched.
+    /// Standard deviation of the logarithm of a searched parameter.
     pub(super) fn deviation(&self, i: usize) -> f64 {
         self.covariance[(i, i)].max(0.0).sqrt()
     }
 
-    /// Correlations of the numbers.
+    /// Correlations of the parameters.
     pub(super) fn correlations(&self) -> Vec<Vec<f64>> {
         let count = self.problem.free.len();
         let of = |i: usize, j: usize| {
@@ -152,7 +152,7 @@ impl<'a> Around<'a> {
         (0..count).map(|i| (0..count).map(|j| of(i, j)).collect()).collect()
     }
 
-    /// The interval of the i-th number.
+    /// The interval of the i-th parameter.
     pub(super) fn fitted(&self, i: usize) -> Fitted {
         let name = self.problem.free[i];
         let value = self.best.parameters[i].exp();
@@ -175,12 +175,12 @@ impl<'a> Around<'a> {
         Fitted { name, estimate, profile }
     }
 
-    /// A number is followed no farther than to this offset.
+    /// Largest offset of the logarithm of this parameter in a profile.
     fn farthest(&self, i: usize) -> f64 {
         if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln()
     }
 
-    /// An end with the error of the footprint, in quadrature, and over what other minima reach.
+    /// An end of an interval, extended in quadrature by the error of the footprint, and over other minima.
     fn farther(&self, i: usize, end: Option<f64>, side: f64) -> Option<f64> {
         let footprint = quantile(FOOTPRINTS) * self.moved[i].sqrt();
         let mut length = f64::hypot(end?, footprint);
@@ -195,14 +195,14 @@ impl<'a> Around<'a> {
         (length < self.farthest(i)).then_some(side * length)
     }
 
-    /// A number of which no interval is given.
+    /// The parameter without an interval.
     pub(super) fn without_interval(&self, i: usize) -> Fitted {
         let value = self.best.parameters[i].exp();
         let estimate = Estimate { value, low: 0.0, high: f64::INFINITY };
         Fitted { name: self.problem.free[i], estimate, profile: vec![(value, 0.0)] }
     }
 
-    /// The offset at which too much is left, and the points on the way there.
+    /// The offset at which the residual reaches the limit, and the points on the way there.
     fn end(&self, i: usize, side: f64) -> (Option<f64>, Vec<(f64, f64)>) {
         let wanted = self.quantile;
         let most = self.farthest(i);
@@ -242,7 +242,8 @@ impl<'a> Around<'a> {
         (outside.map(|_| offset), points)
     }
 
-    /// √((S/S0 - 1)(n - p)) with one number held at an offset of its logarithm, over what correlations make of it.
+    /// √((S/S0 - 1)(n - p)) with one parameter fixed at an offset of its logarithm, divided by the factor of
+    /// correlations.
     fn root(&self, i: usize, offset: f64) -> Option<f64> {
         let problem = self.problem;
         let others = problem.holding(i, (self.best.parameters[i] + offset).exp());
@@ -268,7 +269,8 @@ impl<'a> Around<'a> {
 /// Degrees of freedom of the mean squares over a few dozen footprints.
 const FOOTPRINTS: f64 = 23.0;
 
-/// 97.5 % of Student's distribution lie below, by bisection: `inverse_cdf` need not end for many degrees of freedom.
+/// 97.5 % quantile of Student's distribution, by bisection: `inverse_cdf` may not terminate for many degrees of
+/// freedom.
 fn quantile(freedom: f64) -> f64 {
     let Ok(law) = StudentsT::new(0.0, 1.0, freedom.clamp(1.0, 1e6)) else { return f64::INFINITY };
     let (mut low, mut high) = (1.9, 13.0);
@@ -279,7 +281,7 @@ fn quantile(freedom: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The combination of logarithms that the data feel least: its powers, the largest 1, and its deviation.
+/// The least determined combination of logarithms: its exponents, the largest being 1, and its standard deviation.
 pub(super) fn least_felt(around: &Around) -> Option<(Vec<f64>, f64)> {
     let count = around.problem.free.len();
     let part = around.covariance.view((0, 0), (count, count)).into_owned();
@@ -291,7 +293,7 @@ pub(super) fn least_felt(around: &Around) -> Option<(Vec<f64>, f64)> {
     Some((powers, found.eigenvalues[i].max(0.0).sqrt()))
 }
 
-/// Σ of squares with the rows weighted no more.
+/// Sum of squares with the weights of the rows removed.
 pub(super) fn plain(residuals: &[f64], weights: &[f64]) -> f64 {
     squares(&residuals.iter().zip(weights).map(|(r, w)| r / w.max(1e-6)).collect::<Vec<f64>>())
 }
@@ -300,7 +302,7 @@ pub(super) fn plain(residuals: &[f64], weights: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Abramowitz and Stegun, table 26.10.
+    /// Comparison with Abramowitz and Stegun, table 26.10.
     #[test]
     fn quantiles_of_student_are_those_of_tables() {
         for (freedom, value) in [(1.0, 12.706), (2.0, 4.303), (10.0, 2.228), (1e9, 1.960)] {

@@ -1,7 +1,8 @@
-//! The numbers of the law from ripples, lateral forces, onsets and wavelengths: several data at once.
+//! Fit of the parameters of the model to ripples, lateral forces, onsets and wavelengths, combining several data
+//! sets.
 //!
-//! What is compared is the settled motion: the limit cycle at α and r, what it leaves and what it feels. Offsets,
-//! slopes and unknown gains are projected out; numbers are searched by their logarithms, phases in turns.
+//! The data are compared with the settled motion: the surface and the force of the limit cycle at α and r. Offsets,
+//! slopes and unknown gains are projected out; parameters are searched by their logarithms, phases in turns.
 
 mod comb;
 mod data;
@@ -36,57 +37,57 @@ use thiserror::Error;
 use verdict::Evidence;
 use wave::Cycles;
 
-/// What is to be fitted.
+/// Options of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitRequest {
-    /// Of the footprint.
+    /// Shape of the footprint.
     pub shape: Shape,
-    /// Numbers that are known.
+    /// Known parameters.
     pub known: Values,
-    /// Numbers to fit; where none are named, those that the data are about and that are not known.
+    /// Parameters to fit; by default those that the data determine and that are not known.
     pub free: Vec<Name>,
-    /// Whether rows far off count less (Huber 1964).
+    /// Whether outliers have a reduced weight (Huber 1964).
     pub robust: bool,
-    /// In which direction the tip moved over the positions; both are tried where it is not known.
+    /// Direction of the tip along the positions; both are tried if it is unknown.
     pub scan: Option<Scan>,
-    /// Footprints, each in its own σ, that the measurement of the shape leaves possible, drawn; none where it is exact.
+    /// Footprints, each in its own σ, drawn within the error of the measured shape; empty if it is exact.
     pub footprints: Vec<TipFunction>,
 }
 
-/// Why there is no fit.
+/// The reason why there is no fit.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FitError {
     /// Data that cannot be used.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// No number is free.
+    /// No parameter is free.
     #[error("nothing is to be fitted: leave one of the known numbers out")]
     Nothing,
-    /// Nothing that noise alone would not have.
+    /// No wave is stronger than expected from noise.
     #[error(
         "no regular ripple stands out: irregular noise alone has a wave as strong as the strongest one in {:.2} % of such data, and 0.01 % \
          is the limit; give a longer track of settled ripples, or one with less noise",
         100.0 * probability
     )]
     Noise {
-        /// Of a wave as strong in noise alone.
+        /// Probability of an equally strong wave in noise alone.
         probability: f64,
     },
-    /// No motion like it anywhere that was tried.
+    /// No motion that was tried resembles the data.
     #[error(
         "no motion of this footprint is like the data anywhere that was tried (r from 0.15 to 3, α from 1.01 to 1.6 αc): is it a settled ripple, by the tip that made it?"
     )]
     NoStart,
-    /// The work was asked to [`stop`].
+    /// The work was told to [`stop`].
     #[error("the fit was interrupted")]
     Stopped,
 }
 
-/// Rounds of Huber's weights, and the residual from which on a row counts less, in standard deviations.
+/// Rounds of Huber's weights, and the residual in standard deviations above which a row has a reduced weight.
 const ROUNDS: usize = 4;
 const HUBER: f64 = 1.345;
 
-/// Fits the numbers that are not known.
+/// Fits the parameters that are not known.
 ///
 /// # Errors
 /// Unusable data, nothing to fit, no start, or [`FitError::Stopped`].
@@ -96,7 +97,7 @@ pub fn fit(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     if stop::is_asked() { Err(FitError::Stopped) } else { found }
 }
 
-/// Noise alone has a wave as strong as this seldom enough.
+/// Largest probability of an equally strong wave in noise alone at which a track is accepted.
 const NOISE: f64 = 1e-4;
 
 fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
@@ -138,7 +139,7 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     settled(&problem, best, others, request)
 }
 
-/// Rows enough, and at places enough.
+/// Checks that there are enough rows, and enough different places.
 fn judge_counts(problem: &Problem) -> Result<(), DataError> {
     let (rows, parameters) = (problem.rows(), problem.parameters());
     if rows <= parameters {
@@ -151,7 +152,7 @@ fn judge_counts(problem: &Problem) -> Result<(), DataError> {
     }
 }
 
-/// Refuses tracks none of which has a ripple that noise alone would not have.
+/// Rejects tracks if none has a ripple that is stronger than expected from noise.
 fn judge_noise(data: &[Data]) -> Result<(), FitError> {
     let mut least: Option<f64> = None;
     let mut tracks = 0.0;
@@ -172,7 +173,7 @@ fn judge_noise(data: &[Data]) -> Result<(), FitError> {
     }
 }
 
-/// The best fit made sure of, and judged.
+/// The best fit, refined and tested.
 fn settled(
     problem: &Problem,
     best: Minimum,
@@ -229,7 +230,7 @@ fn settled(
     Ok(fit)
 }
 
-/// Less scatter than this, over the values of a series, is round-off: it says nothing of their errors.
+/// Smallest relative scatter of a series; less is round-off and gives no error estimate.
 const EXACT: f64 = 1e-7;
 
 /// The wavelength of the ripples, in the unit of the data.
@@ -239,7 +240,7 @@ fn length(problem: &Problem, values: &Values) -> Option<f64> {
     Some(waves.ripple.wavelength * values.get(Name::Width)?)
 }
 
-/// Those asked for, or those that the data are about.
+/// The requested parameters, or those that the data determine.
 fn free(data: &[Data], request: &FitRequest) -> Vec<Name> {
     let tracks = data.iter().any(|data| !data.is_series());
     let lengths = data.iter().any(|data| !matches!(data, Data::Onsets { .. }));
@@ -254,7 +255,7 @@ fn free(data: &[Data], request: &FitRequest) -> Vec<Name> {
     Name::ALL.into_iter().filter(wanted).filter(|name| request.known.get(*name).is_none()).collect()
 }
 
-/// A scale of the residuals before anything is known of them.
+/// An initial scale of the residuals.
 fn first_noise(data: &Data) -> f64 {
     match data {
         Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => {
@@ -266,7 +267,7 @@ fn first_noise(data: &Data) -> f64 {
     }
 }
 
-/// What each of the data leaves sets its noise; and, if rows far off are to count less, their weights.
+/// Sets the noise of each data set from its residuals, and the weights of outliers if requested.
 fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
     let mut from = 0;
     for (i, data) in problem.data.iter().enumerate() {
@@ -292,7 +293,7 @@ fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
     }
 }
 
-/// Half of a normal distribution is within so many standard deviations.
+/// Median of the absolute value of a standard normal variable.
 const MEDIAN_OF_NORMAL: f64 = 0.674_489_75;
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -300,7 +301,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// What was fitted to each of the data.
+/// The fit of each data set.
 fn parts(problem: &Problem, best: &Minimum, judged: &[Judged]) -> Vec<Part> {
     let Some(found) = problem.parts(&best.parameters) else { return vec![] };
     let share = problem.data.len() as f64;

@@ -1,33 +1,34 @@
-//! Noise of which neighbouring rows may be correlated, as an autoregressive process.
+//! Noise with correlated neighbouring rows, as an autoregressive process.
 //!
 //! ```text
 //!     e_i + a_1 e_(i-1) + … + a_p e_(i-p) = w_i,   w white
 //! ```
 //!
-//! Burg's (1967) method fits the coefficients; Akaike's criterion, corrected for few rows (Hurvich and Tsai 1989),
-//! chooses p. Rows are counted, not positions: instruments sample at even times.
+//! Burg's (1967) method estimates the coefficients; Akaike's criterion, corrected for few rows (Hurvich and Tsai
+//! 1989), selects p. Lags are counted in rows, not in positions, because instruments sample at even times.
 
 use std::ops::Range;
 
-/// Covariances of the rows of one track.
+/// Covariance matrix of the rows of one track.
 #[derive(Debug, Clone)]
 pub(super) struct Noise {
-    /// γ(0), γ(1), …, up to where nothing is left.
+    /// γ(0), γ(1), …, truncated where they are negligible.
     covariances: Vec<f64>,
-    /// Rows of one line of the track each: correlations do not reach from one to another.
+    /// Ranges of rows for each line of the track; different lines are uncorrelated.
     lines: Vec<Range<usize>>,
 }
 
-/// Highest order that is tried.
+/// Largest order.
 const MOST: usize = 20;
-/// By how much the criterion must fall before rows count as correlated at all.
+/// Smallest decrease of the criterion at which rows count as correlated.
 const GAIN: f64 = 6.0;
-/// Covariances below this part of the variance, for as many rows as the order has, are left out.
+/// Covariances below this fraction of the variance, for as many lags as the order, are omitted.
 const NOTHING: f64 = 1e-3;
 
 impl Noise {
-    /// Of residuals of a regression on periodic columns: `removed` numbers were fitted, out of `within` that waves as
-    /// long as the columns' have in all. The estimated spectrum is raised by what the regression took from it.
+    /// The noise from residuals of a regression on periodic columns: `removed` parameters were fitted, out of the
+    /// `within` degrees of freedom at these wave numbers. The estimated spectrum is raised to compensate for the
+    /// regression.
     pub(super) fn of(
         residuals: &[f64],
         lines: &[Range<usize>],
@@ -55,7 +56,7 @@ impl Noise {
         Self { covariances: vec![variance], lines: one_line(rows) }
     }
 
-    /// The same with an independent error of this variance in every row.
+    /// The noise plus an independent error of this variance in every row.
     pub(super) fn and(mut self, variance: f64) -> Self {
         self.covariances[0] += variance;
         self
@@ -71,7 +72,7 @@ impl Noise {
         self.covariances[0].max(0.0).sqrt()
     }
 
-    /// As many independent rows tell as much of a mean: n over the integral correlation length.
+    /// Number of independent rows with the same error of the mean: n over the integral correlation length.
     pub(super) fn effective(&self) -> f64 {
         let rows = self.lines.iter().map(Range::len).sum::<usize>() as f64;
         let sum: f64 = self.covariances[1..].iter().sum();
@@ -79,7 +80,7 @@ impl Noise {
         (rows / length).clamp(1.0, rows)
     }
 
-    /// Σ v.
+    /// The product Σ v.
     pub(super) fn times(&self, v: &[f64]) -> Vec<f64> {
         let mut product: Vec<f64> = v.iter().map(|v| self.covariances[0] * v).collect();
         for line in &self.lines {
@@ -95,12 +96,12 @@ impl Noise {
     }
 }
 
-/// All rows are of one line.
+/// A single line that contains all rows.
 pub(super) fn one_line(rows: usize) -> Vec<Range<usize>> {
     std::iter::once(0..rows).collect()
 }
 
-/// Burg's reflection coefficients of the order that the criterion chooses.
+/// Burg's reflection coefficients of the order selected by the criterion.
 fn reflections(residuals: &[f64], lines: &[Range<usize>]) -> Vec<f64> {
     let rows = residuals.len() as f64;
     let mut forward: Vec<Vec<f64>> = lines.iter().map(|l| residuals[l.clone()].to_vec()).collect();
@@ -180,7 +181,8 @@ mod tests {
         }
     }
 
-    /// Of e_i = ρ e_(i-1) + w_i: γ(h) = ρ^h/(1 - ρ²), and n (1 - ρ)/(1 + ρ) rows tell as much as n.
+    /// For e_i = ρ e_(i-1) + w_i: γ(h) = ρ^h/(1 - ρ²), and n rows have the information of n (1 - ρ)/(1 + ρ)
+    /// independent ones.
     #[test]
     fn a_process_of_first_order_is_recovered() {
         let (rho, rows) = (0.8_f64, 20_000);

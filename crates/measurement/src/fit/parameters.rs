@@ -1,23 +1,23 @@
-//! What is fitted of the law, and what is known of it.
+//! Parameters to fit, and known parameters.
 
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// A number of the law. All are above 0 and searched by their logarithms.
+/// A parameter of the model. All are positive, and searched by their logarithms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Name {
-    /// α.
+    /// α, dimensionless indentation rate.
     Alpha,
-    /// r.
+    /// r, dimensionless support velocity.
     R,
     /// σ, in the unit of the positions.
     Width,
     /// β of the triple Gaussian.
     Beta,
-    /// b, in kσ²/a.
+    /// Depth limit b, in kσ²/a.
     DepthLimit,
-    /// T, in Γ/k.
+    /// Healing time T, in Γ/k.
     HealingTime,
-    /// M, in Γ²/k.
+    /// Inertia M, in Γ²/k.
     Inertia,
     /// α per load, in a series at several loads.
     AlphaPerLoad,
@@ -26,7 +26,7 @@ pub enum Name {
 }
 
 impl Name {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 9] = [
         Self::Alpha,
         Self::R,
@@ -39,12 +39,12 @@ impl Name {
         Self::RPerVelocity,
     ];
 
-    /// Whether it is one of what a wider law has besides.
+    /// Whether it is a parameter of the extended model only.
     pub(super) fn is_of_a_law(self) -> bool {
         matches!(self, Self::DepthLimit | Self::HealingTime | Self::Inertia)
     }
 
-    /// As in documents.
+    /// The name in documents.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -64,36 +64,36 @@ impl Name {
 /// The shape of the footprint, in its own σ.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// A tip that is known.
+    /// A known tip.
     Known(TipFunction),
-    /// The triple Gaussian (48), its β one of the numbers.
+    /// The triple Gaussian (48), with β as a parameter.
     Triple,
 }
 
-/// A value of each number, if it has one.
+/// Values of the parameters; a parameter may have none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Values([Option<f64>; 9]);
 
 impl Values {
-    /// Of one of them.
+    /// The value of a parameter.
     #[must_use]
     pub fn get(&self, name: Name) -> Option<f64> {
         self.0[name as usize]
     }
 
-    /// Sets one.
+    /// Sets the value of a parameter.
     pub fn set(&mut self, name: Name, value: f64) {
         self.0[name as usize] = Some(value);
     }
 
-    /// The same with one more.
+    /// A copy with one more value.
     #[must_use]
     pub fn with(mut self, name: Name, value: f64) -> Self {
         self.set(name, value);
         self
     }
 
-    /// The model at this α and r; `None` where there is none.
+    /// The model at this α and r; `None` if the values are invalid.
     pub(super) fn model(&self, shape: &Shape, alpha: f64, r: f64) -> Option<Model> {
         let tip = match shape {
             Shape::Known(tip) => tip.clone(),

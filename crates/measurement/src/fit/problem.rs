@@ -1,4 +1,4 @@
-//! The residuals of all data together, as a function of what is searched.
+//! The residuals of all data sets, as a function of the searched parameters.
 
 use super::data::{Data, Scan, Track};
 use super::parameters::{Name, Shape, Values};
@@ -7,39 +7,40 @@ use crate::least_squares::{Minimum, Residuals, differences, forward, minimum};
 use crate::projection::{Projected, project};
 use stickslip_stability::critical;
 
-/// What is fitted to what.
+/// A fit problem: data, model and parameters.
 #[derive(Clone)]
 pub(super) struct Problem<'a> {
     pub(super) shape: &'a Shape,
     pub(super) data: &'a [Data],
-    /// Numbers that are known, or held.
+    /// Known or fixed parameters.
     pub(super) held: Values,
-    /// Numbers that are searched, in this order.
+    /// Searched parameters, in order.
     pub(super) free: Vec<Name>,
-    /// Standard deviation of the noise of each of the data.
+    /// Standard deviation of the noise of each data set.
     pub(super) noise: Vec<f64>,
-    /// Of every row, the root of its weight.
+    /// Square root of the weight of each row.
     pub(super) weights: Vec<Vec<f64>>,
     pub(super) cycles: &'a Cycles,
-    /// Whether α is searched by α/αc(r) - 1: there are no ripples below onset, and a search would run against that
-    /// wall at every other step.
+    /// Whether α is searched by α/αc(r) - 1: there are no ripples below onset, and a search in α would often step
+    /// beyond this limit.
     pub(super) by_excess: bool,
-    /// Of each of the data.
+    /// Direction of the scan of each data set.
     pub(super) scans: Vec<Scan>,
 }
 
-/// Columns, and what of the data they are to make up.
+/// Columns, and the data to be represented by them.
 type Columns = (Vec<Vec<f64>>, Vec<f64>);
 
-/// Where motions are looked for.
+/// Range of α/αc - 1 in the search.
 const EXCESSES: std::ops::RangeInclusive<f64> = 1e-4..=5.0;
 const RS: std::ops::RangeInclusive<f64> = 0.03..=20.0;
 
-/// Step of ln α and ln r: cycles are known to 1e-7 or so.
+/// Step of ln α and ln r in differences; the error of cycles is about 1e-7.
 const STEP: f64 = 5e-4;
 
 impl Problem<'_> {
-    /// The numbers; searched are their logarithms, then the phases in turns. `None` beyond what motions there are.
+    /// The parameters for these search variables: logarithms, then phases in turns. `None` outside of the range of
+    /// motions.
     pub(super) fn values(&self, searched: &[f64]) -> Option<Values> {
         let mut values = self.held;
         self.free.iter().zip(searched).for_each(|(name, v)| values.set(*name, v.exp()));
@@ -56,14 +57,14 @@ impl Problem<'_> {
         Some(values)
     }
 
-    /// Whether σ is searched by the wavelength that it makes: the data know that at once, and α and r alter but the
-    /// shape of the wave then.
+    /// Whether σ is searched by the resulting wavelength: the data determine that directly, and α and r then change
+    /// only the shape of the wave.
     fn by_wavelength(&self) -> bool {
         let tracks = self.data.iter().any(|data| !data.is_series());
         self.by_excess && tracks && self.free.contains(&Name::Width)
     }
 
-    /// The same with the i-th of the numbers held.
+    /// The problem with the i-th parameter fixed.
     pub(super) fn holding(&self, i: usize, value: f64) -> Self {
         let held = self.held.with(self.free[i], value);
         let mut free = self.free.clone();
@@ -71,13 +72,13 @@ impl Problem<'_> {
         Self { held, free, ..self.clone() }
     }
 
-    /// In σ.
+    /// The wavelength, in σ.
     pub(super) fn wavelength(&self, values: &Values) -> Option<f64> {
         let (alpha, r) = (values.get(Name::Alpha)?, values.get(Name::R)?);
         Some(self.cycles.waves(&values.model(self.shape, alpha, r)?)?.ripple.wavelength)
     }
 
-    /// What is searched for these values, phases apart; `None` where one is missing, or below onset.
+    /// The search variables for these values, without phases; `None` if one is missing, or below onset.
     pub(super) fn searched_for(&self, values: &Values) -> Option<Vec<f64>> {
         let of = |name: &Name| {
             let value = values.get(*name)?;
@@ -94,12 +95,12 @@ impl Problem<'_> {
         self.free.iter().map(of).collect()
     }
 
-    /// How many are searched: the numbers, and a phase of each track.
+    /// Number of search variables: the parameters, and a phase of each track.
     pub(super) fn searched(&self) -> usize {
         self.free.len() + self.data.iter().map(Data::phases).sum::<usize>()
     }
 
-    /// All numbers that are fitted, those projected out among them.
+    /// Number of all fitted parameters, including those projected out.
     pub(super) fn parameters(&self) -> usize {
         self.searched() + self.data.iter().map(Data::linear).sum::<usize>()
     }
@@ -108,7 +109,7 @@ impl Problem<'_> {
         self.data.iter().map(Data::rows).sum()
     }
 
-    /// Of each of the data what is projected, in units of its noise, and weighted.
+    /// The projection of each data set, in units of its noise, and weighted.
     pub(super) fn parts(&self, searched: &[f64]) -> Option<Vec<Projected>> {
         let values = self.values(searched)?;
         let mut phases = searched[self.free.len()..].iter().copied();
@@ -124,7 +125,7 @@ impl Problem<'_> {
         self.data.iter().enumerate().map(part).collect()
     }
 
-    /// The columns of the i-th of the data that are projected out, in units of its noise, and weighted.
+    /// The columns of the i-th data set that are projected out, in units of its noise, and weighted.
     pub(super) fn linear(&self, searched: &[f64], i: usize) -> Option<Vec<Vec<f64>>> {
         let values = self.values(searched)?;
         let before: usize = self.data[..i].iter().map(Data::phases).sum();
@@ -132,7 +133,7 @@ impl Problem<'_> {
         Some(self.weighted(i, &values, phases)?.0)
     }
 
-    /// Columns and the rest, in units of the noise, and weighted.
+    /// Columns and data, in units of the noise, and weighted.
     fn weighted(&self, i: usize, values: &Values, phases: &[f64]) -> Option<Columns> {
         let (columns, rest) = self.columns((&self.data[i], self.scans[i]), values, phases)?;
         let scaled = |column: Vec<f64>| -> Vec<f64> {
@@ -141,7 +142,7 @@ impl Problem<'_> {
         Some((columns.into_iter().map(scaled).collect(), scaled(rest)))
     }
 
-    /// The columns that data are a sum of, and what of the data is to be made up by them.
+    /// The columns of the linear model of the data, and the data to be represented by them.
     fn columns(
         &self,
         (data, scan): (&Data, Scan),
@@ -204,7 +205,7 @@ impl Problem<'_> {
         }
     }
 
-    /// αc and the wavelength there.
+    /// αc and the wavelength at αc.
     pub(super) fn onset(&self, values: &Values, r: f64) -> Option<(f64, f64)> {
         let model = values.model(self.shape, 1.0, r)?;
         let found = critical(model.wider(), model.tip(), r).ok()?;
@@ -212,8 +213,8 @@ impl Problem<'_> {
     }
 }
 
-/// The wave, less its mean, along positions; the phase is where the crest of its first harmonic is, in turns from the
-/// middle, where it depends least on the wavelength; the direction is 1 or -1.
+/// The wave minus its mean at these positions. The phase is the position of the crest of its first harmonic, in turns
+/// from the middle, where it depends least on the wavelength; the direction is 1 or -1.
 fn along(wave: &Wave, track: &Track, width: f64, (phase, direction): (f64, f64)) -> Vec<f64> {
     let (first, last) = ends(&track.x);
     let middle = 0.5 * (first + last);
@@ -222,7 +223,7 @@ fn along(wave: &Wave, track: &Track, width: f64, (phase, direction): (f64, f64))
     track.x.iter().map(|x| wave.at(direction * (x - middle) / width - moved)).collect()
 }
 
-/// Offset, slope and, unless the gain is known, the model.
+/// Columns of offset, slope and, unless the gain is known, the model.
 fn track_columns(track: &Track, model: Vec<f64>, size: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
     let (first, last) = ends(&track.x);
     let slope = track.x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
@@ -244,7 +245,7 @@ pub(super) fn ends(x: &[f64]) -> (f64, f64) {
 }
 
 impl Problem<'_> {
-    /// The best fit with all numbers by their logarithms, as intervals are given.
+    /// The best fit with all parameters as logarithms, in which intervals are computed.
     pub(super) fn by_logarithms(&self, best: &Minimum) -> Option<(Self, Minimum)> {
         let values = self.values(&best.parameters)?;
         let problem = Self { by_excess: false, ..self.clone() };
@@ -255,7 +256,7 @@ impl Problem<'_> {
         Some((problem, best))
     }
 
-    /// Derivatives at the best place, better than those on the way.
+    /// Derivatives at the best fit, more accurate than those of the search.
     pub(super) fn slopes(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
         differences(self, (here, searched), STEP)
     }

@@ -1,4 +1,4 @@
-//! What should be known of a fit before it is believed, in words.
+//! Warnings about a fit, in words.
 
 use super::found::{Fit, Part};
 use super::likelihood::{Around, Fitted, least_felt};
@@ -6,13 +6,13 @@ use super::parameters::{Name, Values};
 use super::problem::Problem;
 use super::verdict::{CHANGE, MISFIT};
 
-/// An interval whose ends are this many times apart says little.
+/// Ratio of the ends of an interval above which it is reported as wide.
 const WIDE: f64 = 3.0;
-/// Powers below this are left out of a combination.
+/// Smallest exponent listed in a combination of parameters.
 const NO_POWER: f64 = 0.15;
-/// Rows that count for less than this part of them are correlated.
+/// Ratio of effective to actual rows below which rows are reported as correlated.
 const CORRELATED: f64 = 0.7;
-/// Fewer wavelengths do not show whether ripples change.
+/// Smallest number of wavelengths that shows changes of the ripples.
 const FEW: f64 = 3.0;
 
 pub(super) fn remarks(
@@ -128,7 +128,7 @@ fn depth_limit(remarks: &mut Vec<String>, problem: &Problem, fit: &Fit) {
     ));
 }
 
-/// The numbers fitted, as they are elsewhere.
+/// The fitted parameters, as text.
 fn numbers(problem: &Problem, values: &Values) -> String {
     let number = |name: &Name| Some(format!("{} = {:.4}", name.word(), values.get(*name)?));
     problem.free.iter().filter_map(number).collect::<Vec<String>>().join(", ")

@@ -1,18 +1,19 @@
-//! Numbers of a wider law that the data do not feel are brought back from where they ran off to.
+//! Parameters of the extended model that diverged without an effect on the data are reduced to the range in which
+//! they have one.
 //!
-//! A search may end with a healing time of 1e30: next to nothing is felt of it there, nor of any change of it, so that neither
-//! its own interval is found from there nor what the others could be with a shorter one.
+//! A search may end with a healing time of 1e30, where neither this value nor a change of it has an effect: from
+//! there its interval cannot be found, nor those of other parameters at shorter healing times.
 
 use super::parameters::Name;
 use super::problem::Problem;
 use crate::least_squares::{Minimum, minimum};
 
-/// χ² that may be lost on the way back.
+/// Largest increase of χ² by the reduction.
 const LOST: f64 = 0.05;
-/// Steps, each by a factor of 2.
+/// Largest number of steps, each by a factor of 2.
 const MOST_STEPS: usize = 24;
 
-/// The best fit, or one that is next to as good, with such numbers as near as that to where they are felt.
+/// The best fit, or a nearly equal one with such parameters reduced as far as possible.
 pub(super) fn retreated(problem: &Problem, mut best: Minimum) -> Minimum {
     let freedom = (problem.rows() as f64 - problem.parameters() as f64).max(1.0);
     for (i, name) in problem.free.iter().enumerate() {
@@ -39,7 +40,7 @@ pub(super) fn retreated(problem: &Problem, mut best: Minimum) -> Minimum {
     best
 }
 
-/// The best fit with the i-th number held, begun from `best`.
+/// The best fit with the i-th parameter fixed, started from `best`.
 fn held_at(problem: &Problem, best: &Minimum, i: usize, at: f64) -> Option<Minimum> {
     let mut others = best.parameters.clone();
     others.remove(i);

@@ -1,4 +1,4 @@
-//! Other minima than the best, and those of other footprints.
+//! Other minima than the best, and fits with other footprints.
 
 use super::data::Scan;
 use super::likelihood::{Around, Rival};
@@ -12,25 +12,25 @@ use stickslip_tip::TipFunction;
 /// Another motion that the data do not exclude.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alternative {
-    /// All numbers, the known ones too.
+    /// All parameters, including the known ones.
     pub values: Values,
-    /// Directions of the scans of each of the data.
+    /// Direction of the scan of each data set.
     pub scans: Vec<Scan>,
-    /// By how much more than the best it leaves, in units of the variance of the noise.
+    /// Excess of the sum of squares over the best, in units of the variance of the noise.
     pub behind: f64,
 }
 
-/// By how much more a minimum may leave to be told: 99.7 % of χ² of one number are below.
+/// Largest excess of a minimum that is reported: the 99.7 % quantile of χ² with one degree of freedom.
 const TOLD: f64 = 9.0;
-/// The same before it is known how far rows are correlated: those that leave more are not followed.
+/// Largest relative excess of the sum of squares at which a minimum is refined, before correlations are known.
 const FOLLOWED: f64 = 0.25;
-/// Most that are followed.
+/// Largest number of refined minima.
 const MOST: usize = 3;
-/// Logarithms nearer than this, in deviations or as they are, are of one minimum.
+/// Difference of logarithms, absolute or in standard deviations, below which two minima count as the same.
 const SAME: f64 = 0.3;
 const EQUAL: f64 = 5e-3;
 
-/// Minima that leave about as much as the best, each once; directions and place.
+/// All different minima with about the same residual as the best, with their directions and positions.
 pub(super) fn found(
     problem: &Problem,
     best: &Minimum,
@@ -72,7 +72,7 @@ pub(super) fn found(
     found
 }
 
-/// Those that the data do not exclude, as intervals see them and as they are told.
+/// The minima that the data do not exclude, for intervals and for the report.
 pub(super) fn judged(
     problem: &Problem,
     around: &Around,
@@ -104,7 +104,7 @@ pub(super) fn judged(
     (rivals, told)
 }
 
-/// The fits by other footprints, each begun as far above its own onset as the best is above its.
+/// The fits with other footprints, each started at the same relative distance from onset as the best fit.
 pub(super) fn with_footprints(
     problem: &Problem,
     best: &Minimum,

@@ -1,4 +1,4 @@
-//! Where a search begins, found from the data: a wavelength, and a lattice of motions.
+//! Starting points of a search, from the data: a wavelength, and a grid of motions.
 
 use super::data::{Data, Scan, Track};
 use super::parameters::{Name, Values};
@@ -9,23 +9,23 @@ use std::f64::consts::TAU;
 use stickslip_stability::critical;
 use stickslip_tip::Wider;
 
-/// r, and α over αc, of the motions that are tried where they are not known.
+/// Values of r, and of α over αc, that are tried if they are unknown.
 const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
 const OVER: [f64; 6] = [1.01, 1.04, 1.1, 1.2, 1.35, 1.6];
-/// Places of the wave that are tried about the one that its first harmonic says.
+/// Phases that are tried, in turns relative to that of the first harmonic.
 const PHASES: [f64; 3] = [0.0, -0.06, 0.06];
-/// The best of them that are followed, each of another r; more where a number of a wider law is free, which makes valleys
-/// of its own.
+/// Number of best starting points that are refined, each with a different r; larger if a parameter of the extended
+/// model is free, which creates further valleys.
 const FOLLOWED: usize = 3;
 const FOLLOWED_UNDER_A_LAW: usize = 6;
 
-/// A point from which to search, and the directions of the scans there.
+/// A starting point, with the directions of the scans.
 pub(super) struct Start {
     pub(super) scans: Vec<Scan>,
     pub(super) searched: Vec<f64>,
 }
 
-/// Points from which to search, for every combination of the directions in which the tip may have moved.
+/// Starting points for every combination of possible directions of the tip.
 pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>) -> Vec<Start> {
     let ways: Vec<Problem> = ways(problem.data, asked)
         .into_iter()
@@ -47,7 +47,7 @@ pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>
     chosen.collect()
 }
 
-/// The most promising ones, each of another r.
+/// The most promising starting points, each with a different r.
 fn chosen(problem: &Problem, mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_of_a_law = problem.free.iter().any(|name| name.is_of_a_law());
@@ -66,10 +66,10 @@ fn chosen(problem: &Problem, mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> 
     chosen
 }
 
-/// Tracks whose directions are tried one by one; of more all are taken to be the same.
+/// Largest number of tracks whose directions are varied separately; for more, all directions are the same.
 const ONE_BY_ONE: usize = 3;
 
-/// Every combination of directions.
+/// All combinations of directions.
 fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
     if let Some(scan) = asked {
         return vec![vec![scan; data.len()]];
@@ -88,7 +88,7 @@ fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
     found
 }
 
-/// The wavelength of the first track, and among how many it is the strongest.
+/// The wavelength of the first track, and the number of wavelengths among which it is the strongest.
 pub(super) fn measured(data: &[Data]) -> Option<f64> {
     data.iter().find_map(|data| match data {
         Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => wavelength(track),
@@ -96,7 +96,7 @@ pub(super) fn measured(data: &[Data]) -> Option<f64> {
     })
 }
 
-/// Values of the free numbers.
+/// Grid of values of the free parameters.
 fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
     let is_free = |name: Name| problem.free.contains(&name);
     let mut found = vec![problem.held];
@@ -147,7 +147,7 @@ fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
     motions
 }
 
-/// r and α of a series over its velocities and loads, in the middle of what ripples have.
+/// r and α of a series at its velocities and loads, in the middle of the range of ripples.
 fn of_series(problem: &Problem, values: Values) -> Vec<Values> {
     let rows = problem.data.iter().find_map(|data| match data {
         Data::Onsets { velocity, load } => Some((velocity, load, None)),
@@ -182,7 +182,7 @@ fn of_series(problem: &Problem, values: Values) -> Vec<Values> {
     found.collect()
 }
 
-/// The values as they are searched, each track where its first harmonic has its crest.
+/// The search variables for these values, with the phase of each track from its first harmonic.
 fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
     let mut start = problem.searched_for(values)?;
     if problem.data.iter().all(Data::is_series) {
@@ -220,8 +220,8 @@ fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
     moved.min_by(|a, b| left(a).total_cmp(&left(b)))
 }
 
-/// What a wave of one harmonic with this many turns per length leaves, and where it has its crest, in turns from the
-/// middle.
+/// The residual of a wave of one harmonic with this many turns per length, and the position of its crest in turns
+/// from the middle.
 fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
     let (first, last) = ends(x);
     let slope = x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
@@ -233,19 +233,19 @@ fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
     Some((squares(&found.residuals), crest))
 }
 
-/// Turns over the extent that are tried, and steps of them.
+/// Smallest number of turns over the extent, and the step between numbers that are tried.
 const FEWEST_TURNS: f64 = 1.25;
 const STEPS_A_TURN: f64 = 6.0;
 const MOST_TURNS: f64 = 300.0;
-/// Rows that are enough for a wavelength.
+/// Number of rows that is sufficient for a wavelength.
 const ENOUGH: usize = 1500;
 
-/// How many different wavelengths are looked at in a track.
+/// Number of different wavelengths tried for a track.
 pub(super) fn trials(track: &Track) -> f64 {
     (0.25 * track.x.len() as f64).min(MOST_TURNS) * 2.0
 }
 
-/// The wavelength whose first harmonic leaves least of a track.
+/// The wavelength whose first harmonic gives the smallest residual of a track.
 pub(super) fn wavelength(track: &Track) -> Option<f64> {
     let every = track.x.len().div_ceil(ENOUGH).max(1);
     let thin = |v: &[f64]| v.iter().step_by(every).copied().collect::<Vec<f64>>();

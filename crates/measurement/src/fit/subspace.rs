@@ -1,12 +1,13 @@
-//! Tests of a residual against noise in the directions that some columns add to others.
+//! Tests of a residual against noise in the directions that some columns add to the span of others.
 
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-/// A column of which less than this part is beyond the others adds no direction.
+/// Smallest fraction of a column outside of the span of the others that adds a direction.
 const PART: f64 = 1e-5;
 
-/// An orthonormal basis of what `more` adds to the span of `base`, by Gram and Schmidt's method, done twice.
+/// An orthonormal basis of the directions that `more` adds to the span of `base`, by the Gram-Schmidt method, applied
+/// twice.
 pub(super) fn beyond(base: &[Vec<f64>], more: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = vec![];
     let mut given = 0;
@@ -35,8 +36,8 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The mean square along orthonormal directions in units of its expectation: d'(Q'ΣQ + mean of s s')⁻¹d/m, d = Q'r. `times`
-/// is the product with the covariance Σ of the noise; the s are draws of a further error of the model.
+/// The mean square along orthonormal directions in units of its expectation: d'(Q'ΣQ + mean of s s')⁻¹d/m, d = Q'r.
+/// `times` is the product with the covariance Σ of the noise; the s are samples of a further error of the model.
 pub(super) fn size(
     directions: &[Vec<f64>],
     residuals: &[f64],
@@ -59,13 +60,13 @@ pub(super) fn size(
     size.is_finite().then_some(size)
 }
 
-/// The probability that noise alone has this [`size`] or more along `count` directions, after Snedecor's F(`count`,
-/// `freedom`).
+/// The probability that noise alone gives this [`size`] or more in `count` directions, from the F distribution
+/// F(`count`, `freedom`).
 pub(super) fn by_noise(size: f64, count: usize, freedom: f64) -> Option<f64> {
     FisherSnedecor::new(count as f64, freedom.clamp(2.0, 1e6)).ok().map(|law| law.sf(size))
 }
 
-/// Both together.
+/// The probability of the [`size`] of this residual by noise.
 pub(super) fn probability(
     directions: &[Vec<f64>],
     residuals: &[f64],

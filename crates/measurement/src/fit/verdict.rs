@@ -1,7 +1,7 @@
-//! Does the model explain the data, and how much do they tell?
+//! Test of the model against the data, and the amount of information in the data.
 //!
-//! Noise is judged by what does not repeat itself with the wavelength, whatever the model. What does repeat itself and
-//! the model leaves is its error; so is what repeats itself with twice the wavelength, or changes along the track.
+//! Noise is estimated from the component that does not repeat with the wavelength, without a model. A residual that
+//! does repeat is an error of the model, and so are components of twice the wavelength, and changes along the track.
 
 use super::comb::{Comb, Level, Rows};
 use super::data::Data;
@@ -11,27 +11,28 @@ use super::subspace::{beyond, by_noise, dot, probability, size};
 use crate::least_squares::Minimum;
 use std::ops::Range;
 
-/// Probabilities of as much by chance, of one of the data.
+/// Probabilities of the residuals of one data set by chance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Judged {
-    /// Of what the model leaves of the wave, or of a series of its smooth course; `None` where too few rows say.
+    /// Probability of the residual of the wave, or of the smooth residual of a series; `None` if there are too few
+    /// rows.
     pub misfit: Option<f64>,
-    /// Of what is in every other ripple only.
+    /// Probability of the component of twice the wavelength.
     pub doubling: Option<f64>,
-    /// Of ripples that change along the track.
+    /// Probability of the change of the ripples along the track.
     pub drift: Option<f64>,
-    /// Whether ripples differ from one to the next by what is smooth and no small part of them.
+    /// Whether ripples differ from one another by a smooth and large component.
     pub irregular: bool,
-    /// As many independent rows tell as much.
+    /// Number of independent rows with the same information.
     pub effective: Option<f64>,
-    /// Standard deviation of the noise, by what does not repeat itself, in the unit of the data.
+    /// Standard deviation of the noise, from the component that does not repeat, in the unit of the data.
     pub noise: Option<f64>,
-    /// Wavelengths along the track.
+    /// Number of wavelengths along the track.
     pub wavelengths: Option<f64>,
 }
 
 impl Judged {
-    /// Whether chance alone may have done what the model leaves.
+    /// Whether the residual of the model is compatible with chance.
     #[must_use]
     pub fn is_explained(&self) -> bool {
         let above = |p: Option<f64>, least: f64| p.is_none_or(|p| p >= least);
@@ -42,47 +43,48 @@ impl Judged {
     }
 }
 
-/// Less probable than this by chance, a model does not explain the data.
+/// Probability by chance below which a model does not explain the data.
 pub(super) const MISFIT: f64 = 0.005;
-/// The same of every other ripple, and of ripples that change, of which most data have none.
+/// The same for alternating and for changing ripples, which most data do not have.
 pub(super) const CHANGE: f64 = 0.001;
-/// Correlated differences between ripples of this part of their root mean square are no noise of an instrument.
+/// Root mean square of correlated differences between ripples, relative to the ripples, above which they cannot be
+/// noise of an instrument.
 const IRREGULAR: f64 = 0.3;
-/// Harmonics in which most of an error is.
+/// Number of harmonics that contain most of an error of the model.
 const FIRST: usize = 3;
-/// Waves are known to this part of their size.
+/// Relative error of the computed waves.
 const KNOWN: f64 = 3e-5;
 
-/// Of all data.
+/// Tests of all data.
 pub(super) struct Verdict {
     pub(super) each: Vec<Judged>,
-    /// Probability by chance of what one model for all data leaves.
+    /// Probability by chance of the residual of one model for all data.
     pub(super) joint: Option<f64>,
-    /// Of each of the data, in units of its noise in the problem.
+    /// Noise of each data set, in units of its noise in the problem.
     noises: Vec<Noise>,
     ranges: Vec<Range<usize>>,
-    /// Rows left to judge the noise by.
+    /// Degrees of freedom of the estimate of the noise.
     pub(super) freedom: f64,
 }
 
-/// What is judged.
+/// Input of the tests.
 pub(super) struct Evidence<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) best: &'a Minimum,
-    /// Derivatives of the residuals by all that is searched.
+    /// Derivatives of the residuals by all search variables.
     pub(super) slopes: &'a [Vec<f64>],
     /// Wavelength, in the unit of the data.
     pub(super) length: Option<f64>,
-    /// Changes of the residuals with other footprints that may be the tip's.
+    /// Changes of the residuals with other possible footprints.
     pub(super) shifts: &'a [Vec<f64>],
 }
 
-/// One of the data while it is judged.
+/// State of the test of one data set.
 struct Part {
     judged: Judged,
     noise: Noise,
     freedom: f64,
-    /// Columns of which the model is free, and those of any wave, on these rows alone.
+    /// Columns of the model's free directions and columns of arbitrary waves, on these rows alone.
     tests: Vec<Vec<f64>>,
     linear: Vec<Vec<f64>>,
     residuals: Vec<f64>,
@@ -109,7 +111,7 @@ impl Evidence<'_> {
         })
     }
 
-    /// Weights taken off again, so that waves are waves.
+    /// A column with the weights removed, so that waves are sinusoidal.
     fn unweighted(&self, i: usize, column: &[f64]) -> Vec<f64> {
         column.iter().zip(&self.problem.weights[i]).map(|(v, w)| v / w.max(1e-6)).collect()
     }
@@ -175,7 +177,7 @@ impl Evidence<'_> {
         Some(Part { judged, noise, freedom, tests: comb.all(&rows), linear, residuals })
     }
 
-    /// A series, or a track of too few rows for waves of any shape.
+    /// The test of a series, or of a track with too few rows for waves of any shape.
     fn without_waves(
         &self,
         data: &Data,
@@ -205,7 +207,7 @@ impl Evidence<'_> {
         Part { judged, noise, freedom, tests: vec![], linear, residuals }
     }
 
-    /// All data at once: numbers that suit each alone may not suit all.
+    /// The joint test of all data: parameters that suit each set alone may not suit all.
     fn joint(&self, parts: &[Part], ranges: &[Range<usize>]) -> Option<f64> {
         let rows = self.problem.rows();
         let placed = |columns: &[Vec<f64>], range: &Range<usize>| -> Vec<Vec<f64>> {
@@ -238,10 +240,10 @@ impl Evidence<'_> {
     }
 }
 
-/// Rows that must be left to judge a series by.
+/// Smallest number of degrees of freedom for the test of a series.
 const LEFT: usize = 3;
 
-/// What is smooth in the velocities and loads of a series.
+/// Smooth functions of the velocities and loads of a series.
 fn smooth(data: &Data) -> Vec<Vec<f64>> {
     let of = |a: &[f64], b: &[f64], powers: (i32, i32)| -> Vec<f64> {
         a.iter().zip(b).map(|(a, b)| a.ln().powi(powers.0) * b.ln().powi(powers.1)).collect()
@@ -257,14 +259,14 @@ fn smooth(data: &Data) -> Vec<Vec<f64>> {
     }
 }
 
-/// Root mean square of a track less its ground.
+/// Root mean square of a track minus its background.
 fn size_of(rows: &Rows) -> f64 {
     let left = crate::projection::project(&rows.ground(), &rows.y).map(|found| found.residuals);
     left.map_or(0.0, |left| (dot(&left, &left) / left.len() as f64).sqrt())
 }
 
 impl Verdict {
-    /// J'ΣJ.
+    /// The product J'ΣJ.
     pub(super) fn between(&self, slopes: &[Vec<f64>]) -> nalgebra::DMatrix<f64> {
         let times = |v: &Vec<f64>| -> Vec<f64> {
             let each = self.noises.iter().zip(&self.ranges);

@@ -1,5 +1,5 @@
-//! What a cycle leaves and feels over one wavelength, as Fourier series; and the cycles that were solved for, from
-//! which the next are begun.
+//! Surface and lag of a cycle over one wavelength, as Fourier series; and a cache of cycles from which later ones are
+//! started.
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -11,13 +11,13 @@ use stickslip_tip::Model;
 pub(super) struct Wave {
     pub(super) wavelength: f64,
     pub(super) mean: f64,
-    /// Of cos and sin of 1, 2, … times the wave number.
+    /// Coefficients of cos and sin of 1, 2, … times the wave number.
     coefficients: Vec<(f64, f64)>,
 }
 
-/// Samples of a wavelength.
+/// Number of samples of a wavelength.
 const SAMPLES: usize = 256;
-/// Harmonics below this part of the largest are left out.
+/// Smallest harmonic kept, relative to the largest.
 const NOTHING: f64 = 1e-8;
 
 impl Wave {
@@ -43,7 +43,7 @@ impl Wave {
         Self { wavelength, mean, coefficients }
     }
 
-    /// The means of `count` values of it at this distance, in σ, about every place.
+    /// The means of `count` values of the wave at this distance, in σ, centred at every place.
     pub(super) fn averaged(mut self, count: usize, distance: f64) -> Self {
         if count < 2 {
             return self;
@@ -58,7 +58,7 @@ impl Wave {
         self
     }
 
-    /// Less the mean.
+    /// The value minus the mean.
     pub(super) fn at(&self, x: f64) -> f64 {
         let (sin, cos) = (TAU * x / self.wavelength).sin_cos();
         // Clenshaw's recurrence for both sums at once.
@@ -70,14 +70,15 @@ impl Wave {
         cos * a.0 - a.1 + sin * b.0
     }
 
-    /// Where its first harmonic has its crest.
+    /// The position of the crest of its first harmonic.
     pub(super) fn crest(&self) -> f64 {
         let (c, s) = self.coefficients.first().copied().unwrap_or((1.0, 0.0));
         s.atan2(c) / TAU * self.wavelength
     }
 }
 
-/// Of one motion: u far behind the tip over x, in kσ²/a, and the lag over the way of the support, in σ.
+/// Waves of one motion: u far behind the tip against x, in kσ²/a, and the lag against the position of the support, in
+/// σ.
 #[derive(Debug, Clone)]
 pub(super) struct Waves {
     pub(super) ripple: Wave,
@@ -97,21 +98,21 @@ impl Waves {
     }
 }
 
-/// Cycles, each begun from the nearest of the last ones.
+/// A cache of cycles; each new one is started from the nearest.
 #[derive(Debug, Default)]
 pub(super) struct Cycles {
     last: RefCell<Vec<(Cycle, Waves)>>,
 }
 
-/// So many are kept.
+/// Number of cycles kept.
 const KEPT: usize = 12;
-/// Residual of (18): the noise of any data is far above what that leaves, and so is a step of the differences.
+/// Residual of (18): its effect is far below the noise of any data, and below the differences of derivatives.
 const TOLERANCE: f64 = 1e-6;
-/// Distance in ln α and ln r from which a cycle is begun from another.
+/// Largest distance in ln α and ln r at which a cycle is started from another.
 const NEAR: f64 = 0.2;
 
 impl Cycles {
-    /// Of the cycle of a model; `None` where none is found.
+    /// The waves of the cycle of a model; `None` if none is found.
     pub(super) fn waves(&self, model: &Model) -> Option<Waves> {
         let distance = |other: &Model| {
             let same = other.tip() == model.tip() && other.wider() == model.wider();

@@ -1,24 +1,24 @@
-//! What a footprint answers: its width, its onset, its trapping threshold.
+//! Results for a footprint: width, onset, trapping threshold.
 
 use super::search::Candidate;
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::{Gaussian, TipFunction, Wider};
 
-/// Of a footprint with f(0) = 1, in units of σ.
+/// Results for a footprint with f(0) = 1, in units of σ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Answers {
-    /// In the unit of the positions.
+    /// σ, in the unit of the positions.
     pub(super) sigma: f64,
-    /// αc(r), its ω, and the least α of trapping.
+    /// αc(r), its ω, and the trapping threshold.
     pub(super) alpha: f64,
     pub(super) omega: f64,
     pub(super) trapping: f64,
 }
 
-/// Shares of the largest |f| that f(0) must have to measure f by.
+/// Smallest f(0), relative to the largest |f|, that can normalise f.
 const LEAST_APEX: f64 = 0.05;
 
-/// The terms over σ and f(0), and σ.
+/// The terms in units of σ and f(0), and σ.
 pub(super) fn normalised(
     candidate: &Candidate,
     sigma: Option<f64>,
@@ -44,7 +44,7 @@ pub(super) fn normalised(
     Some((scaled.collect(), sigma, apex))
 }
 
-/// Samples from the apex outwards.
+/// Number of samples from the apex outwards.
 const SAMPLES: u32 = 2000;
 
 fn sum(terms: &[Gaussian], x: f64) -> f64 {
@@ -55,7 +55,7 @@ fn sum(terms: &[Gaussian], x: f64) -> f64 {
     terms.iter().map(term).sum()
 }
 
-/// Where f first falls to half of f(0).
+/// The distance at which f first falls to half of f(0).
 fn half_width(
     value: &impl Fn(f64) -> f64,
     apex: f64,
@@ -76,18 +76,18 @@ fn half_width(
 }
 
 impl Answers {
-    /// σ, αc, ω and α of trapping.
+    /// σ, αc, ω and trapping threshold.
     pub(super) fn each(&self) -> [f64; 4] {
         [self.sigma, self.alpha, self.omega, self.trapping]
     }
 
-    /// Differences of the logarithms, without sign.
+    /// Absolute differences of the logarithms.
     pub(super) fn changes(&self, other: &Self) -> [f64; 4] {
         let (mine, others) = (self.each(), other.each());
         std::array::from_fn(|i| (mine[i] / others[i]).ln().abs())
     }
 
-    /// `None` where the sum is no footprint, or has no onset.
+    /// The results; `None` if the sum has no apex, or no onset.
     pub(super) fn of(candidate: &Candidate, sigma: Option<f64>, r: f64) -> Option<Self> {
         let (terms, sigma, _) = normalised(candidate, sigma)?;
         let tip = TipFunction::gaussian_sum(terms).ok()?;

@@ -1,4 +1,4 @@
-//! What the noise may hide: a further Gaussian, so weak that the data do not ask for it.
+//! Effect of an undetected Gaussian, too weak to be selected by the criterion.
 
 use super::answers::Answers;
 use super::search::Candidate;
@@ -9,22 +9,22 @@ use crate::projection::project;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Where such a Gaussian is tried, in widths of the first, and how wide it is.
+/// Positions of such a Gaussian that are tried, in widths of the first, and its widths.
 const PLACES: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
 const WIDTHS: [f64; 3] = [0.5, 0.8, 1.3];
-/// Its amplitude, in standard deviations with which the data would tell it.
+/// Its amplitude, in standard errors of its fit.
 const DEVIATIONS: f64 = 2.0;
-/// Where the data would tell less of it than that, it is part of what is there already.
+/// Detectability below which such a Gaussian is part of the existing terms.
 const TOLD: f64 = 0.15;
-/// What is fitted moves by no more than this; a change by more is told in proportion, up to where what is fitted would
-/// become another sum, which is a matter of the resamples.
+/// Largest change of the fitted parameters; larger changes are scaled down in proportion, because the resamples cover
+/// transitions to another sum.
 const FAR: f64 = 0.05;
 const TOO_FAR: f64 = 0.6;
-/// A change of an answer's logarithm up to which it is taken along the tangent.
+/// Largest change of the logarithm of a result that is computed along the tangent.
 const ALONG: f64 = 0.05;
 
-/// By how much at most each answer changes, as a factor, if such a Gaussian is there and what is fitted makes way for
-/// it: [σ, αc, ω, α of trapping].
+/// Largest factor by which each result changes if such a Gaussian exists and the fit adapts to it: [σ, αc, ω,
+/// trapping threshold].
 pub(super) fn factors(
     profile: &Profile,
     (centre, sigma, r): (Option<f64>, Option<f64>, f64),
@@ -71,7 +71,7 @@ pub(super) fn factors(
     factors
 }
 
-/// By how much the logarithms of the answers of a sum differ from those of a fit to it that lacks its last Gaussian.
+/// Differences of the logarithms of the results between a sum and a fit to it without its last Gaussian.
 fn refitted(
     profile: &Profile,
     (centre, sigma, r): (Option<f64>, Option<f64>, f64),
@@ -84,7 +84,7 @@ fn refitted(
     Some(Answers::of(whole, sigma, r)?.changes(&Answers::of(&fitted, sigma, r)?))
 }
 
-/// The same sum with one such Gaussian somewhere, as strong as chance may have left unseen.
+/// The sum with one such Gaussian at a random position, with a random amplitude below detection.
 pub(super) fn drawn(
     profile: &Profile,
     centre: Option<f64>,
@@ -106,21 +106,21 @@ pub(super) fn drawn(
     Some(hidden.with(&shape, (found, &searched), amount))
 }
 
-/// A normal deviate, by Box and Muller.
+/// A standard normal random number, by the Box-Muller method.
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random());
     (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
 }
 
-/// A Gaussian of unit length beside all that the fit can make up, and what makes way for it.
+/// A Gaussian of unit norm orthogonal to the columns of the fit, and the change of the fit.
 struct Hidden {
     place: (f64, f64),
-    /// Of the Gaussian.
+    /// Amplitude of the Gaussian.
     amplitude: f64,
-    /// By how much what is fitted makes way: the linear part, and what is searched.
+    /// Change of the linear part of the fit, and of the search variables.
     linear: Vec<f64>,
     searched: Vec<f64>,
-    /// The largest of the latter.
+    /// Largest change of a search variable.
     farthest: f64,
 }
 
@@ -157,7 +157,7 @@ impl Hidden {
         })
     }
 
-    /// The sum and so much of it beside.
+    /// The sum with this amount of the Gaussian added.
     fn beside(&self, found: &Candidate, amount: f64) -> Candidate {
         let mut whole = found.clone();
         whole.terms += 1;
@@ -166,7 +166,7 @@ impl Hidden {
         whole
     }
 
-    /// The sum with so much of it, where what is fitted makes way.
+    /// The sum with this amount of the Gaussian, and the fit adapted to it.
     fn with(
         &self,
         shape: &Shape,

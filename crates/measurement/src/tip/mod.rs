@@ -1,4 +1,4 @@
-//! A footprint from a measured profile.
+//! Fit of a footprint to a measured profile.
 
 mod answers;
 mod hidden;
@@ -14,21 +14,20 @@ use search::{Found, MOST_TERMS};
 use stickslip_tip::{Gaussian, stop};
 use thiserror::Error;
 
-/// What is asked of a profile.
+/// Options of the fit of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
-    /// Where f is even about, in the unit of the positions; found where it is not given. A profile of one half is
-    /// even about 0.
+    /// Centre of symmetry of f, in the unit of the positions; fitted by default. The centre of half a profile is 0.
     pub centre: Option<f64>,
-    /// σ, in the unit of the positions; found where it is not given.
+    /// σ, in the unit of the positions; computed by default.
     pub sigma: Option<f64>,
-    /// Gaussians, a pair of twins counted once; chosen where it is not given.
+    /// Number of Gaussians, where a symmetric pair counts as one; selected by default.
     pub terms: Option<usize>,
-    /// The r at which onset and trapping are told.
+    /// The r at which onset and trapping threshold are computed.
     pub r: f64,
-    /// Profiles drawn to tell what the noise leaves open.
+    /// Number of resampled profiles for the intervals.
     pub resamples: usize,
-    /// Of the draws.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -38,43 +37,42 @@ impl Default for Request {
     }
 }
 
-/// A footprint, and how far it can be trusted. Lengths and heights in the units of the profile, but for `gaussians`.
+/// A footprint with its errors. Lengths and heights are in the units of the profile, except in `gaussians`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredTip {
-    /// f, with f(0) = 1 and lengths in σ.
+    /// f as a sum of Gaussians, with f(0) = 1 and lengths in σ.
     pub gaussians: Vec<Gaussian>,
-    /// The width of the Gaussian that is as wide at half of f(0): half of the full width over √(2 ln 2).
+    /// The width of the Gaussian with the same full width at half of f(0): half of that width over √(2 ln 2).
     pub sigma: Estimate,
-    /// What f(0) = 1 is; negative for a pit.
+    /// Height that corresponds to f(0) = 1; negative for a pit.
     pub apex: f64,
-    /// Where f is even about.
+    /// Centre of symmetry of f.
     pub centre: f64,
-    /// Of 1, x and, where the ground is curved, x² and x³ in the ground.
+    /// Coefficients of 1, x and, for a curved background, x² and x³.
     pub ground: Vec<f64>,
-    /// Standard deviation of what is not smooth from row to row.
+    /// Standard deviation of the noise from row to row.
     pub noise: f64,
-    /// Standard deviation of what the fit leaves.
+    /// Standard deviation of the residuals.
     pub residual: f64,
-    /// Correlation of what it leaves in neighbouring rows.
+    /// Correlation of the residuals of neighbouring rows.
     pub correlation: f64,
-    /// Every number of Gaussians tried.
+    /// The fits with other numbers of Gaussians.
     pub candidates: Vec<Candidate>,
-    /// Place of the chosen one among them.
+    /// Index of the selected one among them.
     pub chosen: usize,
     /// αc(r), dimensionless.
     pub critical_alpha: Estimate,
-    /// Its ω, in k/Γ.
+    /// ω at αc, in k/Γ.
     pub critical_omega: Estimate,
-    /// The least α of trapping at r; NaN where there is none.
+    /// Trapping threshold at r; NaN if there is none.
     pub trapping_alpha: Estimate,
-    /// The r that these are for.
+    /// The r of these results.
     pub r: f64,
-    /// Footprints like `gaussians` that may as well be what was measured, drawn: their spread is the error of the
-    /// shape.
+    /// Footprints compatible with the noise, drawn at random: their spread is the error of the shape.
     pub draws: Vec<Vec<Gaussian>>,
-    /// Draws that had no footprint or no onset, over all.
+    /// Fraction of draws without a footprint or without an onset.
     pub lost: f64,
-    /// Rows of the profile, the fit and what it leaves.
+    /// Rows of the profile, the fit and the residuals.
     pub fitted: Fitted,
 }
 
@@ -83,47 +81,47 @@ pub struct MeasuredTip {
 pub struct Fitted {
     /// Position.
     pub x: Vec<f64>,
-    /// As measured.
+    /// Measured heights.
     pub f: Vec<f64>,
-    /// As fitted, ground and all.
+    /// Fitted heights, including the background.
     pub fit: Vec<f64>,
 }
 
-/// Why there is no footprint to give.
+/// The reason why there is no footprint.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TipError {
-    /// Too few rows for any sum.
+    /// Too few rows for any fit.
     #[error(
         "{rows} rows are too few for {terms} Gaussian(s) on a sloping ground: give more rows, or fewer terms"
     )]
     Rows {
-        /// Rows given.
+        /// Number of rows.
         rows: usize,
-        /// Gaussians asked for.
+        /// Number of Gaussians requested.
         terms: usize,
     },
-    /// Nothing stands out of the noise.
+    /// No footprint is stronger than the noise.
     #[error(
         "no footprint stands out: the best fit leaves {residual:.2e} of heights that vary by {variation:.2e}"
     )]
     Nothing {
-        /// Standard deviation of what is left.
+        /// Standard deviation of the residuals.
         residual: f64,
-        /// Standard deviation of the heights less a straight line.
+        /// Standard deviation of the heights minus a straight line.
         variation: f64,
     },
-    /// The fitted sum has no apex at its centre, or none that falls to its half.
+    /// The fitted sum has no apex at its centre, or does not fall to half of it.
     #[error(
         "the fitted sum is no footprint with an apex at its centre, {centre}: give the centre, or look at the profile"
     )]
     NoApex {
-        /// Where f was found to be even about.
+        /// Fitted centre of symmetry.
         centre: f64,
     },
     /// Steady motion of such a tip is stable at any α.
     #[error("the fitted footprint has no onset of stick-slip at r = {r}")]
     NoOnset {
-        /// As asked.
+        /// The r requested.
         r: f64,
     },
     /// The work was asked to [`stop`].
@@ -131,16 +129,16 @@ pub enum TipError {
     Stopped,
 }
 
-/// So far behind the best by the criterion a sum may still be what was measured: it is e^-2 times as likely.
+/// Largest excess of the criterion at which a sum is still plausible: its probability is e^-2 of the best.
 const PLAUSIBLE: f64 = 4.0;
 
-/// Footprints that are drawn to carry the error of the shape.
+/// Largest number of footprints drawn to represent the error of the shape.
 const MOST_DRAWS: usize = 24;
 
-/// A footprint: the sum of Gaussians, on a sloping or curved ground, that Schwarz' criterion chooses.
+/// Fits a footprint: the sum of Gaussians on a sloping or curved background that Schwarz' criterion selects.
 ///
 /// # Errors
-/// Too few rows, nothing above the noise, a sum that is no footprint, or [`TipError::Stopped`].
+/// Too few rows, no signal above the noise, a sum without an apex, or [`TipError::Stopped`].
 pub fn tip(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipError> {
     let found = measured(profile, request);
     // Searches that are asked to stop end as if there were nothing to find.
@@ -219,13 +217,13 @@ fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipErro
     })
 }
 
-/// The share of draws that have no answer.
+/// The fraction of draws without a result.
 fn lost(draws: &[Vec<Option<Answers>>]) -> f64 {
     let all: Vec<&Option<Answers>> = draws.iter().flatten().collect();
     all.iter().filter(|drawn| drawn.is_none()).count() as f64 / all.len().max(1) as f64
 }
 
-/// What is left must be less than this part of what varies.
+/// Largest residual relative to the variation of the data.
 const LEAST_PART: f64 = 0.7;
 
 fn judge_size(profile: &Profile, found: &Candidate) -> Result<(), TipError> {
@@ -239,21 +237,21 @@ fn judge_size(profile: &Profile, found: &Candidate) -> Result<(), TipError> {
     Err(TipError::Nothing { residual: found.residual, variation })
 }
 
-/// The lowest criterion.
+/// Index of the lowest criterion.
 fn best(candidates: &[Candidate]) -> usize {
     let least =
         |a: &usize, b: &usize| candidates[*a].criterion.total_cmp(&candidates[*b].criterion);
     (0..candidates.len()).min_by(least).unwrap_or(0)
 }
 
-/// Correlation of neighbours.
+/// Correlation of neighbouring residuals.
 fn correlation(residuals: &[f64]) -> f64 {
     let sum = crate::least_squares::squares(residuals);
     let along: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
     if sum > 0.0 { along / sum } else { 0.0 }
 }
 
-/// Rows that are as good as independent, where neighbours hang together by more than chance has it.
+/// Number of effectively independent rows, if the correlation of neighbours is significant.
 fn effective(rows: usize, correlation: f64) -> f64 {
     let rows = rows as f64;
     let by_chance = 2.0 / rows.sqrt();
@@ -264,15 +262,15 @@ fn effective(rows: usize, correlation: f64) -> f64 {
     (rows * (1.0 - rho) / (1.0 + rho)).max(8.0)
 }
 
-/// An interval that is wider than this to either side, and a residual so many times the noise, are remarked on.
+/// Relative half width of an interval above which a warning is given.
 const WIDE: f64 = 0.05;
 const ABOVE_NOISE: f64 = 1.3;
 
-/// Of the apex: with more noise, one half alone does not tell a tilt from a lobe.
+/// Noise relative to the apex above which half a profile does not separate a tilt from a lobe.
 const DOUBTFUL: f64 = 0.015;
 
 impl MeasuredTip {
-    /// Whether all rows but a few are on one side of the centre.
+    /// Whether nearly all rows are on one side of the centre.
     fn is_one_sided(&self) -> bool {
         let x = &self.fitted.x;
         let before = x.partition_point(|x| *x < self.centre);
@@ -280,7 +278,7 @@ impl MeasuredTip {
         before <= few || x.len() - before <= few
     }
 
-    /// What a reader should know before believing it.
+    /// Warnings about the result.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];

@@ -1,5 +1,5 @@
-//! What the noise of a profile leaves open: fits to profiles made of a fitted one and of its residuals, drawn anew
-//! (Efron's bootstrap), of sums of as many Gaussians as the data may have.
+//! Uncertainty of a profile by Efron's bootstrap: fits to profiles made of a fitted curve and of its resampled
+//! residuals, for all plausible numbers of Gaussians.
 
 use super::answers::{Answers, normalised};
 use super::hidden;
@@ -11,26 +11,26 @@ use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 use stickslip_tip::{Gaussian, stop};
 
-/// The first stream of random numbers for footprints: beyond those for answers.
+/// The first stream of random numbers for footprints, separate from those for results.
 const FOOTPRINTS: u64 = 1 << 32;
 
-/// What profiles are drawn from.
+/// Input of the resampling.
 #[derive(Debug)]
 pub(super) struct Resampling<'a> {
     pub(super) profile: &'a Profile,
     pub(super) centre: Option<f64>,
     pub(super) sigma: Option<f64>,
     pub(super) r: f64,
-    /// Sums that may be what was measured.
+    /// Plausible sums of Gaussians.
     pub(super) makers: Vec<&'a Candidate>,
-    /// Rows that are independent.
+    /// Number of effectively independent rows.
     pub(super) effective: f64,
     pub(super) seed: u64,
 }
 
 impl Resampling<'_> {
-    /// For each of the makers the answers of profiles made of it, each of as many as share `count` evenly; `None` for one
-    /// that has none.
+    /// For each plausible sum the results of resampled profiles, `count` in total; `None` for a profile without a
+    /// result.
     pub(super) fn draw(&self, count: usize) -> Vec<Vec<Option<Answers>>> {
         let each = count.div_ceil(self.makers.len());
         let flag = stop::flag().unwrap_or_default();
@@ -41,7 +41,7 @@ impl Resampling<'_> {
         self.makers.iter().enumerate().map(of).collect()
     }
 
-    /// So many footprints that may be what was measured, each with what the noise may hide.
+    /// The given number of plausible footprints, each with an undetected Gaussian.
     pub(super) fn footprints(&self, count: usize) -> Vec<Vec<Gaussian>> {
         let flag = stop::flag().unwrap_or_default();
         let one = |i: usize| {
@@ -62,7 +62,7 @@ impl Resampling<'_> {
         Answers::of(&self.fitted(stream, maker)?.1, self.sigma, self.r)
     }
 
-    /// A profile drawn, the fit to it, and what further numbers come from.
+    /// The fit to a resampled profile, and the random numbers for later use.
     fn fitted(&self, stream: u64, maker: &Candidate) -> Option<(Profile, Candidate, ChaCha8Rng)> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(stream);
@@ -71,7 +71,7 @@ impl Resampling<'_> {
         Some((profile, fitted, random))
     }
 
-    /// A profile with residuals in blocks as long as they hang together.
+    /// A profile with residuals resampled in blocks as long as their correlation.
     fn drawn(&self, maker: &Candidate, random: &mut ChaCha8Rng) -> Profile {
         let rows = self.profile.x().len();
         let block = block(rows, self.effective);
@@ -91,7 +91,7 @@ impl Resampling<'_> {
     }
 }
 
-/// Carlstein's (1986) length of blocks for residuals of which neighbours hang together.
+/// Carlstein's (1986) length of blocks for correlated residuals.
 fn block(rows: usize, effective: f64) -> usize {
     let share = effective / rows as f64;
     let rho = (1.0 - share) / (1.0 + share);

@@ -1,4 +1,5 @@
-//! Sums of ever more Gaussians, each begun where the one before leaves most, and which of them the data ask for.
+//! Fits of increasing numbers of Gaussians, each started at the largest residual of the one before, and the selection
+//! by the data.
 
 use super::shape::{Places, Shape, gaussians, pair};
 use crate::Profile;
@@ -6,60 +7,60 @@ use crate::least_squares::{minimum, squares};
 use crate::projection::project;
 use stickslip_tip::Gaussian;
 
-/// A sum of so many Gaussians (a pair of twins is one), as near to the data as any near it.
+/// A fit with a given number of Gaussians (a symmetric pair counts as one), a local minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
-    /// Gaussians, a pair of twins counted once.
+    /// Number of Gaussians, where a symmetric pair counts as one.
     pub terms: usize,
-    /// Numbers fitted.
+    /// Number of fitted parameters.
     pub parameters: usize,
-    /// Standard deviation of what is left, for as many degrees of freedom as are left, in the unit of the heights.
+    /// Standard deviation of the residuals, with the remaining degrees of freedom, in the unit of the heights.
     pub residual: f64,
-    /// Schwarz' criterion, n ln(S/n) + p ln n: the lower, the better.
+    /// Schwarz' criterion, n ln(S/n) + p ln n; lower is better.
     pub criterion: f64,
-    /// αc(r) of this sum; NaN where it has none.
+    /// αc(r) of this sum; NaN if it has none.
     pub critical_alpha: f64,
-    /// No Gaussian is narrower.
+    /// Lower bound on the widths.
     pub(super) finest: f64,
     pub(super) places: Places,
-    /// Coefficients of 1, x, x², … of the ground.
+    /// Coefficients of 1, x, x², … of the background.
     pub(super) ground: Vec<f64>,
     pub(super) amplitudes: Vec<f64>,
     pub(super) residuals: Vec<f64>,
 }
 
-/// Most Gaussians that are tried.
+/// Largest number of Gaussians.
 pub(super) const MOST_TERMS: usize = 6;
-/// Starts of a further term that are tried.
+/// Number of starting points of a further term.
 const TRIED: usize = 4;
-/// Positions and widths that these are chosen from.
+/// Positions and widths in the grid of starting points.
 const POSITIONS: usize = 15;
 const WIDTHS: usize = 7;
-/// Centres that the first term is begun from.
+/// Number of starting centres of the first term.
 const CENTRES: usize = 31;
-/// What is smaller than the heights by so much is round-off.
+/// Residual relative to the heights that counts as round-off.
 const ROUND_OFF: f64 = 1e-13;
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Debug)]
 pub(super) struct Found {
-    /// The best sum of one, two … Gaussians.
+    /// The best fit with one, two … Gaussians.
     pub(super) best: Vec<Candidate>,
-    /// Sums that are less good than the best of as many, but as any near them.
+    /// Other local minima, worse than the best with as many Gaussians.
     pub(super) others: Vec<Candidate>,
 }
 
-/// Residuals that differ by more, over their size, belong to two sums.
+/// Relative difference of residuals above which two sums count as different.
 const ANOTHER: f64 = 1e-3;
 
 impl Candidate {
-    /// Whether it is not the same sum found from elsewhere.
+    /// Whether two sums are different minima.
     fn is_another_than(&self, other: &Self) -> bool {
         let apart = self.residuals.iter().zip(&other.residuals).map(|(a, b)| a - b);
         squares(&apart.collect::<Vec<f64>>()) > ANOTHER * ANOTHER * squares(&other.residuals)
     }
 
-    /// From where a search ended. `effective` of the rows are independent.
+    /// The fit at the end of a search. `effective` is the number of independent rows.
     fn at(shape: &Shape, searched: &[f64], effective: f64) -> Option<Self> {
         let places = shape.places(searched);
         let found = shape.projected(&places)?;
@@ -81,7 +82,7 @@ impl Candidate {
         })
     }
 
-    /// The terms as they stand in the data: twins apart, about x = 0.
+    /// The Gaussians of the sum, with symmetric pairs written as two, about x = 0.
     pub(super) fn gaussians(&self) -> Vec<Gaussian> {
         gaussians(&self.places, &self.amplitudes)
     }
@@ -97,12 +98,12 @@ impl Candidate {
         self.ground.iter().rev().fold(0.0, |sum, c| sum * x + c)
     }
 
-    /// Highest power of x in the ground.
+    /// Highest power of x in the background.
     pub(super) fn order(&self) -> usize {
         self.ground.len() - 1
     }
 
-    /// The criterion as if so many rows were independent.
+    /// The fit with the criterion for this number of independent rows.
     pub(super) fn judged(mut self, effective: f64) -> Self {
         let rows = self.residuals.len() as f64;
         let mean = squares(&self.residuals) / rows;
@@ -112,7 +113,7 @@ impl Candidate {
         self
     }
 
-    /// The same sum fitted to other heights, from where it is.
+    /// The same sum fitted to other heights, started from here.
     pub(super) fn again(
         &self,
         profile: &Profile,
@@ -125,7 +126,7 @@ impl Candidate {
     }
 }
 
-/// So many sums in a row that are worse than one with fewer terms: more will not be better.
+/// Number of consecutive sums worse than one with fewer terms after which the search ends.
 const ENOUGH_BEHIND: usize = 2;
 
 /// The lowest criterion.
@@ -133,17 +134,17 @@ fn least(candidates: &[Candidate]) -> f64 {
     candidates.iter().map(|c| c.criterion).fold(f64::INFINITY, f64::min)
 }
 
-/// What a footprint hides below the noise is taken to be no finer than this part of its width; where that leaves more
-/// than the noise, as fine as the rows.
+/// Smallest width of further terms relative to that of the footprint; if the residual then exceeds the noise, the
+/// rows determine the smallest width.
 const FINEST: f64 = 0.4;
-/// A residual of so many times the noise from row to row is more than that.
+/// Ratio of residual to noise from row to row above which the residual counts as too large.
 const ABOVE_NOISE: f64 = 1.2;
 
-/// A ground that is straight, curved, or an S.
+/// Orders of the background: straight, curved, or S-shaped.
 const ORDERS: std::ops::RangeInclusive<usize> = 1..=3;
 
-/// The best sums of one, two … Gaussians, as many as `asked`, or as there are rows for and as the data may ask for, on
-/// the ground that they ask for; sums on other grounds are among the others.
+/// The best fits with one, two … Gaussians, up to `asked`, or up to the number that the rows permit and the data may
+/// require, on the best background; fits on other backgrounds are among the others.
 pub(super) fn candidates(profile: &Profile, centre: Option<f64>, asked: Option<usize>) -> Found {
     let mut chosen = on_ground(profile, (centre, 1), asked);
     for order in ORDERS.skip(1) {
@@ -159,7 +160,7 @@ pub(super) fn candidates(profile: &Profile, centre: Option<f64>, asked: Option<u
     chosen
 }
 
-/// Those on a ground of one order.
+/// The fits on a background of one order.
 fn on_ground(
     profile: &Profile,
     (centre, order): (Option<f64>, usize),
@@ -177,7 +178,7 @@ fn on_ground(
     if least(&fine.best) < least(&coarse.best) { fine } else { coarse }
 }
 
-/// The same with further Gaussians no narrower than this part of the first.
+/// The fits with further Gaussians no narrower than this fraction of the first.
 fn ever_more(
     profile: &Profile,
     (centre, order): (Option<f64>, usize),
@@ -215,7 +216,7 @@ fn ever_more(
     Found { best: found, others }
 }
 
-/// So many widths between the ends.
+/// A grid of widths between the limits.
 fn widths(shape: &Shape) -> impl Iterator<Item = f64> {
     let (least, most) = (shape.widths.least, shape.widths.most);
     (0..WIDTHS).map(move |i| {
@@ -224,7 +225,7 @@ fn widths(shape: &Shape) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The best single Gaussians of a lattice of centres and widths.
+/// The best single Gaussians on a grid of centres and widths.
 fn first(shape: &Shape) -> Vec<Places> {
     let centres: Vec<f64> = match shape.centre {
         Some(centre) => vec![centre],
@@ -243,7 +244,8 @@ fn first(shape: &Shape) -> Vec<Places> {
     best(judged.collect())
 }
 
-/// The sum before with one more term, where a lattice of places and widths has it take away most.
+/// The previous sum with one more term, at the points of a grid of positions and widths that reduce the residual
+/// most.
 fn further(shape: &Shape, before: &Candidate) -> Vec<Places> {
     let x = shape.profile.x();
     let centre = before.places.centre;
@@ -269,7 +271,7 @@ fn further(shape: &Shape, before: &Candidate) -> Vec<Places> {
     best(places.collect())
 }
 
-/// The few that leave least.
+/// The few candidates with the smallest residuals.
 fn best(mut judged: Vec<(f64, Places)>) -> Vec<Places> {
     judged.sort_by(|a, b| a.0.total_cmp(&b.0));
     judged.into_iter().take(TRIED).map(|(_, places)| places).collect()

@@ -1,53 +1,55 @@
-//! An even sum of Gaussians on a sloping or curved ground, as a function of what is to be fitted.
+//! An even sum of Gaussians on a sloping or curved background, as a function of its parameters.
 //!
 //! ```text
 //!     y(x) = Σ_j g_j z^j + Σ_k a_k G_k(x - c),   z = (x - x̄)/h,   G_k(x) = (e^{-(x-d_k)²/2w_k²} + e^{-(x+d_k)²/2w_k²})/2
 //! ```
 //!
-//! x̄ and h are the middle and half of the extent; the `g_j` and the `a_k` are linear and projected out; c, ln w and d are searched. The first term stands at d = 0.
+//! x̄ and h are the middle and half of the extent; the `g_j` and the `a_k` are linear and projected out; c, ln w and
+//! d are searched. The first term has d = 0.
 
 use crate::Profile;
 use crate::least_squares::Residuals;
 use crate::projection::{Projected, project};
 use stickslip_tip::Gaussian;
 
-/// The widths that data can tell: narrower ones pass between rows, wider ones are part of the ground.
+/// The range of widths that data determine: narrower Gaussians fall between rows, wider ones are part of the
+/// background.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Widths {
     pub(super) least: f64,
     pub(super) most: f64,
 }
 
-/// What is fitted to which data.
+/// A fit problem: model and data.
 #[derive(Debug, Clone)]
 pub(super) struct Shape<'a> {
     pub(super) profile: &'a Profile,
-    /// Where f is even about, if that is known.
+    /// Centre of symmetry of f, if known.
     pub(super) centre: Option<f64>,
     pub(super) widths: Widths,
     /// Middle and half of the extent.
     pub(super) middle: f64,
     pub(super) half: f64,
     pub(super) terms: usize,
-    /// Highest power of the position in the ground: 1 to 3.
+    /// Highest power of the position in the background: 1 to 3.
     pub(super) order: usize,
 }
 
-/// c, and of each term d and w.
+/// c, and d and w of each term.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Places {
     pub(super) centre: f64,
     pub(super) terms: Vec<(f64, f64)>,
 }
 
-/// Of the mean distance of rows: a Gaussian that is narrower rests on a row or two.
+/// Smallest width, in mean distances of rows: a narrower Gaussian depends on one or two rows.
 const LEAST_WIDTH: f64 = 1.5;
-/// Of the way from the centre to the end: where the profile ends, a footprint has faded, or nothing tells it from the
-/// ground.
+/// Largest width, relative to the distance from the centre to the end: at the end of the profile a footprint has
+/// decayed, or cannot be separated from the background.
 const MOST_WIDTH: f64 = 0.4;
 
 impl<'a> Shape<'a> {
-    /// With no width below `finest`, unless rows are too far apart for that.
+    /// The problem with no width below `finest`, unless the distance of the rows is too large.
     pub(super) fn of(
         profile: &'a Profile,
         centre: Option<f64>,
@@ -64,13 +66,13 @@ impl<'a> Shape<'a> {
         Self { profile, centre, widths, middle, half, terms, order }
     }
 
-    /// How many numbers are fitted, the linear ones among them.
+    /// Number of fitted parameters, including the linear ones.
     pub(super) fn count(&self) -> usize {
         self.order + usize::from(self.centre.is_none()) + 3 * self.terms
     }
 
-    /// What the search sees, of order 1: c and d over half of the extent, widths by how far they are between their
-    /// ends.
+    /// The search variables, of order 1: c and d over half of the extent, and the relative position of each width in
+    /// its range.
     pub(super) fn searched(&self, places: &Places) -> Vec<f64> {
         let mut found = vec![];
         if self.centre.is_none() {
@@ -87,7 +89,7 @@ impl<'a> Shape<'a> {
         found
     }
 
-    /// And back.
+    /// The inverse of [`searched`](Self::searched).
     pub(super) fn places(&self, searched: &[f64]) -> Places {
         let mut numbers = searched.iter();
         let mut next = || numbers.next().copied().unwrap_or(0.0);
@@ -101,14 +103,14 @@ impl<'a> Shape<'a> {
         Places { centre, terms: terms.collect() }
     }
 
-    /// Powers of the position.
+    /// Columns of the powers of the position.
     pub(super) fn ground(&self) -> Vec<Vec<f64>> {
         let x = self.profile.x();
         let power = |k| x.iter().map(|x| ((x - self.middle) / self.half).powi(k)).collect();
         (0..).take(self.order + 1).map(power).collect()
     }
 
-    /// Coefficients of 1, x, x², … of a ground with these.
+    /// Coefficients of 1, x, x², … of a background with these coefficients.
     pub(super) fn in_powers_of_x(&self, coefficients: &[f64]) -> Vec<f64> {
         // Horner's rule for polynomials: times (x - middle)/half, plus the next.
         coefficients.iter().rev().fold(vec![], |sum: Vec<f64>, c| {
@@ -123,7 +125,7 @@ impl<'a> Shape<'a> {
         })
     }
 
-    /// The linear part there.
+    /// The linear part at these values.
     pub(super) fn projected(&self, places: &Places) -> Option<Projected> {
         let x = self.profile.x();
         let mut columns = self.ground();
@@ -136,7 +138,7 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// G.
+/// The function G.
 pub(super) fn pair(x: f64, d: f64, w: f64) -> f64 {
     let bell = |z: f64| (-0.5 * z * z).exp();
     0.5 * (bell((x - d) / w) + bell((x + d) / w))
@@ -189,7 +191,7 @@ impl Residuals for Shape<'_> {
     }
 }
 
-/// The Gaussians of Σ `a_k` `G_k`, twins apart.
+/// The Gaussians of Σ `a_k` `G_k`, with symmetric pairs written as two.
 pub(super) fn gaussians(places: &Places, amplitudes: &[f64]) -> Vec<Gaussian> {
     let terms = places.terms.iter().zip(amplitudes);
     terms
@@ -210,7 +212,7 @@ mod tests {
     use super::*;
     use crate::least_squares::differences;
 
-    /// Against differences, where the sum follows the data: there Kaufman's derivative is exact.
+    /// Comparison with differences where the sum follows the data: there Kaufman's derivative is exact.
     #[test]
     fn derivatives_are_those_of_the_residuals() {
         let x: Vec<f64> = (0..80).map(|i| 0.2 * f64::from(i) - 7.0).collect();

@@ -1,31 +1,31 @@
-//! What is scanned: a rectangle, or any shape made of lines.
+//! The scanned area: a rectangle, or any shape made of lines.
 
 use crate::error::{MOST_LINES, RasterError};
 use crate::path::{AreaLine, Path, Track};
 
-/// Where the lines lie.
+/// Positions of the scan lines.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Area {
-    /// As many lines, as long, a pitch apart, from x = 0 and y = 0.
+    /// Lines of equal length, one pitch apart, from x = 0 and y = 0.
     Rectangle {
-        /// Distance of the lines; not looked at by [`Path::Repeat`].
+        /// Distance of the lines; ignored by [`Path::Repeat`].
         pitch: f64,
-        /// How many.
+        /// Number of lines.
         lines: usize,
-        /// How far the support goes along each.
+        /// Distance that the support moves along each line.
         length: f64,
     },
-    /// Each by itself, in the order in which they are scanned; several may lie at the same y.
+    /// A list of lines in the order of the scan; several may have the same y.
     Lines(Vec<AreaLine>),
 }
 
-/// Beyond these y lines an ordinary pitch apart would not be told from each other.
+/// Largest |y|; beyond it lines at usual distances would be lost in round-off.
 const FARTHEST: f64 = 1e9;
-/// Distances of lines that differ by less than this part are the same.
+/// Largest relative difference of distances that count as equal.
 const EVEN: f64 = 1e-9;
 
 impl Area {
-    /// How many lines.
+    /// Number of lines.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -34,13 +34,13 @@ impl Area {
         }
     }
 
-    /// Whether there is no line.
+    /// Whether there are no lines.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The way of the support along line n, counted from 0.
+    /// The path of the support along line n, counted from 0.
     #[must_use]
     pub fn track(&self, path: Path, n: usize) -> Track {
         match self {
@@ -49,7 +49,7 @@ impl Area {
         }
     }
 
-    /// Smallest and largest x that a support comes to.
+    /// Smallest and largest x that a support reaches.
     #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         match self {
@@ -71,7 +71,7 @@ impl Area {
         }
     }
 
-    /// The distance from each line to the next, where it is the same and they go up.
+    /// The distance from each line to the next, if it is constant and positive.
     #[must_use]
     pub fn pitch(&self, path: Path) -> Option<f64> {
         match self {
@@ -81,8 +81,8 @@ impl Area {
     }
 
     /// # Errors
-    /// No lines, lines that are none, or so many within reach of each other that they cannot be summed; `most` is the
-    /// widest extent, and as many lines as `most_within` may lie within `reach`.
+    /// There are no lines, a line is invalid, or too many lines are within reach of each other; `most` is the largest
+    /// extent, and at most `most_within` lines may be within `reach`.
     pub(crate) fn validate(
         &self,
         most: f64,
@@ -113,7 +113,7 @@ impl Area {
     }
 }
 
-/// That of these lines, if they go up evenly.
+/// The pitch of these lines, if it is constant and positive.
 pub(crate) fn pitch_of(lines: &[AreaLine]) -> Option<f64> {
     let [first, .., last] = lines else { return None };
     let pitch = (last.y - first.y) / (lines.len() - 1) as f64;

@@ -1,87 +1,87 @@
-//! What no raster can be made of.
+//! Errors of rasters.
 
 use crate::path::AreaLine;
 use stickslip_tip::RunError;
 use thiserror::Error;
 
-/// Why a raster was refused or could not be finished.
+/// The reason why a raster was rejected or could not be finished.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RasterError {
-    /// A pitch that is no distance.
+    /// An invalid pitch.
     #[error(
         "the pitch must be a finite number above 0, and at least {least:.1e} for a footprint that reaches {reach:.3} across, not {pitch:?}"
     )]
     Pitch {
-        /// As given.
+        /// The text as given.
         pitch: f64,
         /// Reach of the footprint across the lines.
         reach: f64,
-        /// The smallest.
+        /// The smallest valid pitch.
         least: f64,
     },
-    /// A length that is no distance, or that no lattice holds.
+    /// A length that is invalid, or too large for a lattice.
     #[error(
         "the length of a line must be a finite number above 0 and at most {most:.1e}, not {length:?}"
     )]
     Length {
-        /// As given.
+        /// The text as given.
         length: f64,
-        /// The largest.
+        /// The largest valid length.
         most: f64,
     },
-    /// None, or more than are kept.
+    /// No lines, or too many.
     #[error("a raster has between 1 and {MOST_LINES} lines, not {0}")]
     Lines(usize),
-    /// A line of an area that is none.
+    /// An invalid line of an area.
     #[error(
         "line {line} of the area: y must lie within ±1e9, start within ±{most:.1e}, and the length be above 0 and at most {most:.1e}, not {found:?}"
     )]
     AreaLine {
-        /// Counted from 1.
+        /// Index of the line, from 1.
         line: usize,
-        /// As given.
+        /// The text as given.
         found: AreaLine,
-        /// The longest.
+        /// The largest length.
         most: f64,
     },
     /// Lines too far apart in x for one lattice.
     #[error("the extent of the area in x is {extent:.3e}, at most {most:.1e} can be held")]
     Extent {
-        /// From the smallest x to the largest.
+        /// Distance from the smallest x to the largest.
         extent: f64,
-        /// The largest.
+        /// The largest valid extent.
         most: f64,
     },
-    /// Too many lines to sum.
+    /// Too many neighbouring lines.
     #[error(
         "more than {most} lines of the area lie within {reach:.3} of each other, the reach of the footprint across"
     )]
     Crowded {
-        /// Of the footprint across the lines.
+        /// Reach of the footprint across the lines.
         reach: f64,
-        /// Lines within it.
+        /// Largest number of lines within the reach.
         most: usize,
     },
-    /// More than memory holds.
+    /// Grooves that exceed the memory limit.
     #[error(
         "the grooves of {lines} lines over {extent:.3e} in x take {:.1} GB, and 1 GB is held at most: fewer or shorter lines will do",
         bytes / 1e9
     )]
     Memory {
-        /// Lines with a y of their own.
+        /// Number of lines with different y.
         lines: usize,
-        /// From the smallest x to the largest.
+        /// Distance from the smallest x to the largest.
         extent: f64,
-        /// What they take.
+        /// Memory required, in bytes.
         bytes: f64,
     },
-    /// A shape whose lines are all to be the same.
+    /// An area of separate lines with the path `Repeat`, for which all lines coincide.
     #[error("an area is scanned one-way or zigzag: name a line as often as it is to be repeated")]
     RepeatedArea,
-    /// Nothing that could be scanned with.
+    /// A model without a spring, which cannot scan.
     #[error("a raster needs a spring: without one there is no support that goes along lines")]
     NoSpring,
-    /// A footprint without reach.
+    /// A footprint without decay.
     #[error("a raster needs a footprint that fades along the lines, as J0 does not")]
     NeverFades,
     /// The tip is not f(x,0).
@@ -90,12 +90,12 @@ pub enum RasterError {
     /// A line could not be run.
     #[error("line {line}: {error}")]
     Line {
-        /// Counted from 1.
+        /// Index of the line, from 1.
         line: usize,
-        /// Why.
+        /// The error of the run.
         error: RunError,
     },
 }
 
-/// The most lines; their histories take some 20 kB each at 100 widths.
+/// Largest number of lines; their histories take about 20 kB each at 100 widths.
 pub const MOST_LINES: usize = 1_000_000;

@@ -1,4 +1,5 @@
-//! What the lines left, and what of it lies under the next: few numbers a line, and few lines.
+//! The grooves of all lines, and the surface on the next line, in compressed form: few numbers per line, for the
+//! lines within reach only.
 //!
 //! With f(x,y) = Σ_l g_l(x) h_l(y), the surface at y is, in Fourier space along x,
 //!
@@ -6,9 +7,9 @@
 //!     Û(k) = -α Σ_l ĝ_l(k) Σ_m h_l(y - y_m) ρ̂_m(k)
 //! ```
 //!
-//! with ρ_m the residence density of line m, how long the tip was where, each visit with its weight under a depth limit,
-//! and fading where the surface heals. Of it ρ̂_m is kept, up to the band of f: some
-//! three complex numbers for each width of length.
+//! Here ρ_m is the residence density of line m, the time that the tip spent at each x, weighted by the depth limit
+//! and reduced by healing. Only ρ̂_m is stored, up to the band of f: about three complex numbers for each width of
+//! length.
 
 use crate::line::Line;
 use crate::path::Track;
@@ -17,13 +18,13 @@ use num_complex::Complex64;
 use stickslip_convolution::{Density, Spectra};
 use stickslip_tip::{Footprint, Layer, Relief, Wider};
 
-/// ρ̂ of the lines at one y: all of them, however many.
+/// ρ̂ of all lines at one y.
 struct Row {
     y: f64,
     spectrum: Vec<Complex64>,
 }
 
-/// A stretch of x, and what is known of the footprint in its wave numbers.
+/// A range of x, with the transform of the footprint at its wave numbers.
 struct Stretch {
     spectra: Spectra,
     wave_numbers: Vec<f64>,
@@ -31,23 +32,23 @@ struct Stretch {
     layers: Vec<Vec<f64>>,
 }
 
-/// ρ̂ of the lines that can still be felt.
+/// ρ̂ of all lines that are still within reach.
 pub(crate) struct Grooves {
     footprint: Footprint,
     alpha: f64,
-    /// What is left of a groove after another line, where the surface heals.
+    /// Law of healing, by which a groove is reduced after another line.
     wider: Wider,
     r: f64,
     reach_across: f64,
-    /// Along x: how far a groove goes beyond where the tip was.
+    /// Distance along x over which a groove extends beyond the tip's positions.
     reach_along: f64,
     band: f64,
-    /// Where the supports go, and how far outside of that tips may be.
+    /// Range of the supports, and the largest distance of a tip from it.
     supports: (f64, f64),
     spare: f64,
-    /// Between which y the lines that are still to come lie, after so many; empty where no row is dropped.
+    /// Range of y of the remaining lines after each line; empty if no row is dropped.
     ahead: Vec<(f64, f64)>,
-    /// Lines so far.
+    /// Number of lines so far.
     count: usize,
     stretch: Stretch,
     rows: Vec<Row>,
@@ -65,12 +66,12 @@ impl Stretch {
 }
 
 impl Grooves {
-    /// Of no line yet; lines out of reach of the last one are dropped.
+    /// No grooves yet; lines out of reach of all later ones are dropped.
     pub(crate) fn new(plan: &Plan) -> Self {
         Self::with(plan, true)
     }
 
-    /// Of all these lines, none dropped.
+    /// The grooves of all these lines, none dropped.
     pub(crate) fn of_all(plan: &Plan, lines: &[Line]) -> Self {
         let mut grooves = Self::with(plan, false);
         for n in 1..=lines.len() {
@@ -98,7 +99,7 @@ impl Grooves {
         }
     }
 
-    /// Takes note of the last of these lines; those before it are known.
+    /// Adds the last of these lines; the earlier ones were added before.
     pub(crate) fn add(&mut self, lines: &[Line]) {
         let Some(line) = lines.last() else { return };
         let (positions, weights) = line.residence();
@@ -130,8 +131,8 @@ impl Grooves {
         }
     }
 
-    /// A longer stretch, for a tip that was found so far outside: all that is known is made anew from the lines, so
-    /// that it depends on them alone and not on when the stretch grew.
+    /// Extends the range for a tip this far outside. All transforms are recomputed from the lines, so that they do
+    /// not depend on the time of the extension.
     fn widen(&mut self, farthest: f64, lines: &[Line]) {
         while self.spare < farthest {
             self.spare *= 2.0;
@@ -146,7 +147,7 @@ impl Grooves {
         }
     }
 
-    /// Û at y; `None` where no line is within reach.
+    /// Û at y; `None` if no line is within reach.
     fn surface(&self, y: f64) -> Option<Vec<Complex64>> {
         let within = |row: &&Row| (row.y - y).abs() <= self.reach_across;
         self.rows.iter().find(within)?;
@@ -155,7 +156,7 @@ impl Grooves {
         Some(sum)
     }
 
-    /// Adds what the lines of a row left at y.
+    /// Adds the grooves of a row at y.
     fn add_groove(&self, row: &Row, y: f64, sum: &mut [Complex64]) {
         for (layer, transform) in self.footprint.layers().iter().zip(&self.stretch.layers) {
             let height = -self.alpha * layer.across.value(y - row.y);
@@ -164,7 +165,7 @@ impl Grooves {
         }
     }
 
-    /// What a tip finds along this way, in the frame of the way. `None` where no line is within reach.
+    /// The surface along this track, in the frame of the track. `None` if no line is within reach.
     pub(crate) fn relief(&mut self, track: &Track) -> Option<Relief> {
         let heights = self.surface(track.y)?;
         let slope = |(height, k): (&Complex64, &f64)| Complex64::new(0.0, *k) * height;
@@ -182,7 +183,7 @@ impl Grooves {
         }
     }
 
-    /// What each line alone left below it, at every x.
+    /// The groove of each line alone at its own y, at every x.
     pub(crate) fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
         let own = |row: &Row| {
             let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
@@ -200,7 +201,7 @@ impl Grooves {
     }
 }
 
-/// The smallest and the largest y of the lines from each on; of the last, those of no line.
+/// The smallest and the largest y of the lines from each one on; after the last, an empty range.
 fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
     let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
     let mut ahead = vec![ends];
@@ -213,7 +214,7 @@ fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
     ahead
 }
 
-/// Lines at the same y differ by nothing: theirs are the same products.
+/// Whether two values of y are equal, so that their products can be shared.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
 }
@@ -230,7 +231,7 @@ mod tests {
         Plan::new(footprint, Model::new(tip, 0.7, 1.0).unwrap(), Path::OneWay, 0.8, 61, 15.0)
     }
 
-    /// Line n of a tip that goes evenly from `from` to `to`.
+    /// Line n with a tip that moves evenly from `from` to `to`.
     fn line(plan: &Plan, n: usize, (from, to): (f64, f64)) -> Line {
         let h = 15.0 / 40.0;
         let step = |i: u32| {
@@ -243,7 +244,7 @@ mod tests {
         Line::new(plan.track(n), &plan.law.model, (0..40).map(step).collect(), Work::default())
     }
 
-    /// Σ over all lines and all visits.
+    /// The sum over all lines and all nodes of their histories.
     fn direct(plan: &Plan, lines: &[Line], x: f64, y: f64) -> f64 {
         let of = |line: &Line| -> f64 {
             let (positions, weights) = line.residence();
@@ -253,8 +254,8 @@ mod tests {
         -0.7 * lines.iter().map(of).sum::<f64>()
     }
 
-    /// Tips far outside of where the support goes make the stretch longer, and nothing else: what is known does not
-    /// depend on when that was.
+    /// A tip far outside of its support's range extends the stretch, and the result does not depend on the time of
+    /// the extension.
     #[test]
     fn a_tip_far_outside_is_held_too() {
         let plan = plan();
@@ -277,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Lines out of reach of the last one are dropped: as many are held as are felt, and the sum is the same.
+    /// Lines out of reach of all later ones are dropped without a change of the sum.
     #[test]
     fn no_more_lines_are_held_than_are_felt() {
         let plan = plan();

@@ -1,15 +1,14 @@
-//! Scan lines beside each other on one surface.
+//! Neighbouring scan lines on one surface.
 //!
-//! A tip scans an area line by line. On line n, at y_n, it feels beside its own groove what the lines before it have
-//! left there,
+//! A tip scans an area line by line. On line n, at y_n, it feels its own groove and the grooves of all earlier lines,
 //!
 //! ```text
 //!     U_n(x) = -α Σ_{m<n} ∫ f(x - x0_m(t), y_n - y_m) dt
 //! ```
 //!
-//! so that a line is an ordinary run over U_n as its initial surface, and what must be kept of it is where the tip was
-//! and for how long: its residence density ρ_m, or ρ̂_m(k) up to the band of f. Cost and memory of a line do not depend
-//! on how many lines there were: those out of reach across are dropped. `docs/raster.md` says what comes of it.
+//! so that a line is an ordinary run with U_n as its initial surface. Of each line only the residence density ρ_m is
+//! stored, the time that the tip spent at each x, as ρ̂_m(k) up to the band of f. Cost and memory of a line do not
+//! depend on the number of earlier lines, because lines out of reach are dropped. `docs/raster.md` has the results.
 //!
 //! ```
 //! use stickslip_raster::{Path, Plan, Scanned, Scanning};

@@ -1,35 +1,35 @@
-//! One line that has been scanned.
+//! A finished scan line.
 
 use crate::path::Track;
 use stickslip_tip::{Model, Step, Support, Trajectory, Work};
 
-/// The motion of the tip along one line. Time is counted from the start of the line.
+/// The motion of the tip along one line. Time counts from the start of the line.
 #[derive(Debug, Clone)]
 pub struct Line {
     track: Track,
-    /// In the frame of the line: the support starts at 0 and goes to larger x.
+    /// Motion in the frame of the line: the support starts at 0 and moves to larger x.
     trajectory: Trajectory,
     work: Work,
 }
 
 impl Line {
-    /// From its steps under the law of a model, in the frame of the line.
+    /// A line from its steps, in the frame of the line, with the law of a model.
     ///
     /// # Panics
-    /// Without any step.
+    /// There is no step.
     #[must_use]
     pub fn new(track: Track, model: &Model, steps: Vec<Step>, work: Work) -> Self {
         let trajectory = Trajectory::under(*model.wider(), Support::Moving(model.r()), steps);
         Self { track, trajectory, work }
     }
 
-    /// Where the support goes.
+    /// The path of the support.
     #[must_use]
     pub fn track(&self) -> Track {
         self.track
     }
 
-    /// The motion in the frame of the line, in which the support starts at 0 and goes to larger x.
+    /// The motion in the frame of the line, in which the support starts at 0 and moves to larger x.
     #[must_use]
     pub fn trajectory(&self) -> &Trajectory {
         &self.trajectory
@@ -47,8 +47,7 @@ impl Line {
         self.track.x(self.trajectory.x0(t))
     }
 
-    /// R - x0 on the surface, by which the support is ahead in x: the lateral force. Below 0 where a tip lags behind
-    /// on its way back.
+    /// R - x0 on the surface: the lateral force. Negative on a line towards smaller x, where the tip lags behind.
     #[must_use]
     pub fn lag(&self, t: f64) -> f64 {
         self.track.sign() * (self.trajectory.l(t) + self.trajectory.r())
@@ -67,7 +66,7 @@ impl Line {
         self.track.x(r * last.end() - last.extension_at_end(r))
     }
 
-    /// The height of the surface under the tip, in kσ²/a, where there is a depth limit.
+    /// The height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {
         self.trajectory.height(t)
@@ -78,8 +77,8 @@ impl Line {
         self.velocity(self.trajectory.end())
     }
 
-    /// Where the tip was on the surface, for how long, and how strongly it indented there: positions and weights such
-    /// that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ `w_j` g(`x_j`), w and T those of the wider law, as the line ends.
+    /// The residence of the tip on the surface: positions and weights such that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ
+    /// `w_j` g(`x_j`) at the end of the line, with w and T of the extended model.
     #[must_use]
     pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());

@@ -1,37 +1,37 @@
-//! Where the support goes: line after line.
+//! Paths of the support, line after line.
 
-/// How the support goes from one line to the next.
+/// The path of the support from one line to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Path {
-    /// Every line from x = 0, in the same direction, with the spring relaxed.
+    /// Every line runs in the same direction from x = 0, with the spring relaxed.
     OneWay,
-    /// The support turns back at the end of a line and goes one pitch further; the tip starts where it was.
+    /// The support turns back at the end of a line and moves one pitch further; the tip keeps its position.
     Zigzag,
-    /// The same line again, from x = 0, with the spring relaxed.
+    /// The same line is scanned again from x = 0, with the spring relaxed.
     Repeat,
 }
 
-/// The way of the support along one line.
+/// The path of the support along one line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track {
-    /// Where the line lies.
+    /// y of the line.
     pub y: f64,
-    /// Where the support starts.
+    /// Start position of the support.
     pub start: f64,
-    /// How far it goes.
+    /// Length of the path.
     pub length: f64,
-    /// Towards smaller x.
+    /// Whether the support moves towards smaller x.
     pub backward: bool,
 }
 
 /// One line of an area. Lengths in σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaLine {
-    /// Where it lies.
+    /// y of the line.
     pub y: f64,
-    /// Its smallest x.
+    /// Smallest x of the line.
     pub start: f64,
-    /// How far the support goes along it.
+    /// Distance that the support moves along it.
     pub length: f64,
 }
 
@@ -43,7 +43,7 @@ impl Path {
         self.along(n, AreaLine { y, start: 0.0, length })
     }
 
-    /// Line number n, counted from 0, where it lies there.
+    /// Line number n, counted from 0, at its place in an area.
     #[must_use]
     pub fn along(self, n: usize, AreaLine { y, start, length }: AreaLine) -> Track {
         let backward = self == Self::Zigzag && n % 2 == 1;
@@ -52,19 +52,19 @@ impl Path {
 }
 
 impl Track {
-    /// x of what lies this far along the line.
+    /// x at this distance along the line.
     #[must_use]
     pub fn x(&self, along: f64) -> f64 {
         self.start + self.sign() * along
     }
 
-    /// How far along the line x lies: the inverse of [`x`](Self::x).
+    /// Distance of x along the line: the inverse of [`x`](Self::x).
     #[must_use]
     pub fn along(&self, x: f64) -> f64 {
         self.sign() * (x - self.start)
     }
 
-    /// That of dx over what is gone along the line.
+    /// Direction of the line: 1 towards larger x, -1 towards smaller.
     #[must_use]
     pub fn sign(&self) -> f64 {
         if self.backward { -1.0 } else { 1.0 }

@@ -1,39 +1,39 @@
-//! Everything that defines a raster, and what no raster can be made of.
+//! Definition of a raster, and its validity.
 
 use crate::area::Area;
 use crate::error::RasterError;
 use crate::path::{Path, Track};
 use stickslip_tip::{Footprint, Force, Model, Scenario, Start};
 
-/// Everything that defines a raster. Lengths in σ, times in Γ/k.
+/// Definition of a raster. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// f(x,y), of which the tip of the model is f(x,0).
+    /// f(x,y); the tip of the model is f(x,0).
     pub footprint: Footprint,
-    /// How the support goes from one line to the next.
+    /// The path of the support from one line to the next.
     pub path: Path,
-    /// Where the lines lie.
+    /// The scanned area.
     pub area: Area,
-    /// External force on the first line, by the time since its start: what disturbs all others.
+    /// External force on the first line, against the time since its start; it disturbs all later lines.
     pub disturbance: Force,
-    /// The law, the tolerance and the memory of every line; start, end, kick and force are those of the line.
+    /// The law, the tolerance and the memory of every line; start, end, kick and force are set for each line.
     pub law: Scenario,
 }
 
-/// Lines within reach of one.
+/// Largest number of lines within reach of one.
 const MOST_WITHIN_REACH: f64 = 1e4;
-/// Of each line a complex amplitude is kept for each wave number, and of the lattice, four cells to a wave, sums,
-/// transforms and their workspace. In bytes.
+/// Memory per wave number, in bytes: of each line one complex amplitude is stored; the lattice, four cells per wave
+/// number, has sums, transforms and their workspace.
 const BYTES_OF_A_WAVE: f64 = 16.0;
 const BYTES_OF_THE_LATTICE: f64 = 320.0;
 const MOST_MEMORY: f64 = 1e9;
-/// Points of the lattice that a line is held on.
+/// Largest number of lattice points of a line.
 const MOST_POINTS: f64 = 1e7;
-/// A Gaussian ends so many widths from its center: e^{-40.5} = 2.6e-18.
+/// Distance in widths at which a Gaussian is negligible: e^{-40.5} = 2.6e-18.
 pub(crate) const WIDTHS: f64 = 9.0;
 
 impl Plan {
-    /// Lines over a flat surface under the law of `model`, to a tolerance of 1e-9.
+    /// Lines on a flat surface with the law of `model` and a tolerance of 1e-9.
     #[must_use]
     pub fn new(
         footprint: Footprint,
@@ -46,7 +46,7 @@ impl Plan {
         Self::over(footprint, model, path, Area::Rectangle { pitch, lines, length })
     }
 
-    /// The same over an area.
+    /// The same for any area.
     #[must_use]
     pub fn over(footprint: Footprint, model: Model, path: Path, area: Area) -> Self {
         let law = Scenario::new(model, area.longest());
@@ -89,10 +89,11 @@ impl Plan {
         longest.validate().map_err(|error| RasterError::Line { line: 1, error })
     }
 
-    /// Refuses what the grooves of all lines do not fit in memory of, with tips up to `outside` of where their supports go.
+    /// Rejects rasters whose grooves do not fit in memory, with tips up to `outside` beyond the range of their
+    /// supports.
     ///
     /// # Errors
-    /// They take more than a gigabyte.
+    /// The grooves take more than a gigabyte.
     pub fn judge_memory(&self, outside: f64) -> Result<(), RasterError> {
         let (low, high) = self.area.ends();
         // The stretch of the lattice is made longer by doubling what lies beside the supports.
@@ -106,7 +107,7 @@ impl Plan {
         Err(RasterError::Memory { lines: rows, extent: high - low + 2.0 * outside, bytes })
     }
 
-    /// How many lines.
+    /// Number of lines.
     #[must_use]
     pub fn lines(&self) -> usize {
         self.area.len()
@@ -118,19 +119,19 @@ impl Plan {
         self.area.track(self.path, n)
     }
 
-    /// How long line number n, counted from 0, takes: X/r.
+    /// Duration X/r of line number n, counted from 0.
     #[must_use]
     pub fn duration(&self, n: usize) -> f64 {
         self.duration_of(self.track(n).length)
     }
 
-    /// How long the support takes for a length.
+    /// Time in which the support moves this distance.
     #[must_use]
     pub fn duration_of(&self, length: f64) -> f64 {
         length / self.law.model.r()
     }
 
-    /// The run of line n, whose tip starts `ahead` of the support, with this velocity if it has inertia.
+    /// The run of line n; the tip starts `ahead` of the support, with this velocity if it has inertia.
     pub(crate) fn line(&self, n: usize, (ahead, velocity): (f64, f64)) -> Scenario {
         let has_inertia = self.law.model.wider().inertia.is_some();
         Scenario {
@@ -145,20 +146,20 @@ impl Plan {
         }
     }
 
-    /// Beyond this distance in y a line is not felt.
+    /// Largest distance in y over which a line has an effect.
     #[must_use]
     pub fn reach_across(&self) -> f64 {
         let of = |across: &stickslip_tip::Across| across.center + WIDTHS * across.width;
         self.footprint.layers().iter().map(|layer| of(&layer.across)).fold(0.0, f64::max)
     }
 
-    /// Beyond this distance in x nothing is felt.
+    /// Largest distance in x over which a groove has an effect.
     pub(crate) fn reach_along(&self) -> f64 {
         let layers = self.footprint.layers().iter();
         layers.filter_map(|layer| layer.along.reach()).fold(0.0, f64::max)
     }
 
-    /// Beyond this wave number in x no layer has anything.
+    /// Largest wave number in x of all layers.
     pub(crate) fn band(&self) -> f64 {
         self.footprint.layers().iter().map(|layer| layer.along.band()).fold(0.0, f64::max)
     }

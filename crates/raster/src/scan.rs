@@ -1,4 +1,4 @@
-//! Lines one after the other, to be stopped and taken up again between any two.
+//! Scan of the lines one after the other; it can be stopped and resumed between any two.
 
 use crate::error::RasterError;
 use crate::grooves::Grooves;
@@ -7,7 +7,7 @@ use crate::path::{Path, Track};
 use crate::plan::Plan;
 use stickslip_tip::{InitialSurface, Running, Step, stop};
 
-/// A raster under way.
+/// A raster in progress.
 pub struct Scanning<'a> {
     plan: &'a Plan,
     grooves: Grooves,
@@ -15,16 +15,17 @@ pub struct Scanning<'a> {
 }
 
 impl<'a> Scanning<'a> {
-    /// Before the first line.
+    /// The state before the first line.
     ///
     /// # Errors
-    /// A parameter out of range.
+    /// A parameter is out of range.
     pub fn new(plan: &'a Plan) -> Result<Self, RasterError> {
         plan.validate()?;
         Ok(Self { plan, grooves: Grooves::new(plan), lines: vec![] })
     }
 
-    /// After these lines of the same plan: all that follows is the same to the last bit as without the interruption.
+    /// The state after these lines of the same plan: all later lines are the same to the last bit as without the
+    /// interruption.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -36,14 +37,14 @@ impl<'a> Scanning<'a> {
         Ok(Self { lines, ..scanning })
     }
 
-    /// The lines so far.
+    /// The finished lines.
     #[must_use]
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 
-    /// What the tip will find on the next line, in the frame of that line: what earlier lines left within reach. Flat
-    /// where no line is left.
+    /// The initial surface of the next line, in the frame of that line: the sum of all grooves within reach; flat
+    /// after the last line.
     #[must_use]
     pub fn surface_ahead(&mut self) -> InitialSurface {
         if self.lines.len() >= self.plan.lines() {
@@ -54,8 +55,8 @@ impl<'a> Scanning<'a> {
         relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
     }
 
-    /// Scans the next line; `None` after the last one, or where the work was asked to [`stop`]: then the line under way
-    /// is lost.
+    /// Scans the next line; `None` after the last one, or if the work is told to [`stop`], in which case the
+    /// unfinished line is lost.
     ///
     /// # Errors
     /// The tolerance cannot be met.
@@ -83,8 +84,8 @@ impl<'a> Scanning<'a> {
         Ok(self.lines.last())
     }
 
-    /// How far ahead of the support the tip starts on a line, and with what velocity, in the frame of the line: on a
-    /// zigzag the tip is where it was, as the support turns.
+    /// Distance of the tip ahead of the support at the start of a line, and its velocity, in the frame of the line:
+    /// on a zigzag the tip keeps its position when the support turns.
     fn begins(&self, track: Track) -> (f64, f64) {
         match self.lines.last().filter(|_| self.plan.path == Path::Zigzag) {
             Some(last) => (track.along(last.x0_at_end()), track.sign() * last.velocity_at_end()),
@@ -92,7 +93,7 @@ impl<'a> Scanning<'a> {
         }
     }
 
-    /// What has been scanned.
+    /// The finished lines, by value.
     #[must_use]
     pub fn into_lines(self) -> Vec<Line> {
         self.lines

@@ -1,4 +1,4 @@
-//! The surface after the last line, and how much of it is gone.
+//! The surface after the last line, and its volume.
 
 use crate::grooves::Grooves;
 use crate::line::Line;
@@ -11,14 +11,14 @@ pub struct Scanned {
 }
 
 impl Scanned {
-    /// Reads all lines.
+    /// The surface of all these lines.
     #[must_use]
     pub fn new(plan: &Plan, lines: &[Line]) -> Self {
         Self { grooves: Grooves::of_all(plan, lines) }
     }
 
-    /// u(x,y) at every y (rows) and every x (columns), in kσ²/a. A row costs as much as there are lines within reach
-    /// of it, and a bounded number of operations for each x.
+    /// u(x,y) at every y (rows) and every x (columns), in kσ²/a. The cost of a row is proportional to the number of
+    /// lines within its reach, plus a bounded number of operations for each x.
     #[must_use]
     pub fn heights(&mut self, x: &[f64], y: &[f64]) -> Array2<f64> {
         let mut heights = Array2::zeros((y.len(), x.len()));
@@ -28,7 +28,7 @@ impl Scanned {
         heights
     }
 
-    /// What each line alone left below it (rows), at every x (columns).
+    /// The groove of each line alone at its own y (rows), at every x (columns).
     #[must_use]
     pub fn own_grooves(&mut self, x: &[f64]) -> Array2<f64> {
         let rows = self.grooves.own_heights(x);
@@ -36,8 +36,8 @@ impl Scanned {
     }
 }
 
-/// ∫∫ u dx dy after these lines: -α ∫∫f times how long the tip was there, under a depth limit with the weights of the
-/// visits, and less what has healed. By the paper's law -α (X/r) ∫∫f for each line.
+/// ∫∫ u dx dy after these lines: -α ∫∫f times the time that the tip was there, weighted by the depth limit and
+/// reduced by healing. In the basic model it is -α (X/r) ∫∫f for each line.
 #[must_use]
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
     let left =

@@ -1,18 +1,18 @@
-//! The depth to which a surface was carved.
+//! The mean carved depth of a surface.
 
 use crate::line::Line;
 use crate::plan::Plan;
 
-/// What lines a pitch apart take away below each place, on average, counting what is heaped up beside a groove as what is
-/// taken away: (α/(X d)) ∫w dt ∫∫|f|, in kσ²/a. For a footprint without side lobes it is the mean depth; for one that only
-/// moves material (β = 1), whose mean depth is 0, it is of the size of the grooves that overlap.
+/// Mean depth carved by lines one pitch apart, with material heaped up beside a groove counted like removed material:
+/// (α/(X d)) ∫w dt ∫∫|f|, in kσ²/a. For a footprint without side lobes it is the mean depth; for β = 1, which only
+/// moves material and has mean depth 0, it has the size of overlapping grooves.
 pub(super) fn carved(plan: &Plan, lines: &[Line], pitch: f64) -> f64 {
     let time = |line: &Line| line.residence().1.iter().sum::<f64>() / line.track().length;
     let mean = lines.iter().map(time).sum::<f64>() / lines.len() as f64;
     plan.law.model.alpha() * mean * magnitude(plan) / pitch
 }
 
-/// ∫∫|f|, of each layer by itself.
+/// ∫∫|f|, summed over the layers.
 fn magnitude(plan: &Plan) -> f64 {
     let step = 0.1 * 8.7 / plan.band();
     let reach = plan.reach_along();

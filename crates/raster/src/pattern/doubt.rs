@@ -1,56 +1,56 @@
-//! Reasons to doubt what is reported of a surface, and what would settle them.
+//! Doubts about the reported pattern, and their remedies.
 
 use super::regime::Regime;
 use std::fmt;
 
-/// A reason why something is not reported, or may be different after more lines.
+/// A reason why a result is not reported, or may differ after more lines.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Doubt {
-    /// On so many of the lines the tip did not leave the pit at an end of them.
+    /// The tip did not leave the pit at one end of some lines.
     Stuck {
-        /// These.
+        /// Number of these lines.
         lines: usize,
-        /// All.
+        /// Number of all lines.
         of: usize,
     },
-    /// Lines across too small a distance for a wave vector; about this many would do.
+    /// The lines span too small a distance for a wave vector; about this many are sufficient.
     FewLines(usize),
-    /// Lines too short for a wave vector; about this length would do, in σ.
+    /// The lines are too short for a wave vector; about this length is sufficient, in σ.
     ShortLines(f64),
-    /// One line, scanned again and again.
+    /// One line was scanned repeatedly.
     OneLine,
-    /// No more than so many lines hold the relief.
+    /// Only a few lines contain the relief.
     FewVisible {
-        /// About how many.
+        /// Approximate number of these lines.
         lines: usize,
         /// Whether the others have healed.
         healed: bool,
     },
-    /// What is on the lines is no wave: fewer than two of it fit. Lines about this long would show more.
+    /// The relief is not a wave: fewer than two wavelengths fit. Lines of about this length would show more.
     NoWave(f64),
-    /// The relief of the second half of the lines looked at over that of the first.
+    /// The relief of the second half of the evaluated lines over that of the first.
     Changing(f64),
-    /// The surface is steady so far, but what differs from line to line grows by this factor from line to line.
+    /// The surface is steady so far, but differences between lines grow by a factor per line.
     Growing {
-        /// A factor above 1.
+        /// Factor per line, above 1.
         factor: f64,
-        /// Ripples would be seen after about so many lines in all.
+        /// Approximate total number of lines after which ripples would be visible.
         lines: usize,
     },
-    /// A measure of the regime lies within its error of the boundary to this other regime.
+    /// A measure is, within its error, at the boundary to this other regime.
     Between(Regime, Regime),
-    /// Waves at least half as strong as the strongest, wavelength in σ and crest angle in degrees.
+    /// Waves with at least half the power of the strongest, wavelength in σ and crest angle in degrees.
     Rivals(Vec<(f64, f64)>),
     /// Neighbouring lines are in antiphase, κ = ±π/pitch: the sign of κ is not defined.
     Antiphase,
-    /// The error of the angle, in degrees, is too large to tell it; about so many lines would do.
+    /// The error of the angle is too large to report it; about this many lines are sufficient.
     Unresolved {
-        /// 95 %, in degrees.
+        /// Error (95 %), in degrees.
         error: f64,
-        /// In all.
+        /// Total number of lines.
         lines: usize,
     },
-    /// The error of the wavelength, in parts of it, is too large to tell it.
+    /// The relative error of the wavelength is too large to report it.
     Unmeasured(f64),
 }
 

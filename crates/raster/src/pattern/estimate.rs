@@ -1,4 +1,4 @@
-//! A number with its error, from quarters of what is looked at.
+//! Estimates with errors, from the scatter among quarters of the evaluated area.
 
 /// A value and half of its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,12 +7,12 @@ pub(super) struct Estimate {
     pub(super) error: f64,
 }
 
-/// Student's t of three degrees of freedom at 97.5 %, over √3: times the standard deviation of four values (that of the
-/// four, not of what they are drawn from) it is half of the 95 % interval of their mean.
+/// Student's t for three degrees of freedom at 97.5 %, over √3: half of the 95 % interval of the mean of four values,
+/// in units of their standard deviation (with divisor 4).
 const OF_FOUR: f64 = 3.182_446_305_284_263 / 1.732_050_807_568_877_2;
 
 impl Estimate {
-    /// The value of the whole, with the error of the mean of its quarters, each counting by its weight.
+    /// The value of the whole, with the error of the weighted mean of its quarters.
     pub(super) fn of_quarters(value: f64, quarters: &[(f64, f64); 4]) -> Self {
         let weight: f64 = quarters.iter().map(|(_, weight)| weight).sum();
         let apart = |(quarter, weight): &(f64, f64)| weight * (quarter - value).powi(2);
@@ -21,12 +21,12 @@ impl Estimate {
         Self { value, error }
     }
 
-    /// With a further error, which may go the same way.
+    /// Adds a further error linearly, because the two may be correlated.
     pub(super) fn and(self, error: f64) -> Self {
         Self { error: self.error + error, ..self }
     }
 
-    /// Wide enough for this value too.
+    /// Widens the error to include this value.
     pub(super) fn enclosing(self, other: f64) -> Self {
         Self { error: self.error.max((other - self.value).abs()), ..self }
     }
@@ -36,7 +36,7 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// Of four values drawn from a normal distribution the mean lies within its error in 95 of 100 cases.
+    /// The mean of four normal random values lies within its error in 95 of 100 cases.
     #[test]
     fn an_interval_holds_as_often_as_it_says() {
         let mut state = 5_u64;

@@ -1,4 +1,4 @@
-//! Angle and wavelength, and their errors, judged by patterns whose wave vector is known as they are made of it.
+//! Test of angle and wavelength, and of their errors, on generated patterns with a known wave vector.
 
 use super::doubt::Doubt;
 use super::local::Local;
@@ -8,8 +8,8 @@ use super::wave::Wave;
 use ndarray::Array2;
 use std::f64::consts::{PI, TAU};
 
-/// Evenly distributed in [0, 1): a 64-bit linear congruential generator (Knuth's MMIX), for patterns that are the same in
-/// every run.
+/// Uniform random numbers in [0, 1): a 64-bit linear congruential generator (Knuth's MMIX), so that patterns are the
+/// same in every test.
 struct Random(u64);
 
 impl Random {
@@ -24,20 +24,20 @@ impl Random {
     }
 }
 
-/// Crests, and what may lie over them.
+/// Generated crests, with disturbances.
 #[derive(Clone)]
 struct Made {
     q: f64,
     kappa: f64,
     pitch: f64,
     rows: usize,
-    /// Columns that all lines have alike, of this amplitude.
+    /// Amplitude of columns, which are the same on all lines.
     columns: f64,
-    /// By how much crests are weaker between columns.
+    /// Reduction of the crests between columns.
     modulation: f64,
     harmonic: f64,
     noise: f64,
-    /// By how much the wave number changes over the sheet, in parts of it.
+    /// Relative change of the wave number over the area.
     bent: f64,
 }
 
@@ -46,7 +46,7 @@ const POINTS: usize = 260;
 const BAND: f64 = 8.7;
 
 impl Made {
-    /// Crests as micrographs have them, on 40 to 400 lines, of which the last half is looked at.
+    /// Random crests similar to micrographs, on 40 to 400 lines, of which the last half is evaluated.
     fn random(random: &mut Random) -> Self {
         loop {
             let (wavelength, angle) = (random.between(2.6, 9.0), random.between(15.0, 90.0_f64));
@@ -98,11 +98,11 @@ impl Made {
 struct Tally {
     reported: [usize; 2],
     wrong: [usize; 2],
-    /// Sum of the errors that are reported, in degrees and in parts of the wavelength.
+    /// Sum of the reported errors, in degrees and in fractions of the wavelength.
     errors: [f64; 2],
 }
 
-/// How many of so many patterns have an angle and a wavelength, and how many of these are wrong by more than their errors.
+/// Number of patterns with a reported angle and wavelength, and number of those with a wrong error, among `count`.
 fn tally(count: usize, what: impl Fn(&mut Made)) -> Tally {
     let mut random = Random(7);
     let mut tally = Tally::default();
@@ -130,8 +130,8 @@ fn tally(count: usize, what: impl Fn(&mut Made)) -> Tally {
     tally
 }
 
-/// Straight crests, alone and under noise of their own size: every error holds, nearly all is reported, and what is reported is reported to a
-/// few degrees.
+/// Straight crests, with and without noise of their own size: every error is correct, nearly all are reported, and
+/// the errors are a few degrees.
 #[test]
 fn clean_crests_are_reported_within_small_errors() {
     for noise in [0.0, 1.0] {
@@ -143,7 +143,7 @@ fn clean_crests_are_reported_within_small_errors() {
     }
 }
 
-/// Whatever lies over them, no error is too small; bent crests have wider ones.
+/// Errors are never too small, for any disturbance; bent crests have larger ones.
 #[test]
 fn crests_are_reported_within_their_errors_whatever_lies_over_them() {
     let modulated = tally(120, |made| made.modulation = 0.9);
@@ -164,7 +164,7 @@ fn crests_are_reported_within_their_errors_whatever_lies_over_them() {
     assert!(sharp.reported[0] > 80, "{sharp:?}");
 }
 
-/// Columns as strong as oblique crests: neither is reported, and both are named.
+/// For columns as strong as oblique crests no angle is reported, and both waves are named.
 #[test]
 fn waves_as_strong_as_each_other_are_named_instead() {
     let mut random = Random(3);
@@ -187,7 +187,7 @@ fn waves_as_strong_as_each_other_are_named_instead() {
     assert!(named > 25, "{named}");
 }
 
-/// At κ = ±π/pitch a wave and its mirror image are the same heights: no angle.
+/// At κ = ±π/pitch a wave and its mirror image have the same heights: no angle is reported.
 #[test]
 fn crests_in_antiphase_have_no_angle() {
     let mut random = Random(9);

@@ -1,4 +1,4 @@
-//! The ripple as it is from place to place.
+//! The local amplitude and phase of the ripple.
 
 use super::estimate::Estimate;
 use super::sheet::{Sheet, cut, participating, quarters};
@@ -7,7 +7,7 @@ use ndarray::{Array2, ArrayView2};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// ψ(x, n): u e^{-i(qx + κy)} averaged over a wavelength or so along the line.
+/// ψ(x, n): u e^{-i(qx + κy)} averaged over about a wavelength along the line.
 pub(super) struct Local {
     psi: Array2<Complex64>,
     wave: Wave,
@@ -15,18 +15,18 @@ pub(super) struct Local {
     pitch: f64,
 }
 
-/// How far a wave reaches, as seen through the windows of a sheet: along the lines, and across them.
+/// Effective extent of a wave within the windows of an area: along the lines, and across them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extent {
     pub(super) along: f64,
     pub(super) across: f64,
 }
 
-/// Standard deviation of the average, in wavelengths along the line, and at most such that the average takes half of the line; it ends at so
-/// many of them.
+/// Standard deviation of the average in wavelengths along the line; its limit, by which the average covers at most
+/// half of the line; and its cutoff, in standard deviations.
 const AVERAGED: f64 = 0.6;
 const ENDS: f64 = 3.5;
-/// ψ below this part of its mean is too weak for a phase.
+/// Magnitude of ψ relative to its mean below which its phase is undetermined.
 const WEAK: f64 = 0.02;
 
 impl Local {
@@ -53,7 +53,7 @@ impl Local {
         Self { psi, wave: *wave, spacing: sheet.spacing, pitch: sheet.pitch }
     }
 
-    /// |Σ ψ_n* ψ_{n+m}| / √(Σ|ψ_n|² Σ|ψ_{n+m}|²), of every line with that m after it, and its error.
+    /// |Σ ψ_n* ψ_{n+m}| / √(Σ|ψ_n|² Σ|ψ_{n+m}|²) over all pairs of lines at the distance m, with its error.
     pub(super) fn coherence(&self, after: usize) -> Estimate {
         let of = |(value, _): (f64, f64)| value;
         let quarters = self.quarters().map(|quarter| coherence(&quarter, after));
@@ -65,7 +65,7 @@ impl Local {
         quarters(rows, columns).map(|(rows, columns)| cut(self.psi.view(), rows, columns))
     }
 
-    /// The wave as it is in each quarter, by how fast its phase turns there, with the power that it has there.
+    /// The wave in each quarter, from the gradient of the local phase, with its power there.
     pub(super) fn waves(&self) -> [Wave; 4] {
         let turn = |pairs: (ArrayView2<Complex64>, ArrayView2<Complex64>)| -> f64 {
             pairs.0.iter().zip(pairs.1).map(|(a, b)| a.conj() * b).sum::<Complex64>().arg()
@@ -87,7 +87,7 @@ impl Local {
         })
     }
 
-    /// Of a wave that is as strong everywhere the extent of the sheet.
+    /// The extent of a wave; a uniform wave has the extent of the area.
     pub(super) fn extent(&self, sheet: &Sheet) -> Extent {
         let (rows, columns) = self.psi.dim();
         let trimmed = (sheet.u.ncols() - columns) / 2;
@@ -119,7 +119,7 @@ impl Local {
         })
     }
 
-    /// Meshes around which the phase turns.
+    /// Number of cells around which the phase turns once.
     pub(super) fn defects(&self) -> usize {
         let (rows, columns) = self.psi.dim();
         let mean =
@@ -138,7 +138,7 @@ impl Local {
     }
 }
 
-/// That of these lines, and their power.
+/// The coherence of these lines, and their power.
 fn coherence(psi: &ArrayView2<Complex64>, after: usize) -> (f64, f64) {
     let (rows, columns) = psi.dim();
     let pairs = rows.saturating_sub(after);
@@ -159,7 +159,7 @@ mod tests {
         Sheet::new(heights, (0.0, 0.25), 0.5, 8.7)
     }
 
-    /// q and κ of a wave that is put in are found again, with its harmonic beside it.
+    /// q and κ of a given wave with a harmonic are recovered.
     #[test]
     fn a_wave_is_found() {
         let (q, kappa) = (0.937, -0.871);
@@ -175,7 +175,7 @@ mod tests {
         assert!(sheet.straightness() > 0.99, "{}", sheet.straightness());
     }
 
-    /// Two waves are a lattice of pits, and lines that have nothing to do with each other are no pattern.
+    /// Two waves form a lattice of pits, and unrelated lines are no pattern.
     #[test]
     fn pits_and_disorder_are_told_from_ripples() {
         let pits = sheet(|x, y| (0.9 * x + 0.9 * y).cos() + 0.9 * (0.9 * x - 0.9 * y).cos());
@@ -186,7 +186,7 @@ mod tests {
         assert!(coherence < 0.7, "{coherence}");
     }
 
-    /// A crest that ends: e^{iφ} around (x, y) = (30, 15).
+    /// A crest that ends: e^{iφ} around (x, y) = (30, 15) counts as a defect.
     #[test]
     fn a_defect_is_counted() {
         let sheet = sheet(|x, y| (0.9 * x + 0.6 * y + (y - 15.1).atan2(x - 30.1)).cos());

@@ -1,4 +1,4 @@
-//! What the lines have written: ripples and their wave vector, pits, or no order.
+//! The pattern of the lines: ripples and their wave vector, pits, or disorder.
 
 mod depth;
 mod doubt;
@@ -27,80 +27,82 @@ use vector::Vector;
 use wave::Wave;
 use window::{ALONG, FEWEST_ROWS, Window};
 
-/// What is to be seen after some lines.
+/// The pattern after some lines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// The kind of surface.
+    /// The regime of the surface.
     pub regime: Regime,
     /// The ripple; `None` where there is none.
     pub pattern: Option<Pattern>,
-    /// Why something is not reported, or may be different after more lines.
+    /// Reasons why a result is not reported, or may differ after more lines.
     pub doubts: Vec<Doubt>,
 }
 
-/// The strongest ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a. Errors are halves of 95 % intervals:
-/// of half of what the window resolves, and of the scatter among its quarters. What is `None` cannot be told from these
-/// lines.
+/// The strongest ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a. Errors are halves of 95 %
+/// intervals, from half of the resolution of the window and from the scatter among its quarters. A number that these
+/// lines do not determine is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
-    /// Wave number along the lines, above 0; `None` where several waves are as strong.
+    /// Wave number along the lines, above 0; `None` if several waves have about the same power.
     pub q: Option<f64>,
-    /// Wave number across them, between -π/d and π/d; `None` as q, and next to ±π/d, where its sign is undefined.
+    /// Wave number across the lines, between -π/d and π/d; `None` if q is, and close to ±π/d, where its sign is
+    /// undefined.
     pub kappa: Option<f64>,
-    /// 2π/√(q² + κ²)
+    /// Wavelength, 2π/√(q² + κ²).
     pub wavelength: Option<f64>,
-    /// Of the wavelength.
+    /// Error of the wavelength.
     pub wavelength_error: Option<f64>,
-    /// Between crests and scan axis, in degrees: atan(q/|κ|).
+    /// Angle between crests and scan axis, in degrees: atan(q/|κ|).
     pub crest_angle: Option<f64>,
-    /// Of the crest angle, in degrees.
+    /// Error of the crest angle, in degrees.
     pub crest_angle_error: Option<f64>,
-    /// How far each line is the one before, shifted: 1 where all shifts are the same. |Σ ψ_n* ψ_{n+1}| over
-    /// √(Σ|ψ_n|² Σ|ψ_{n+1}|²), ψ the local complex amplitude of what each line alone has carved.
+    /// Coherence |Σ ψ_n* ψ_{n+1}| over √(Σ|ψ_n|² Σ|ψ_{n+1}|²), with ψ the local complex amplitude of the groove of
+    /// each line alone: the correlation of each line with the one before, after a shift; 1 if all shifts are equal.
     pub coherence: f64,
-    /// Of the coherence.
+    /// Error of the coherence.
     pub coherence_error: f64,
-    /// The same of a line and the one two after it, on a zigzag: lines that go the same way.
+    /// Coherence of each line with the one two lines later, on a zigzag: lines in the same direction.
     pub coherence_same_way: Option<f64>,
-    /// Half peak-to-peak.
+    /// Half peak-to-peak of the surface.
     pub amplitude: f64,
-    /// Places where a crest begins or ends: around them the phase of ψ turns once.
+    /// Number of places at which a crest begins or ends: around them the phase of ψ turns once.
     pub defects: usize,
 }
 
-/// What one line did.
+/// The regime of one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineRegime {
-    /// The lag hardly changes in the middle of the line.
+    /// The lag is nearly constant in the middle of the line.
     Steady,
-    /// It does.
+    /// The lag varies.
     StickSlip,
-    /// The tip stayed in the pit at an end of it.
+    /// The tip stayed in the pit at one end of the line.
     StuckAtTheEdge,
 }
 
-/// Points in a width of the footprint.
+/// Points per width of the footprint.
 const POINTS: f64 = 4.0;
-/// Fewer waves than these along the window are no ripples.
+/// Smallest number of wavelengths along the window that count as ripples.
 const FEWEST_WAVES: f64 = 2.0;
-/// Lines are alike where this part of their relief, or more, is the same on all.
+/// Smallest fraction of the relief common to all lines at which they count as alike.
 const ALIKE: f64 = 0.5;
-/// Half peak-to-peak is known to this part.
+/// Relative error of half peak-to-peak.
 const AMPLITUDE_ERROR: f64 = 0.2;
-/// What is left of a wave away from the edges is known to this.
+/// Error of the fraction of a wave that remains away from the edges.
 const KEPT_ERROR: f64 = 0.1;
-/// Relief whose logarithm changes by more than this from one half of the lines to the other still changes.
+/// Largest change of the logarithm of the relief, between the two halves of the lines, of a settled pattern.
 const SETTLED: f64 = 0.1;
-/// Differences between lines grow if they do by more than this, and are more than so many times the tolerance.
+/// Smallest growth factor of differences between lines that counts as growth, and their smallest size in tolerances.
 const GROWS: f64 = 1.02;
 const SEEN: f64 = 10.0;
-/// A lag that changes by less than this part of itself is steady.
+/// Largest relative change of a steady lag.
 const SAME_LAG: f64 = 0.02;
 
-/// What is to be seen after these lines: the regime, the pattern if there is one, and what is doubtful in them.
+/// The result for these lines: the regime, the pattern if there is one, and doubts.
 ///
-/// Looked at are the last half of the lines (at most 256, without those that later lines would still have gone over), from
-/// 20 % to 85 % of their length. The pattern is the strongest maximum of the power spectrum of this window (Hann).
+/// The evaluated window is the last half of the lines (at most 256, without those that later lines would still
+/// change), from 20 % to 85 % of their length. The pattern is the strongest maximum of the power spectrum in this
+/// window (Hann).
 #[must_use]
 pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
     let mut doubts = vec![];
@@ -127,7 +129,7 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
     }
 }
 
-/// What one line did.
+/// The regime of one line.
 #[must_use]
 pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
     if is_stuck(line) {
@@ -144,22 +146,22 @@ pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
     if high - low < SAME_LAG * high { LineRegime::Steady } else { LineRegime::StickSlip }
 }
 
-/// Whether the tip went less than half of its line.
+/// Whether the tip covered less than half of its line.
 fn is_stuck(line: &Line) -> bool {
     let (track, start) = (line.track(), line.x0(0.0));
     let end = line.x0(line.trajectory().end());
     track.along(end) - track.along(start) < 0.5 * track.length
 }
 
-/// The part of lines and surface that is looked at.
+/// The evaluated part of lines and surface.
 struct Sheets {
     /// The surface on each line.
     surface: Sheet,
-    /// What each line alone has carved.
+    /// The groove of each line alone.
     own: Sheet,
-    /// How deep it was carved, on average.
+    /// Mean carved depth.
     depth: f64,
-    /// What is left of the relief of the first half of the lines as the second half has been scanned.
+    /// Fraction of the relief of the first half of the lines that remains after the second half was scanned.
     healed: f64,
 }
 
@@ -190,7 +192,7 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     Ok(sheets)
 }
 
-/// What was measured.
+/// Measured quantities.
 struct Seen {
     measures: Measures,
     pattern: Option<Pattern>,
@@ -268,14 +270,14 @@ impl Seen {
     }
 }
 
-/// The part of the relief, root mean square, that lines do not have alike.
+/// Root mean square of the part of the relief that differs between lines.
 fn unlike(sheet: &Sheet) -> f64 {
     let square = |u: &ndarray::Array2<f64>| u.iter().map(|u| u * u).sum::<f64>();
     (square(&sheet.unlike()) / square(&sheet.u)).sqrt()
 }
 
 impl Sheets {
-    /// What is left of a wave away from the edges from which lines begin, of what it has next to them: all of it where the
+    /// Fraction of a wave that remains away from the starting edges, relative to its amplitude next to them; 1 if the
     /// surface is still rough there.
     fn kept(&self, path: Path, local: &Local) -> Estimate {
         let ends = |[first, middle, last]: [f64; 3]| {
@@ -291,7 +293,7 @@ impl Sheets {
     }
 }
 
-/// Whether what differs from line to line grows, and when it would be seen as ripples.
+/// Growth of differences between lines, and the number of lines after which ripples would be visible.
 fn growing(plan: &Plan, sheets: &Sheets, lines: usize) -> Option<Doubt> {
     let unlike = sheets.surface.unlike();
     let [before, after] = halves_of(&unlike);

@@ -1,22 +1,22 @@
-//! The kinds of surface, and what decides between them.
+//! The regimes of a surface, and the criteria between them.
 
 use super::estimate::Estimate;
 use std::fmt;
 
-/// The kinds of surface.
+/// Regimes of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
-    /// No ripples: the surface is as deep everywhere, but for what fades from the edges at which lines begin.
+    /// No ripples: a uniform depth, except close to the edges at which lines begin.
     Steady,
-    /// Crests, the same from line to line; on a zigzag from each to the next that goes the same way.
+    /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
-    /// Crests broken into pits, lines still following each other.
+    /// Crests broken into pits; neighbouring lines are still correlated.
     Pits,
-    /// Neither.
+    /// Neither ripples nor pits.
     Disordered,
-    /// On most lines the tip did not leave the pit at an end of them.
+    /// On most lines the tip did not leave the pit at one end.
     StuckAtTheEdge,
-    /// Too few or too short lines to tell.
+    /// Too few or too short lines for a regime.
     Unknown,
 }
 
@@ -33,28 +33,28 @@ impl fmt::Display for Regime {
     }
 }
 
-/// Ripples below this part of the depth are none.
+/// Largest amplitude relative to the depth that counts as no ripples.
 pub(super) const FLAT: f64 = 0.01;
-/// What has less than this left away from the edges of the lines, of what it has next to them, is the mark of the edges.
+/// Largest remaining fraction, away from the edges of the lines, of a wave that is an effect of the edges.
 const FADED: f64 = 0.5;
-/// Coherence of ripples, and of a lattice of pits.
+/// Smallest coherence of ripples, and of a lattice of pits.
 const ORDERED: f64 = 0.95;
 const LATTICE: f64 = 0.4;
-/// Crests are broken into pits where more than a twentieth of the power of slopes lies along them, which is a straightness of
-/// 1 - 2/20, and the surface is that rough, in its depth.
+/// Smallest straightness of ripples. Crests count as broken into pits if more than a twentieth of the power of slopes
+/// lies along them, a straightness of 1 - 2/20, and the surface is also rough relative to its depth.
 const STRAIGHT: f64 = 0.9;
 pub(super) const PITTED: f64 = 0.12;
 
-/// What decides.
+/// The measures that determine the regime.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measures {
-    /// Half peak-to-peak, in parts of the depth that was carved.
+    /// Half peak-to-peak, relative to the carved depth.
     pub(super) amplitude: Estimate,
-    /// Of what all lines have alike: what is left of it away from the edges. Of other waves 1.
+    /// For waves common to all lines: the fraction that remains away from the edges; 1 for other waves.
     pub(super) kept: Estimate,
-    /// See [`Sheet::straightness`](super::sheet::Sheet::straightness).
+    /// Straightness of the crests: see [`Sheet::straightness`](super::sheet::Sheet::straightness).
     pub(super) straightness: Estimate,
-    /// Coherence of each line with the one that it follows.
+    /// Coherence of each line with the previous one in its direction.
     pub(super) followed: Estimate,
 }
 
@@ -71,7 +71,7 @@ impl Measures {
         }
     }
 
-    /// Another that one of the measures would make it, elsewhere within its error.
+    /// Another regime that results if one of the measures changes within its error.
     pub(super) fn beside(&self) -> Option<Regime> {
         let here = self.regime();
         let of: [fn(&mut Self) -> &mut Estimate; 4] =

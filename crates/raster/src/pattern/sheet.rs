@@ -5,15 +5,15 @@ use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// Heights on evenly spaced points of evenly spaced lines, less the mean and slope of each line.
+/// Heights on evenly spaced points of evenly spaced lines, minus the mean and slope of each line.
 pub(super) struct Sheet {
     pub(super) u: Array2<f64>,
     pub(super) from: f64,
     pub(super) spacing: f64,
     pub(super) pitch: f64,
-    /// Beyond this wave number there is nothing.
+    /// Largest wave number of the heights.
     pub(super) band: f64,
-    /// sin² that fades both ends (Hann), of the points of a line and of the lines.
+    /// sin² windows (Hann), of the points of a line and of the lines.
     pub(super) windows: (Vec<f64>, Vec<f64>),
 }
 
@@ -26,7 +26,7 @@ fn root_mean_square<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-/// (Σe)²/Σe²: how many of these hold what there is.
+/// (Σe)²/Σe²: the effective number of contributions.
 pub(super) fn participating(e: &[f64]) -> f64 {
     let squares: f64 = e.iter().map(|e| e * e).sum();
     if squares > 0.0 { e.iter().sum::<f64>().powi(2) / squares } else { 0.0 }
@@ -55,7 +55,7 @@ impl Sheet {
         Self { u, from, spacing, pitch, band, windows }
     }
 
-    /// A part of it, as it is.
+    /// A part of the heights, unchanged.
     pub(super) fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
         let from = self.from + self.spacing * columns.start as f64;
         let u = cut(self.u.view(), rows, columns).to_owned();
@@ -73,7 +73,7 @@ impl Sheet {
         quarters(rows, columns).map(|(rows, columns)| self.part(rows, columns))
     }
 
-    /// Less what all lines have alike, the mean over them.
+    /// The heights minus the mean over all lines.
     pub(super) fn unlike(&self) -> Array2<f64> {
         let rows = self.u.nrows() as f64;
         &self.u - &(self.u.sum_axis(Axis(0)) / rows)
@@ -94,14 +94,14 @@ impl Sheet {
             .map(|part| root_mean_square(cut(self.u.view(), 0..rows, part).iter()))
     }
 
-    /// How many lines hold its relief.
+    /// Effective number of lines that contain the relief.
     pub(super) fn visible_rows(&self) -> f64 {
         let rows = self.u.rows().into_iter();
         participating(&rows.map(|row| row.iter().map(|u| u * u).sum()).collect::<Vec<_>>())
     }
 
-    /// How far slopes all point one way, whichever: 1 where u is made of straight crests, 0 where it is the same in all
-    /// directions. (λ1 - λ2)/(λ1 + λ2) of the mean of ∇u ∇uᵀ, the structure tensor, under the squares of the windows.
+    /// Alignment of slopes: 1 if u consists of straight crests, 0 if it is isotropic. (λ1 - λ2)/(λ1 + λ2) of the mean
+    /// of ∇u ∇uᵀ, the structure tensor, weighted by the squares of the windows.
     pub(super) fn straightness(&self) -> f64 {
         let (rows, columns) = self.u.dim();
         let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
@@ -116,7 +116,7 @@ impl Sheet {
         (xx - yy).hypot(2.0 * xy) / (xx + yy)
     }
 
-    /// Wave numbers that differ by less than these are the same to it.
+    /// Resolution: smallest difference of wave numbers that can be distinguished.
     pub(super) fn resolution(&self) -> (f64, f64) {
         let (rows, columns) = self.u.dim();
         (TAU / (self.spacing * columns as f64), TAU / (self.pitch * rows as f64))
@@ -133,7 +133,7 @@ impl Sheet {
         self.u.rows().into_iter().map(line).collect()
     }
 
-    /// The same over the lines, its square.
+    /// The sum over the lines, as a squared modulus.
     pub(super) fn across(&self, along: &Array1<Complex64>, kappa: f64) -> f64 {
         let turn = Complex64::from_polar(1.0, -kappa * self.pitch);
         let (mut phase, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());
@@ -144,7 +144,7 @@ impl Sheet {
         sum.norm_sqr()
     }
 
-    /// |Σ window u e^{-i(qx + κy)}|²
+    /// The power |Σ window u e^{-i(qx + κy)}|².
     pub(super) fn power(&self, q: f64, kappa: f64) -> f64 {
         self.across(&self.along(q), kappa)
     }
@@ -157,7 +157,7 @@ pub(super) fn halves_of(u: &Array2<f64>) -> [f64; 2] {
         .map(|half| root_mean_square(cut(u.view(), half, 0..columns).iter()))
 }
 
-/// These rows and columns.
+/// The part with these rows and columns.
 pub(super) fn cut<T>(
     mut of: ArrayView2<'_, T>,
     rows: Range<usize>,

@@ -7,31 +7,31 @@ use super::sheet::Sheet;
 use super::wave::Wave;
 use std::f64::consts::{PI, TAU};
 
-/// The strongest wave of a sheet, and what makes it doubtful.
+/// The strongest wave of an area, with its rivals.
 pub(super) struct Vector {
     wave: Wave,
     q: Estimate,
     kappa: Estimate,
     angle: Estimate,
     length: Estimate,
-    /// Of as strong waves, if they make angle or wavelength uncertain.
+    /// Waves of about the same power that make angle or wavelength uncertain.
     rivals: Vec<Wave>,
-    /// The lines that were scanned.
+    /// Number of lines scanned.
     lines: usize,
-    /// Largest wave number of lines at this pitch.
+    /// Largest wave number across lines of this pitch.
     edge: f64,
 }
 
-/// An angle with a larger error, in degrees, or a wavelength with a larger one, in parts of it, is not reported.
+/// Largest error of an angle in degrees, and largest relative error of a wavelength, that are reported.
 const MOST_ANGLE: f64 = 15.0;
 const MOST_LENGTH: f64 = 0.25;
-/// A wave number with a larger error, in parts of it, is none.
+/// Largest relative error of a wave number.
 const NO_WAVE: f64 = 0.5;
-/// Harmonics that are told from other waves.
+/// Largest order of harmonics that are distinguished from other waves.
 const MOST_HARMONIC: f64 = 8.0;
 
 impl Vector {
-    /// That of the first of these waves, by falling power.
+    /// The vector of the first of these waves, which are sorted by falling power.
     pub(super) fn of(sheet: &Sheet, local: &Local, waves: &[Wave], lines: usize) -> Self {
         let wave = waves[0];
         let extent = local.extent(sheet);
@@ -66,7 +66,7 @@ impl Vector {
         Self { angle, length, rivals, ..found }
     }
 
-    /// Whether this is the same wave, within the errors, or a harmonic of it.
+    /// Whether another wave is the same within the errors, or a harmonic.
     fn covers(&self, other: &Wave) -> bool {
         let order = (other.q / self.wave.q).round().clamp(1.0, MOST_HARMONIC);
         let turns = (other.kappa - order * self.wave.kappa) / (2.0 * self.edge);
@@ -75,12 +75,12 @@ impl Vector {
             && kappa.abs() <= order * self.kappa.error
     }
 
-    /// Whether its wave number is one, along the lines.
+    /// Whether its wave number along the lines is significant.
     pub(super) fn is_wave(&self) -> bool {
         self.q.error <= NO_WAVE * self.wave.q || self.wave.q < NO_WAVE * self.wave.kappa.abs()
     }
 
-    /// The relief of the second half of the lines over that of the first: of all of it, and of this wave.
+    /// The relief of the second half of the lines over that of the first: in total, and of this wave.
     pub(super) fn changes(&self, sheet: &Sheet) -> [f64; 2] {
         let [before, after] = super::sheet::halves_of(&sheet.u);
         let halves = sheet
@@ -89,7 +89,7 @@ impl Vector {
         [after / before, halves[1] / halves[0]]
     }
 
-    /// In degrees; `None`, with a doubt, where it cannot be told.
+    /// The angle in degrees; `None`, with a doubt, if it is undetermined.
     pub(super) fn crest_angle(&self, doubts: &mut Vec<Doubt>) -> Option<Estimate> {
         if self.wave.kappa.abs() > self.edge - self.kappa.error {
             doubts.push(Doubt::Antiphase);
@@ -108,7 +108,7 @@ impl Vector {
         None
     }
 
-    /// In σ; `None`, with a doubt, where it cannot be told, or where the wave still grows or fades.
+    /// The wavelength in σ; `None`, with a doubt, if it is undetermined, or if the wave still grows or decays.
     pub(super) fn wavelength(&self, is_settled: bool, doubts: &mut Vec<Doubt>) -> Option<Estimate> {
         let part = self.length.error / self.length.value;
         if part <= MOST_LENGTH {

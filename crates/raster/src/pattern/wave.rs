@@ -1,9 +1,9 @@
-//! The wave vectors of a sheet of heights.
+//! The strongest waves of an area.
 
 use super::sheet::Sheet;
 use std::f64::consts::PI;
 
-/// Where the power |Σ window u e^{-i(qx + κy)}|² has a maximum.
+/// A maximum of the power |Σ window u e^{-i(qx + κy)}|².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wave {
     pub(super) q: f64,
@@ -11,17 +11,18 @@ pub(super) struct Wave {
     pub(super) power: f64,
 }
 
-/// What is looked through begins with so many waves along a line: less is the mean and slope that was taken off.
+/// Smallest number of waves along a line in the search: lower wave numbers were removed with mean and slope.
 const FEWEST_SEEN: f64 = 1.0;
 /// Samples in the width of a peak.
 const PER_PEAK: f64 = 2.0;
-/// Of the band: what is looked through. The groove of a sharp pit has less than e^{-6} of its power beyond.
+/// Largest wave number of the search, as a fraction of the bandwidth. The groove of a sharp pit has less than e^{-6}
+/// of its power beyond.
 const LOOKED_AT: f64 = 0.4;
-/// Waves of this part of the power of the strongest are as strong.
+/// Smallest power of a rival, relative to the strongest wave.
 const RIVAL: f64 = 0.5;
 
 impl Wave {
-    /// Crests to the lines, in degrees.
+    /// Angle of the crests to the lines, in degrees.
     pub(super) fn angle(&self) -> f64 {
         self.q.atan2(self.kappa.abs()).to_degrees()
     }
@@ -30,8 +31,8 @@ impl Wave {
         std::f64::consts::TAU / self.q.hypot(self.kappa)
     }
 
-    /// The strongest wave of which at least so many lie along the lines, and after it its rivals, be they longer: all that
-    /// have at least half of its power, or more power of slopes.
+    /// The strongest wave with at least `fewest` wavelengths along the lines, followed by its rivals, which may be
+    /// longer: all with at least half of its power, or with more power of slopes.
     pub(super) fn strongest(sheet: &Sheet, fewest: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let peaks = Self::peaks(sheet);
@@ -53,13 +54,13 @@ impl Wave {
         others
     }
 
-    /// Whether it has half of the power of another, or more power of slopes, all times a factor.
+    /// Whether the wave has half of the power of another, or more power of slopes, times a factor.
     fn rivals(&self, other: &Self, factor: f64) -> bool {
         let slopes = |wave: &Self| (wave.q.powi(2) + wave.kappa.powi(2)) * wave.power;
         self.power >= factor * RIVAL * other.power || slopes(self) >= factor * slopes(other)
     }
 
-    /// Where the power is larger than all around, q > 0.
+    /// All local maxima of the power with q > 0.
     fn peaks(sheet: &Sheet) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
@@ -90,7 +91,7 @@ impl Wave {
         peaks
     }
 
-    /// The top of the peak, by parabolas through the logarithm of the power.
+    /// The maximum of the peak, by parabolas through the logarithm of the power.
     fn refined(mut self, sheet: &Sheet, (mut step_q, mut step_k): (f64, f64)) -> Self {
         let within = [step_q, step_k];
         let start = self;

@@ -1,24 +1,24 @@
-//! The part of an area that is looked at: the largest rectangle of lines that lie evenly.
+//! The evaluated part of an area: the largest rectangle of evenly spaced lines.
 
 use super::doubt::Doubt;
 use crate::area::pitch_of;
 use crate::path::{AreaLine, Path};
 use crate::plan::{Plan, WIDTHS};
 
-/// The part of the length that is looked at: neither the pit at the beginning nor the end.
+/// Evaluated part of the length, without the pit at the beginning and without the end.
 pub(super) const ALONG: (f64, f64) = (0.2, 0.85);
-/// Of the lines the last part, but no more than so many.
+/// Evaluated fraction of the lines, from the last one backwards, and their largest number.
 const LAST: f64 = 0.5;
 const MOST_ROWS: usize = 256;
-/// Of a shape so many lines are tried.
+/// Largest number of lines of a shape that are tried.
 const MOST_TRIED: usize = 2048;
-/// The last lines have not yet been gone over by those that would follow within so many widths.
+/// Distance in widths within which later lines would still change the last ones.
 const UNFINISHED: f64 = 3.5;
-/// Fewer rows, or a shorter stretch in wavelengths of the footprint, show no wave vector.
+/// Smallest number of rows, and smallest length in wavelengths of the footprint, that show a wave vector.
 pub(super) const FEWEST_ROWS: usize = 8;
 const SHORTEST: f64 = 12.0;
 
-/// Lines first..end, from x to x.
+/// Lines first..end, over a range of x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {
     pub(super) first: usize,
@@ -29,10 +29,10 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Of the first `scanned` lines of a plan.
+    /// The window within the first `scanned` lines of a plan.
     ///
     /// # Errors
-    /// There is none in which a wave vector could be seen.
+    /// No window is large enough for a wave vector.
     pub(super) fn of(plan: &Plan, scanned: usize) -> Result<Self, Doubt> {
         let width = 8.7 / plan.band();
         let across = plan.reach_across() / WIDTHS;
@@ -58,7 +58,7 @@ impl Window {
     }
 }
 
-/// What is looked at of line n.
+/// The evaluated part of line n.
 fn line(plan: &Plan, n: usize) -> AreaLine {
     let track = plan.track(n);
     let ends = [ALONG.0, ALONG.1].map(|part| track.x(part * track.length));
@@ -66,7 +66,7 @@ fn line(plan: &Plan, n: usize) -> AreaLine {
     AreaLine { y: track.y, start: low, length: high - low }
 }
 
-/// The largest of all within evenly spaced lines; of equal ones the last.
+/// The largest window within evenly spaced lines; of equal ones the last.
 fn largest(lines: &[AreaLine]) -> Option<Window> {
     let mut best: Option<(f64, Window)> = None;
     for end in 2..=lines.len() {

@@ -1,11 +1,11 @@
-//! Σ_j w_j f(x - x_j) over the residence of the tip, by the cheaper of two ways.
+//! Σ_j w_j f(x - x_j) over the residence of the tip, by the cheaper of two methods.
 
 use ndarray::Array1;
 use rayon::prelude::*;
 use stickslip_convolution::{Kernel, direct_sum, sum};
 use stickslip_tip::TipFunction;
 
-/// How a sum over the residence is done.
+/// Methods for a sum over the residence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// One evaluation of f per position of the tip and per x: the definition.
@@ -14,16 +14,16 @@ pub enum Method {
     Fft,
 }
 
-/// Pairs of source and target that cost as much as one of either by FFT; measured with
-/// benches/surface.rs, flat within a factor of two.
+/// Pairs of source and target with the same cost as one source or target by FFT; measured with benches/surface.rs,
+/// flat within a factor of two.
 const PAIRS_PER_POINT: f64 = 16.0;
-/// Cells of the lattice that cost as much as one point.
+/// Cells of the lattice with the same cost as one point.
 const CELLS_PER_POINT: f64 = 2.0;
-/// Cells of a lattice that fits in memory: a gigabyte with its transforms.
+/// Largest number of cells of a lattice: a gigabyte with its transforms.
 const MOST_CELLS: f64 = 1e7;
 
 impl Method {
-    /// The cheaper one for so many positions and points over this extent; the definition where no lattice over it fits in
+    /// The cheaper method for these positions and points; the definition if no lattice over their extent fits in
     /// memory.
     #[must_use]
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
@@ -45,13 +45,13 @@ impl Method {
 /// Σ_j `weights_j` f(x - `positions_j`) at every x, by the cheaper method.
 ///
 /// # Panics
-/// If there are not as many weights as positions, or if a position or x is not finite.
+/// The numbers of weights and positions differ, or a position or x is not finite.
 #[must_use]
 pub fn carved(tip: &TipFunction, positions: &[f64], weights: &[f64], x: &[f64]) -> Array1<f64> {
     carved_by(Method::cheaper(tip, positions, x), tip, positions, weights, x)
 }
 
-/// As [`carved`], by the method given.
+/// As [`carved`], by the given method.
 ///
 /// # Panics
 /// As [`carved`].

@@ -13,12 +13,13 @@ impl Surface<'_> {
     ///     u(x,y,t) = u0(x,y) - α ∫_{t1}^t f(x - x0(t'), y)dt'
     /// ```
     ///
-    /// Under a wider law each visit counts by its weight, and all of it heals. A steady past was carved by the same
-    /// footprint; a given profile and noise are known along the path alone, and are taken to be the same for all y. Costs one plane surface for each layer of the
-    /// footprint and one multiplication for each layer and pixel.
+    /// In the extended model each node is weighted, and all grooves heal. Steady motion before the run carved with
+    /// the same footprint; a given profile and noise are known on the path only, and are assumed to be the same for
+    /// all y. The cost is that of one surface u(x) for each layer of the footprint and one multiplication for each
+    /// layer and pixel.
     ///
     /// # Errors
-    /// `t` outside of the run, x or y not finite.
+    /// `t` is outside of the run; x or y is not finite.
     pub fn image(
         &self,
         footprint: &Footprint,
@@ -35,7 +36,7 @@ impl Surface<'_> {
         Ok(image)
     }
 
-    /// -α ∫_{t1}^t f(x - x0(t'), y)dt': what the tip has carved by time t, without what was there before.
+    /// -α ∫_{t1}^t f(x - x0(t'), y)dt': the groove carved by time t, without the initial surface.
     ///
     /// # Errors
     /// As [`Self::image`].
@@ -50,8 +51,8 @@ impl Surface<'_> {
         Ok(self.layered(footprint, t, x, y, |_| Array1::zeros(x.len())))
     }
 
-    /// What [`Self::image_far_behind`] gives, by its definition: one evaluation of f(x,y) for each
-    /// position of the tip and each pixel. The oracle of the other; slow.
+    /// The result of [`Self::image_far_behind`] by its definition: one evaluation of f(x,y) for each position of the
+    /// tip and each pixel. A slow reference.
     ///
     /// # Errors
     /// As [`Self::image`].
@@ -95,7 +96,7 @@ impl Surface<'_> {
         Array2::from_shape_fn((y.len(), layers.len()), height).dot(&along)
     }
 
-    /// (24) with the layer's g for f, as it was when the run began.
+    /// (24) with the layer's g for f, at the start of the run.
     fn steady_past(&self, layer: &Layer, x: &[f64]) -> Array1<f64> {
         let Some(position) = self.initial.steady_position() else {
             return Array1::zeros(x.len());

@@ -1,14 +1,14 @@
-//! The surface u(x,t) that a tip leaves behind, from its trajectory alone.
+//! The surface u(x,t) after a motion of the tip, from its trajectory alone.
 //!
 //! ```text
 //!     u(x,t) = u0(x) - α ∫_{t1}^t f(x - x0(t'))dt'        (14)
 //! ```
 //!
-//! and under the wider law u0(x) e^{-(t-t1)/T} - α ∫ w(t') e^{-(t-t')/T} f(x - x0(t'))dt'.
+//! and in the extended model u0(x) e^{-(t-t1)/T} - α ∫ w(t') e^{-(t-t')/T} f(x - x0(t'))dt'.
 //!
-//! The surface never enters the integration of the tip; here it is read off afterwards, at any x and at
-//! any t of the run, as a sum over the residence of the tip: where it was, and for how long. Heights in
-//! units of kσ²/a, lengths in σ, times in Γ/k.
+//! The integration of the tip does not use the surface; this crate computes it afterwards, at any x and at any t of
+//! the run, as a sum over the residence of the tip, the time that it spent at each position. Heights in units of
+//! kσ²/a, lengths in σ, times in Γ/k.
 //!
 //! ```
 //! use stickslip_surface::Surface;
@@ -36,13 +36,13 @@ use rayon::prelude::*;
 use stickslip_tip::{InitialSurface, Model, Trajectory};
 use thiserror::Error;
 
-/// Why a surface cannot be given.
+/// The reason why a surface cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SurfaceError {
     /// A time outside of the run.
     #[error("t = {t} is outside of the run, which lasts from {start} to {end}")]
     OutsideRun {
-        /// As asked.
+        /// The time requested.
         t: f64,
         /// Start of the trajectory.
         start: f64,
@@ -63,17 +63,17 @@ pub struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// Of a tip that moved along `trajectory` over `initial`.
+    /// The surface of a tip that moved along `trajectory` over `initial`.
     #[must_use]
     pub fn new(model: &'a Model, initial: &'a InitialSurface, trajectory: &'a Trajectory) -> Self {
         Self { model, initial, trajectory }
     }
 
-    /// u(x,t), (14), at every x. The accuracy is that of the trajectory; a point costs a bounded number
-    /// of operations, however long the history.
+    /// u(x,t), (14), at every x. The accuracy is that of the trajectory; a point costs a bounded number of operations
+    /// for any length of the history.
     ///
     /// # Errors
-    /// `t` outside of the run, x not finite.
+    /// `t` is outside of the run; x is not finite.
     pub fn heights(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
         let (start, end) = (self.trajectory.start(), self.trajectory.end());
         if !(start..=end).contains(&t) {
@@ -86,11 +86,11 @@ impl<'a> Surface<'a> {
         Ok(u)
     }
 
-    /// -α ∫_{t1}^t f(x - x0(t'))dt': what the tip has carved by time t. Far behind the tip it is the
-    /// height u∞(x) of (35), for a run that started far before x.
+    /// -α ∫_{t1}^t f(x - x0(t'))dt': the groove carved by time t. Far behind the tip it is the height u∞(x) of (35),
+    /// for a run that started far before x.
     ///
     /// # Errors
-    /// x not finite.
+    /// x is not finite.
     pub fn far_behind(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
         if let Some(x) = x.iter().find(|x| !x.is_finite()) {
             return Err(SurfaceError::Position(*x));
@@ -98,7 +98,7 @@ impl<'a> Surface<'a> {
         Ok(self.carved_along(&self.trajectory.residence(t), x))
     }
 
-    /// What a tip with this residence (positions, and times spent there) has carved at every x.
+    /// The groove at every x of a tip with this residence (positions, and times spent there).
     fn carved_along(&self, (positions, weights): &(Vec<f64>, Vec<f64>), x: &[f64]) -> Array1<f64> {
         let sums = carved(self.model.tip(), positions, weights, x);
         sums.mapv_into(|sum| -self.model.alpha() * sum)

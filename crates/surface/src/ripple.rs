@@ -1,4 +1,4 @@
-//! The ripple that a periodic motion leaves far behind the tip.
+//! The ripple of a periodic motion far behind the tip.
 
 use crate::{Method, Surface, carved};
 use ndarray::Array1;
@@ -6,7 +6,7 @@ use stickslip_convolution::{Kernel, direct_sum, sum};
 use stickslip_tip::Trajectory;
 use stickslip_tip::elementary::exp;
 
-/// One wavelength of the surface left behind. Where the surface heals, u at the distance D behind the support is
+/// One wavelength of the surface far behind the tip. On a healing surface u at the distance D behind the support is
 /// U(x) e^{-D/(rT)} with U a periodic function, out of the reach of the tip: then the heights are those of U.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ripple {
@@ -18,15 +18,15 @@ pub struct Ripple {
     pub trough: f64,
 }
 
-/// Points over the wavelength at first, and around an extremum in each refinement.
+/// Number of points over the wavelength at first, and around an extremum in each refinement.
 const POINTS: usize = 256;
 const POINTS_AROUND: usize = 33;
-/// Each narrows the place of an extremum by 16; the height errs by the square of that.
+/// Number of refinements. Each narrows the position of an extremum by 16; the error of the height is proportional to
+/// its square.
 const REFINEMENTS: usize = 4;
 
-/// The last whole wavelength that the tip has left out of its reach, measured on what it carved (noise
-/// and other initial surfaces are not counted). `None` for a footprint without reach, or where the run
-/// has not left one wavelength behind.
+/// The ripple over the last whole wavelength out of reach of the tip, in the carved groove without the initial
+/// surface. `None` for a footprint without reach, or if the run has not left one wavelength behind.
 #[must_use]
 pub fn ripple_behind(
     surface: &Surface,
@@ -51,12 +51,12 @@ pub fn ripple_behind(
     ripple.amplitude.is_finite().then_some(ripple)
 }
 
-/// What of the surface lasts: u∞, or U where it heals.
+/// The undecayed part of the surface: u∞, or U on a healing surface.
 struct Lasting<'a> {
     surface: &'a Surface<'a>,
-    /// Positions, weights, and the exponent of what the weights are multiplied by.
+    /// Positions, weights, and the exponent of a factor of the weights.
     visits: (Vec<f64>, Vec<f64>, f64),
-    /// 1/(rT)
+    /// Rate of decay along x, 1/(rT).
     fading: f64,
 }
 
@@ -87,7 +87,7 @@ impl<'a> Lasting<'a> {
     }
 }
 
-/// Largest value of `sign` · u∞ in the range, looked for on so many points and then closer by.
+/// Largest value of `sign` · u∞ in the range, by repeated refinement of a grid of points.
 fn extremum(
     carved: &impl Fn(&[f64]) -> Array1<f64>,
     (mut low, mut high): (f64, f64),

@@ -1,4 +1,4 @@
-//! Two runs side by side: where they differ most, and by how much they may.
+//! Comparison of two runs: largest differences, and their limits.
 
 use super::repeat::Witness;
 use super::spread::{Spread, places};
@@ -6,34 +6,34 @@ use std::iter::Peekable;
 use stickslip_surface::{Surface, SurfaceError};
 use stickslip_tip::{InitialSurface, Model, RunError, Step, Support, Trajectory};
 
-/// l and heights of order one are not known better than this, whatever the tolerance,
+/// Smallest absolute error of l and of heights of order one at any tolerance,
 const ROUND_OFF: f64 = 1e-12;
-/// a large l not to this part of itself,
+/// smallest relative error of a large l,
 const DIGITS: f64 = 8.0 * f64::EPSILON;
-/// and a height not to this part of what was carved there.
+/// and smallest error of a height relative to the carved material.
 const DIGITS_OF_SUM: f64 = 1e-13;
-/// Sums by FFT leave this part of the deepest groove everywhere.
+/// Error of sums by FFT relative to the deepest groove, everywhere.
 const DIGITS_OF_FFT: f64 = f64::EPSILON;
 
-/// The largest difference of two runs; where differences are not allowed, the one that is least so.
+/// The largest difference of two runs; if limits are exceeded, the largest relative to its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// |difference|
+    /// Absolute difference.
     pub largest: f64,
     /// Time or position.
     pub at: f64,
-    /// By the tolerance that was asked for.
+    /// Limit of the difference, from the tolerance.
     pub allowed: f64,
 }
 
 impl Difference {
-    /// Whether it is no larger than allowed. NaN is larger.
+    /// Whether the difference is within its limit; a NaN is not.
     #[must_use]
     pub fn is_allowed(&self) -> bool {
         self.largest <= self.allowed
     }
 
-    /// Whether it, rather than another, is to be reported.
+    /// Whether this difference, rather than the other, is to be reported.
     fn is_worse(&self, other: &Self) -> bool {
         if self.is_allowed() && other.is_allowed() {
             return self.largest >= other.largest;
@@ -43,31 +43,31 @@ impl Difference {
     }
 }
 
-/// What a run says of one time.
+/// Values of a run at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Time, in Γ/k.
     pub t: f64,
-    /// l(t), in σ, or what else a motion is followed by ([`Step::followed`]).
+    /// l(t), in σ, or the variable that replaces it for other models ([`Step::followed`]).
     pub l: f64,
     /// x0(t), in σ.
     pub x0: f64,
 }
 
-/// Which samples were compared.
+/// Statistics of compared samples.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ComparedSamples {
-    /// How many.
+    /// Number of samples.
     pub number: u64,
-    /// The one whose difference is reported, from 0.
+    /// Index of the sample with the reported difference, from 0.
     pub worst: u64,
-    /// How many differ by more than is allowed.
+    /// Number of samples with a difference beyond its limit.
     pub wrong: u64,
-    /// The first of these, from 0.
+    /// Index of the first of these, from 0.
     pub first_wrong: Option<u64>,
 }
 
-/// What is found of l, time by time.
+/// Accumulated differences of l.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judgement {
     pub(super) worst: Difference,
@@ -80,7 +80,7 @@ impl Judgement {
         Self { worst, trusted_until: None }
     }
 
-    /// Takes note of a difference; whether it is now the one to be reported.
+    /// Adds a difference, and returns whether it is now the one to be reported.
     fn take(&mut self, difference: Difference) -> bool {
         let t = difference.at;
         if !difference.is_allowed() && self.trusted_until.is_none_or(|earlier| t < earlier) {
@@ -94,13 +94,13 @@ impl Judgement {
     }
 }
 
-/// Of a claimed l at t from the second run's.
+/// Difference of a claimed l at t from that of the second run.
 fn difference_in_l(t: f64, claimed: f64, other: f64, allowed: f64) -> Difference {
     let allowed = allowed + ROUND_OFF + DIGITS * other.abs();
     Difference { largest: (claimed - other).abs(), at: t, allowed }
 }
 
-/// l over all of two runs.
+/// Comparison of l over the whole of two runs.
 pub(super) fn compare_l(
     trajectory: &Trajectory,
     reference: &Trajectory,
@@ -123,7 +123,7 @@ pub(super) fn compare_l(
     judgement
 }
 
-/// Compares samples with the second run as it passes them; neither is kept.
+/// Comparison of samples with the second run as it proceeds; neither is stored.
 pub(super) struct AgainstSamples<F, I: Iterator> {
     support: Support,
     samples: F,
@@ -167,7 +167,7 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
         }
     }
 
-    /// In l, and in x0 = rt - r - l, which is rounded more coarsely the farther the tip has come.
+    /// Differences in l, and in x0 = rt - r - l, whose round-off grows with the distance of the tip.
     fn differences(&self, sample: &Sample, step: &Step) -> (Difference, Difference) {
         let Sample { t, l, x0 } = *sample;
         let in_l = difference_in_l(t, l, step.followed(&self.support, t), self.allowed);
@@ -195,7 +195,7 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> Witness for AgainstSamples<F, I> 
     }
 }
 
-/// Largest difference in the surface at the end, against what is allowed there.
+/// Largest difference of the final surfaces, relative to its limit.
 pub(super) fn compare_u(
     model: &Model,
     trajectory: &Trajectory,

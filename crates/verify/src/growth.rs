@@ -1,28 +1,28 @@
-//! How a small error grows: the distance of two runs that start a little apart.
+//! Growth of small errors: the distance of two runs with slightly different initial conditions.
 
 use super::repeat::Witness;
 use stickslip_tip::{RunError, Scenario, Step, Support};
 
-/// What becomes of a small disturbance of the start.
+/// Growth of a small initial disturbance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Growth {
-    /// The largest difference in l that it makes, over its own size.
+    /// The largest resulting difference in l, over the initial one.
     pub amplification: f64,
-    /// The leading Lyapunov exponent, in k/Γ, as far as this run shows it: the rate at which the difference
-    /// grows (falls, if negative) in the second half of the time in which it is neither lost in the errors
-    /// nor as large as the motion. `None` where that is too short a time to tell.
+    /// Estimate of the leading Lyapunov exponent, in k/Γ: the rate at which the difference grows (decays, if
+    /// negative) in the second half of the time in which it is above the errors and below the size of the motion.
+    /// `None` if that time is too short.
     pub exponent: Option<f64>,
 }
 
-/// The run in so many windows: in each the largest difference counts, for a shift in time shows only at the
-/// slips.
+/// Number of windows of the run; each contributes its largest difference, because a shift in time is visible only at
+/// the slips.
 const WINDOWS: usize = 128;
-/// A rate is read from at least so many.
+/// Smallest number of windows for an estimate of the rate.
 const LEAST_WINDOWS: usize = 8;
 const TIMES_PER_WINDOW: usize = 64;
-/// Of the swing of l: differences above are as large as the motion.
+/// Fraction of the oscillation of l above which a difference has the size of the motion.
 const SMALL: f64 = 0.05;
-/// Multiple of the runs' tolerance: differences below are errors.
+/// Multiple of the tolerance of the runs below which differences are errors.
 const ERRORS: f64 = 30.0;
 
 /// l of a run at the times of all windows.
@@ -48,7 +48,7 @@ impl Probes {
         self.start + self.width() * (window as f64 + 0.5)
     }
 
-    /// Of the next value. The last of a window is the first of the next.
+    /// Time of the next value. The last time of a window is the first of the next.
     fn due(&self) -> Option<f64> {
         let (window, i) =
             (self.l.len() / (TIMES_PER_WINDOW + 1), self.l.len() % (TIMES_PER_WINDOW + 1));
@@ -83,7 +83,8 @@ impl Witness for Probes {
     }
 }
 
-/// From two runs to the same tolerance, one of which is shifted by `shift` in l at the start or some time after it.
+/// The growth from two runs to the same tolerance, one of which is shifted by `shift` in l at the start or some time
+/// after it.
 pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
     let (low, high) = one
         .l
@@ -108,7 +109,7 @@ pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) ->
     Growth { amplification, exponent: exponent.filter(|exponent| exponent.is_finite()) }
 }
 
-/// Of the straight line that fits best.
+/// Slope of the line of best fit.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |part: fn(&(f64, f64)) -> f64| points.iter().map(part).sum::<f64>() / n;

@@ -1,5 +1,5 @@
-//! Does a run keep its promise? It is repeated with another memory and a tighter tolerance, and a twin with
-//! a slightly different start tells how much an error grows.
+//! Verification of a run: it is repeated with another memory and a tighter tolerance, and a perturbed run measures
+//! the growth of errors.
 
 mod compare;
 mod growth;
@@ -20,68 +20,67 @@ use stickslip_tip::{
 };
 use thiserror::Error;
 
-/// What is promised of l is so many tolerances: the errors of steps add up, and slips amplify them. It is
-/// what the test-suite holds every memory to (tests/science/tolerance_ladder.rs).
+/// Allowed error of l, in tolerances: step errors add up, and slips amplify them. The test suite uses the same limit
+/// for every memory (tests/science/tolerance_ladder.rs).
 pub const TOLERANCES_ALLOWED: f64 = 10.0;
 
-/// The second run's tolerance is so many times smaller, where f64 allows that.
+/// Ratio of the two tolerances, if the smaller one is within reach of f64.
 const TIGHTER: f64 = 100.0;
-/// The twin is shifted by so many of its tolerances, far above its errors,
+/// Shift of the perturbed run in its tolerances, far above its errors,
 const SHIFT: f64 = 1e4;
-/// but by no more than this, far below the motion.
+/// and the largest shift, far below the motion.
 const LARGEST_SHIFT: f64 = 1e-4;
 
-/// What was found.
+/// Result of a verification.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verification {
     /// Memory of the second run.
     pub memory: &'static str,
     /// Tolerance of the second run.
     pub tolerance: f64,
-    /// In l, over all of the run.
+    /// Difference in l, over the whole run.
     pub l: Difference,
-    /// In the surface at the end of the run; `None` without a dense history.
+    /// Difference of the final surface; `None` without a dense history.
     pub u: Option<Difference>,
-    /// The first time at which l differs by more than is allowed.
+    /// The first time at which the difference of l exceeds its limit.
     pub trusted_until: Option<f64>,
-    /// Which samples these are; `None` with a dense history.
+    /// Statistics of the compared samples; `None` with a dense history.
     pub samples: Option<ComparedSamples>,
-    /// How a small error grows with time.
+    /// Growth of a small error with time.
     pub growth: Growth,
 }
 
-/// Why a run could not be verified.
+/// The reason why a run could not be verified.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum VerificationError {
-    /// It could not be repeated.
+    /// The run could not be repeated.
     #[error("the run could not be repeated: {0}")]
     Run(#[from] RunError),
-    /// The surface could not be had.
+    /// The surface could not be computed.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// The observer stopped it.
+    /// The observer stopped the verification.
     #[error("the verification was interrupted")]
     Interrupted,
 }
 
 impl Verification {
-    /// Whether all differences are allowed.
+    /// Whether all differences are within their limits.
     #[must_use]
     pub fn is_kept(&self) -> bool {
         self.l.is_allowed() && self.u.is_none_or(|u| u.is_allowed())
     }
 }
 
-/// Repeats a run of `scenario` that was made with the memory of that name, and compares with its dense
-/// history.
+/// Repeats a run of `scenario` that was made with the memory `used`, and compares with its dense history.
 ///
-/// l is promised to [`TOLERANCES_ALLOWED`] tolerances ε. Where the tip strays by that much, the surface does
-/// by at most α ε ∫|f'(x - x0(t'))|dt', what is allowed of it.
+/// The limit of l is [`TOLERANCES_ALLOWED`] tolerances ε. An error ε of the tip's position changes the surface by at
+/// most α ε ∫|f'(x - x0(t'))|dt', which is the limit of the surface.
 ///
-/// `observe` is told the part of the work that is done, and may stop it.
+/// `observe` is called with the fraction of the work done, and may stop it.
 ///
 /// # Errors
-/// The run cannot be repeated, or was stopped.
+/// The run cannot be repeated, or the observer stopped the work.
 pub fn verify(
     scenario: &Scenario,
     memory: &str,
@@ -101,11 +100,10 @@ pub fn verify(
     Ok(second.verification(by, &judgement, Some(u), None, growth))
 }
 
-/// As [`verify`], of a run of which nothing is left but samples in the order of time, the last at `until`.
+/// Verifies a run as [`verify`] does, from samples in the order of time, the last at `until`.
 ///
-/// They are asked for once for each memory that is tried, and compared as the second run passes them: memory
-/// holds neither the samples nor the second run, and does not grow with their length but where the second
-/// run's memory is `direct`. Samples beyond `until` are not looked at.
+/// The samples are requested once for each memory that is tried, and compared as the second run proceeds. Neither the
+/// samples nor the second run are stored, unless the second run uses `direct`. Samples beyond `until` are ignored.
 ///
 /// # Errors
 /// As [`verify`].
@@ -126,11 +124,11 @@ pub fn verify_samples<I: Iterator<Item = Sample>>(
     Ok(second.verification(by, &judgement, None, Some(found), growth))
 }
 
-/// The second run and its twin.
+/// The second run and its perturbed copy.
 struct Second<'a, O> {
-    /// What is repeated: to a tighter tolerance, until the run ended.
+    /// The scenario with a tighter tolerance, up to the end of the run.
     scenario: Scenario,
-    /// That of the run asked for, however early it ended: noise and its spline reach to the end asked for.
+    /// The initial surface of the original request, which may end later: noise and its spline extend to that end.
     surface: &'a InitialSurface,
     observe: O,
 }
@@ -141,8 +139,8 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
         Self { scenario, surface, observe }
     }
 
-    /// Repeats with the first of the memories that applies, watched by a witness; and tells from the twin how
-    /// errors grow.
+    /// Repeats the run with the first applicable memory, observed by a witness; and measures the growth of errors by
+    /// the perturbed run.
     fn run(
         &mut self,
         memories: Vec<MemoryChoice>,
@@ -175,17 +173,17 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
     }
 }
 
-/// A tip without a spring is pushed after this part of the run,
+/// Fraction of the run after which a tip without a spring is pushed,
 const PUSHED_AFTER: f64 = 0.1;
-/// but by this time, in Γ/k;
+/// latest time of that push, in Γ/k,
 const PUSHED_BY: f64 = 1.0;
-/// the push lasts this part of the time before it.
+/// and its duration relative to the time before it.
 const PUSH_WIDTH: f64 = 0.1;
 
-/// The run with a small disturbance, which shifts the tip by so much.
+/// The run with a small disturbance, which shifts the tip by `shift`.
 ///
-/// Behind a support the tip starts off its place. Without one that would shift all of the run: there a short force pushes
-/// the tip off what it has left so far.
+/// Behind a support the tip starts at a shifted position. Without one this would shift the whole run; therefore a
+/// short force displaces the tip relative to its groove.
 fn twin(scenario: &Scenario, shift: f64) -> Scenario {
     if scenario.model.wider().spring {
         return Scenario { kick: scenario.kick + shift, ..scenario.clone() };
@@ -198,7 +196,7 @@ fn twin(scenario: &Scenario, shift: f64) -> Scenario {
     Scenario { force: scenario.force.clone().with_pulse(push), ..scenario.clone() }
 }
 
-/// The tightest tolerance, down to a hundredth, that can be asked for.
+/// The tightest tolerance that can be requested, at best a hundredth.
 fn tighter(scenario: &Scenario) -> f64 {
     let asked = scenario.tolerance;
     let factors = [TIGHTER, 30.0, 10.0, 3.0];

@@ -1,25 +1,25 @@
-//! A run once more: with the first memory that applies, step by step, before a witness.
+//! Repetition of a run with the first applicable memory, observed step by step.
 
 use super::VerificationError;
 use std::ops::ControlFlow;
 use stickslip_tip::{InitialSurface, MOST_STEPS, MemoryChoice, RunError, Running, Scenario, Step};
 
-/// A direct sum over more steps takes longer than a person waits.
+/// Largest number of steps repeated with direct sums, which take long.
 const MOST_STEPS_OF_DIRECT: u64 = 3000;
 
-/// Who watches a repetition.
+/// Observer of a repetition.
 pub(super) trait Witness {
-    /// It begins; anew where a memory turned out not to apply.
+    /// The repetition begins, or begins again because a memory was not applicable.
     fn begin(&mut self);
 
-    /// A step of it.
+    /// A step of the repetition.
     fn see(&mut self, step: &Step) -> Result<(), RunError>;
 
-    /// It has ended with this step.
+    /// The repetition ended with this step.
     fn end(&mut self, last: &Step);
 }
 
-/// Two who watch side by side.
+/// Two observers of one repetition.
 impl<A: Witness, B: Witness> Witness for (&mut A, &mut B) {
     fn begin(&mut self) {
         self.0.begin();
@@ -37,7 +37,7 @@ impl<A: Witness, B: Witness> Witness for (&mut A, &mut B) {
     }
 }
 
-/// Keeps the whole history.
+/// Observer that stores the whole history.
 #[derive(Default)]
 pub(super) struct Kept {
     pub(super) steps: Vec<Step>,
@@ -59,7 +59,7 @@ impl Witness for Kept {
     fn end(&mut self, _: &Step) {}
 }
 
-/// Memories that may repeat a run of so many steps, the best witness first.
+/// Memories for the repetition of a run with this number of steps, the most independent first.
 pub(super) fn another(used: &str, steps: u64) -> Vec<MemoryChoice> {
     let mut others = vec![MemoryChoice::Modes, MemoryChoice::Fft, MemoryChoice::Direct];
     if steps <= MOST_STEPS_OF_DIRECT {
@@ -75,7 +75,7 @@ pub(super) fn another(used: &str, steps: u64) -> Vec<MemoryChoice> {
     others
 }
 
-/// What is repeated, and which part of all the work that is.
+/// A repetition, and its share of the total work.
 pub(super) struct Repetition<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) surface: &'a InitialSurface,
@@ -84,7 +84,7 @@ pub(super) struct Repetition<'a> {
 }
 
 impl Repetition<'_> {
-    /// Repeats with the first of the memories that applies; its name.
+    /// Repeats with the first applicable memory, and returns its name.
     pub(super) fn run(
         &self,
         memories: Vec<MemoryChoice>,
@@ -105,7 +105,7 @@ impl Repetition<'_> {
         Err(last.map_or(VerificationError::Interrupted, VerificationError::Run))
     }
 
-    /// The memory in use at the end; `None` where the observer stopped it.
+    /// The final memory; `None` if the observer stopped the work.
     fn with(
         &self,
         scenario: &Scenario,

@@ -1,4 +1,4 @@
-//! What an error of the tip's position does to the surface, place by place.
+//! Effect of an error of the tip's position on the surface, at each position.
 
 use stickslip_tip::{Model, TipFunction, Trajectory};
 
@@ -8,13 +8,13 @@ pub(super) struct Spread {
     pub(super) slope: Vec<f64>,
 }
 
-/// Places over all of the tip's way, and as many over its end.
+/// Number of positions over the tip's whole path, and over its end.
 const PLACES: usize = 2000;
-/// The end is so many times the reach of the footprint (so many widths, if it never fades) long.
+/// Length of the end of the path, in reaches of the footprint (in widths, if it does not decay).
 const REACHES: f64 = 10.0;
 const WIDTHS: f64 = 100.0;
 
-/// Where two surfaces are compared, in order.
+/// Positions at which two surfaces are compared, in order.
 pub(super) fn places(model: &Model, trajectory: &Trajectory) -> Vec<f64> {
     let margin = model.tip().reach().unwrap_or(WIDTHS);
     let ends = [trajectory.x0(trajectory.start()), trajectory.x0(trajectory.end())];
@@ -29,7 +29,7 @@ pub(super) fn places(model: &Model, trajectory: &Trajectory) -> Vec<f64> {
 }
 
 impl Spread {
-    /// Of a run, at places in order.
+    /// The integrals of a run, at positions in order.
     pub(super) fn of(tip: &TipFunction, trajectory: &Trajectory, x: &[f64]) -> Self {
         let reach = tip.reach().unwrap_or(f64::INFINITY);
         let mut spread = Self { height: vec![0.0; x.len()], slope: vec![0.0; x.len()] };

@@ -15,7 +15,7 @@ use stickslip_stability::{StabilityError, critical, critical_r};
 use stickslip_tip::{Model, ModelError, TipFunction, Wider};
 use thiserror::Error;
 
-/// What is measured, in SI units.
+/// Measured quantities, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Physical {
     /// Γ in kg/s: friction of the tip, (1).
@@ -32,7 +32,7 @@ pub struct Physical {
     pub velocity: f64,
 }
 
-/// What one unit of the model is in SI units.
+/// Units of the model, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// σ in m, for x, l and x0.
@@ -45,41 +45,41 @@ pub struct Scales {
     pub force: f64,
 }
 
-/// Why SI quantities were refused.
+/// The reason why SI quantities were rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum UnitsError {
     /// Not a number with a unit.
     #[error("`{text}` is not a quantity in {unit}: write a number and a unit, such as {example}")]
     Syntax {
-        /// As given.
+        /// The text as given.
         text: String,
-        /// What was expected.
+        /// The expected unit.
         unit: Unit,
-        /// One that will do.
+        /// A valid example.
         example: &'static str,
     },
     /// A number without a unit.
     #[error("`{text}` has no unit: write a number and a unit, such as {example}")]
     Bare {
-        /// As given.
+        /// The text as given.
         text: String,
-        /// What was expected.
+        /// The expected unit.
         unit: Unit,
-        /// One that will do.
+        /// A valid example.
         example: &'static str,
     },
     /// A quantity that must be positive.
     #[error("{name} is {value} in SI units: it must be a finite number > 0")]
     NotPositive {
-        /// Which.
+        /// Name of the quantity.
         name: &'static str,
-        /// As given.
+        /// Value as given.
         value: f64,
     },
     /// The dimensionless numbers are out of range.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// No critical point.
+    /// There is no critical point.
     #[error(transparent)]
     Stability(#[from] StabilityError),
 }
@@ -123,13 +123,12 @@ impl Physical {
     /// The dimensionless model with this tip function.
     ///
     /// # Errors
-    /// α or r beyond the range of floating point.
+    /// α or r is beyond the range of floating point.
     pub fn model(&self, tip: TipFunction) -> Result<Model, UnitsError> {
         Ok(Model::new(tip, self.alpha(), self.r())?)
     }
 
-    /// D in m, (23): by how much the tip lags behind the support in steady motion. The paper's Na/v0 is
-    /// N a f(0)/v0 where f(0) is not 1.
+    /// Steady lag D of the tip behind the support in m, (23). The paper's Na/v0 is N a f(0)/v0 if f(0) is not 1.
     #[must_use]
     pub fn lag(&self, tip: &TipFunction) -> f64 {
         let groove = self.indentation_rate * self.slope_force * tip.value(0.0) / self.velocity;
@@ -147,7 +146,7 @@ impl Physical {
         }
     }
 
-    /// The indentation rate N in m/s at which stick-slip sets in, all else as it is.
+    /// The indentation rate N in m/s at the onset of stick-slip, with all other quantities fixed.
     ///
     /// # Errors
     /// As [`critical`].
@@ -156,7 +155,7 @@ impl Physical {
         Ok(self.with_alpha_r(alpha, self.r()).indentation_rate)
     }
 
-    /// The velocity v0 in m/s below which stick-slip sets in, all else as it is.
+    /// The velocity v0 in m/s below which there is stick-slip, with all other quantities fixed.
     ///
     /// # Errors
     /// As [`critical_r`].
@@ -165,7 +164,7 @@ impl Physical {
         Ok(self.with_alpha_r(self.alpha(), r).velocity)
     }
 
-    /// The way back: N and v0 that give α and r, with Γ, k, σ and a as they are.
+    /// The inverse: N and v0 that give α and r, with Γ, k, σ and a unchanged.
     #[must_use]
     pub fn with_alpha_r(&self, alpha: f64, r: f64) -> Self {
         let stiffness_length = self.stiffness * self.tip_width;

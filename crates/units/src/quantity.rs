@@ -1,8 +1,8 @@
-//! Quantities as people write them: a number, a prefix and a unit.
+//! Quantities in their usual notation: a number, a prefix and a unit.
 
 use crate::UnitsError;
 
-/// The units that quantities are read in.
+/// Units of the quantities that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// kg/s, or N·s/m
@@ -52,7 +52,7 @@ impl Unit {
     /// `1um/s`, `3µm/s` or `2mN/mm`.
     ///
     /// # Errors
-    /// [`UnitsError::Bare`] of a number without a unit, [`UnitsError::Syntax`].
+    /// [`UnitsError::Bare`] for a number without a unit; [`UnitsError::Syntax`].
     pub fn parse(self, text: &str) -> Result<f64, UnitsError> {
         let error =
             || UnitsError::Syntax { text: text.to_owned(), unit: self, example: self.example() };
@@ -65,8 +65,8 @@ impl Unit {
         self.one(suffix).map(|one| number * one).filter(|v| v.is_finite()).ok_or_else(error)
     }
 
-    /// The value in SI units of one such unit, as people and instruments write it: `nm`, `µm`, `Å`,
-    /// `nanometers`, `nN`, `um/s`. `None` where `unit` is not a unit of this quantity.
+    /// The value in SI units of one such unit, in the notation of people and instruments: `nm`, `µm`, `Å`,
+    /// `nanometers`, `nN`, `um/s`. `None` if `unit` is not a unit of this quantity.
     #[must_use]
     pub fn one(self, unit: &str) -> Option<f64> {
         let unit = unit.trim();
@@ -74,7 +74,7 @@ impl Unit {
         spelt.or_else(|| self.in_words(&unit.to_lowercase()))
     }
 
-    /// The same of units in words, in small letters, and of the ångström.
+    /// The same for units written as words, in small letters, and for the ångström.
     fn in_words(self, unit: &str) -> Option<f64> {
         const ANGSTROM: [&str; 7] =
             ["å", "a\u{30a}", "angstrom", "angstroms", "ångström", "ångstrom", "ångströms"];
@@ -100,7 +100,7 @@ impl Unit {
     }
 }
 
-/// The longest start of `text` that reads as a finite number, and what follows it.
+/// The longest prefix of `text` that is a finite number, and the rest.
 fn number_and_suffix(text: &str) -> Option<(f64, &str)> {
     let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
     let end = text.find(|c| !plain(c)).unwrap_or(text.len());
@@ -110,8 +110,8 @@ fn number_and_suffix(text: &str) -> Option<(f64, &str)> {
     })
 }
 
-/// The factor that turns `suffix` into `unit`: a prefix before the numerator, and before the
-/// denominator, where there is one.
+/// The factor from `suffix` to `unit`; SI prefixes are allowed before the numerator, and before the denominator if
+/// there is one.
 fn scale_of(suffix: &str, unit: &str) -> Option<f64> {
     match (suffix.split_once('/'), unit.split_once('/')) {
         (Some((above, below)), Some((unit_above, unit_below))) => {

@@ -9,7 +9,7 @@ use crate::patch::Patch;
 /// the last factor from a table (fast Gaussian gridding; L. Greengard and J.-Y. Lee, SIAM Review 46
 /// (2004) 443). Relative error about i ulp.
 ///
-/// Four neighbours are carried at a time, so that their powers do not wait for one another.
+/// Four neighbours are computed together, so that their powers are independent of one another.
 #[derive(Debug, Clone)]
 pub(crate) struct Bell {
     spacing: f64,
@@ -36,7 +36,7 @@ impl Bell {
         (center / self.spacing).round() as i64
     }
 
-    /// Cells on either side of the nearest that [`Bell::add`] fills.
+    /// Number of cells on either side of the nearest that [`Bell::add`] fills.
     pub(crate) fn half_width(&self) -> usize {
         self.right.len()
     }
@@ -62,7 +62,7 @@ impl Bell {
     }
 }
 
-/// cell += power · table by fours, the powers growing by `factor` from one four to the next.
+/// cell += power · table in groups of four, the powers growing by `factor` from one group to the next.
 fn sweep<'a>(
     fours: impl Iterator<Item = (&'a mut [f64; 4], &'a [f64; 4])>,
     mut powers: [f64; 4],

@@ -1,11 +1,11 @@
-//! The cells that the tip has reached.
+//! The cells within reach of the tip so far.
 
-/// Values at consecutive cells, extended on demand; a cell not yet visited has its value at the start.
+/// Values at consecutive cells, extended on demand; an unvisited cell has its initial value.
 pub(crate) struct Cells<'a> {
     first: i64,
     values: Vec<f64>,
     unvisited: &'a dyn Fn(i64) -> f64,
-    /// What cells not yet visited are worth.
+    /// Factor of the initial values of unvisited cells.
     scale: f64,
 }
 
@@ -14,13 +14,13 @@ impl<'a> Cells<'a> {
         Self { first: 0, values: Vec::new(), unvisited, scale: 1.0 }
     }
 
-    /// All cells times a factor.
+    /// Multiplies all cells by a factor.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.scale *= factor;
         self.values.iter_mut().for_each(|value| *value *= factor);
     }
 
-    /// The cells `first` … `first + len - 1`, made if need be.
+    /// The cells `first` … `first + len - 1`, created if necessary.
     pub(crate) fn range(&mut self, first: i64, len: usize) -> &mut [f64] {
         self.extend(first, first + len as i64);
         let from = (first - self.first) as usize;

@@ -1,7 +1,7 @@
 //! Step-size control.
 
-/// Hairer, Nørsett and Wanner's elementary controller: a step of error e (1 is allowed) is followed by
-/// one 0.9 e^{-1/p} times as long, the factor held within 1/5 and 10, and at most 1 after a rejection.
+/// Hairer, Nørsett and Wanner's elementary controller: a step of error e (1 is allowed) is followed by one 0.9
+/// e^{-1/p} times as long; the factor is limited to the range from 1/5 to 10, and to 1 after a rejection.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Control {
     /// p
@@ -18,8 +18,8 @@ impl Control {
         Self { order, max_step: stepping.max_step, rejected: false, step }
     }
 
-    /// Judges a step of length `tried`, perhaps cut short to end at a requested time; true: accept.
-    /// The error may be infinite but not NaN.
+    /// Whether a step of length `tried`, possibly shortened to end at a requested time, is accepted. The error may be
+    /// infinite but not NaN.
     pub(crate) fn judge(&mut self, tried: f64, error: f64) -> bool {
         let mut factor = (0.9 * error.powf(-1.0 / f64::from(self.order))).clamp(0.2, 10.0);
         let accepted = error <= 1.0;
@@ -34,13 +34,13 @@ impl Control {
     }
 }
 
-/// Whether `t` is `target` but for round-off.
+/// Whether `t` equals `target` up to round-off.
 pub(crate) fn reached(t: f64, target: f64) -> bool {
     target - t <= 4.0 * f64::EPSILON * target.abs()
 }
 
-/// The step to take from `t` when `proposed` is next: it ends at `target` rather than beyond it, or a
-/// sliver short of it, which round-off would make of equal steps.
+/// The step to take from `t`: `proposed`, or less to end exactly at `target`, also if the rest would only be
+/// round-off.
 pub(crate) fn towards(target: f64, t: f64, proposed: f64) -> f64 {
     if target - t <= proposed * (1.0 + 1e-9) { target - t } else { proposed }
 }

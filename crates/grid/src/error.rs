@@ -1,8 +1,8 @@
-//! What can go wrong.
+//! Errors of the grid solvers.
 
 use thiserror::Error;
 
-/// An unusable input, or a run that cannot go on.
+/// An invalid input, or a run that cannot continue.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum GridError {
     /// α must be finite and ≥ 0.
@@ -48,7 +48,7 @@ pub enum GridError {
     /// The interpolation must reach over at least one cell.
     #[error("the interpolation reaches over {0} cells: it must be between 1 and 10000")]
     HalfWidth(usize),
-    /// Read ∘ write does not give back the footprint.
+    /// Reading after writing does not reproduce the footprint.
     #[error(
         "the lattice reproduces the footprint only to {defect:e}: refine its spacing, or give it the Gaussians of that very footprint"
     )]
@@ -59,7 +59,7 @@ pub enum GridError {
     /// The tip left the grid.
     #[error("the tip left the grid at t = {time}, x0 = {x0}: extend the grid")]
     LeftGrid {
-        /// t
+        /// Time t.
         time: f64,
         /// x0(t)
         x0: f64,
@@ -67,18 +67,18 @@ pub enum GridError {
     /// No step is small enough: the motion is not finite, or too stiff for an explicit method.
     #[error("the step size fell to {step:e} at t = {time}: loosen the tolerance")]
     StepTooSmall {
-        /// t
+        /// Time t.
         time: f64,
         /// The last step tried
         step: f64,
     },
-    /// The observer broke off.
+    /// The observer stopped the run.
     #[error("stopped at t = {time}, as asked")]
     Stopped {
         /// t
         time: f64,
     },
-    /// The stepper's crate gave up: it judged the problem stiff.
+    /// The crate of the integrator stopped because it considers the problem stiff.
     #[error("the explicit stepper judged the problem stiff at t = {time}: bound the step")]
     Stiff {
         /// t

@@ -1,10 +1,10 @@
-//! The tip function f, known only by its values, and its integral.
+//! The tip function f, given by its values, and its integral.
 
 use crate::GridError;
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 
-/// f and the distance beyond which it counts as nothing.
+/// f and the distance beyond which it is negligible.
 #[derive(Clone, Copy)]
 pub struct Footprint<'a> {
     value: &'a dyn Fn(f64) -> f64,
@@ -25,8 +25,8 @@ impl<'a> Footprint<'a> {
         }
     }
 
-    /// The smallest distance, on a ladder of `limit`/4096, beyond which |f| ≤ `level` as far as
-    /// `limit`; `None` when f is still larger than that at `limit` (a slowly decaying tip).
+    /// The smallest distance, among multiples of `limit`/4096, beyond which |f| ≤ `level` up to `limit`; `None` if f
+    /// is still larger at `limit` (a slowly decaying tip).
     #[must_use]
     pub fn reach_of(value: &dyn Fn(f64) -> f64, level: f64, limit: f64) -> Option<f64> {
         const RUNGS: u32 = 4096;
@@ -39,7 +39,7 @@ impl<'a> Footprint<'a> {
         }
     }
 
-    /// f(x), not cut at the reach.
+    /// f(x), without a cutoff.
     #[must_use]
     pub fn value(&self, x: f64) -> f64 {
         (self.value)(x)
@@ -50,15 +50,15 @@ impl<'a> Footprint<'a> {
         if x.abs() <= self.reach { self.value(x) } else { 0.0 }
     }
 
-    /// Distance beyond which f counts as 0.
+    /// Distance beyond which f is taken as 0.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 }
 
-/// ∫_x^∞ f(y) e^{-s(y-x)}dy, with s = 0 unless said otherwise, by Gauss–Legendre quadrature with 16 nodes on 64
-/// panels over the reach: exact to round-off when f is smooth on the scale reach/32.
+/// ∫_x^∞ f(y) e^{-s(y-x)}dy, with s = 0 by default, by Gauss–Legendre quadrature with 16 nodes on 64 panels over the
+/// reach: exact to round-off if f is smooth on the scale reach/32.
 pub(crate) struct Tail<'a> {
     footprint: Footprint<'a>,
     /// s
@@ -102,7 +102,7 @@ impl<'a> Tail<'a> {
         (-self.fading * length).exp()
     }
 
-    /// Seen from x.
+    /// The integral from `from` to `to`, with the exponential relative to x.
     fn integral(&self, x: f64, from: f64, to: f64) -> f64 {
         self.rule.integrate(from, to, |y| self.footprint.value(y) * self.left_over(y - x))
     }

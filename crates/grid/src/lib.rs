@@ -1,13 +1,12 @@
-//! The full PDE discretisation of a tip that carves a surface: the yardstick by which a faster method
-//! is judged.
+//! Grid solvers of the full PDE for a tip that carves a surface: reference solutions for faster methods.
 //!
 //! ```text
 //! x0'(t) = -u_x(x0(t), t) + r t - x0(t) + Fext(t)      (10)
 //! u_t(x, t) = -α f(x - x0(t)),   u(x, t1) = u0(x)      (11)
 //! ```
 //!
-//! The tip function f enters as a function only ([`Footprint`]); nothing here knows of the closed
-//! equation. Four discretisations stand behind [`solve`], chosen by [`Method`]:
+//! The tip function f is given as a function only ([`Footprint`]); the closed equation is not used. [`solve`] runs
+//! one of four discretisations, selected by [`Method`]:
 //!
 //! | method | unknowns advanced at a stage | slope at the tip | in time |
 //! |---|---|---|---|
@@ -15,9 +14,9 @@
 //! | [`Method::Windowed`] | the cells within reach of the tip | the same | the same |
 //! | [`Method::Spectral`], [`Method::Sinc`] | the same, 8.7/π to a tip width | round-off | Dormand–Prince 8(5,3) |
 //!
-//! Every sum over cells ends at the [`Footprint::reach`], where f is below round-off: forgetting is by
-//! distance, never by time. The methods are explicit: a deep groove (a trapped tip) makes the problem
-//! stiff, u_xx ~ αt, and the number of steps grows with it.
+//! Every sum over cells ends at the [`Footprint::reach`], where f is below round-off: nodes are neglected by
+//! distance, never by time. The methods are explicit: a deep groove (a trapped tip) makes the problem stiff, u_xx ~
+//! αt, and the number of steps grows with it.
 //!
 //! # Example
 //!

@@ -1,4 +1,4 @@
-//! The stepper that touches only the cells within reach of the tip.
+//! The integrator that updates only the cells within reach of the tip.
 
 use crate::cells::Cells;
 use crate::control::{Control, reached, too_small, towards};
@@ -7,9 +7,9 @@ use crate::scheme::Scheme;
 use crate::tableau::Tableau;
 use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 
-/// An embedded Runge–Kutta step of the tip and of all cells, with three savings that change no result
-/// but for round-off: f is evaluated only within its reach of the tip's stage position; the cells'
-/// stage values are formed only where the tip reads the slope; a step leaves all other cells alone.
+/// An embedded Runge–Kutta step of the tip and of all cells, with three savings that change results by round-off
+/// only: f is evaluated only within its reach of the tip's stage position; stage values of cells are computed only
+/// where the tip reads the slope; all other cells are unchanged.
 pub(crate) struct Marcher<'a, S> {
     problem: &'a Problem<'a>,
     scheme: S,
@@ -17,22 +17,22 @@ pub(crate) struct Marcher<'a, S> {
     stepping: Stepping,
     control: Control,
     cells: Cells<'a>,
-    /// Added to what the cells say: u0, where they hold only u - u0.
+    /// The initial surface u0, added if the cells contain only u - u0.
     background: Option<&'a Start<'a>>,
     t: f64,
     x0: f64,
-    /// x0', where there is inertia.
+    /// x0', with inertia only.
     velocity: f64,
-    /// Cells hold e^{(t - since)/T} times what they stand for.
+    /// Reference time s: the cells contain e^{(t - s)/T} times the heights.
     since: f64,
     stages: Vec<Stage>,
     scratch: Scratch,
     work: Work,
-    /// Told where the tip was in every accepted step.
+    /// Callback for the positions of the tip in every accepted step.
     visited: Option<&'a mut Visited<'a>>,
 }
 
-/// Told what a step adds to ∫ w g(x0) dt: for each stage its time, x0, and h b w.
+/// Callback for the contribution of a step to ∫ w g(x0) dt: for each stage its time, x0, and h b w.
 pub(crate) type Visited<'a> = dyn FnMut(&[(f64, f64, f64)]) + 'a;
 
 /// Time, x0, w, x0', x0'' with inertia, and the imprint at one stage.
@@ -87,17 +87,17 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         }
     }
 
-    /// The same, telling of every accepted step where the tip was.
+    /// The same with a callback for the positions of the tip in every accepted step.
     pub(crate) fn telling(self, visited: &'a mut Visited<'a>) -> Self {
         Self { visited: Some(visited), ..self }
     }
 
-    /// Runs through the requested times.
+    /// Integrates through all requested times.
     pub(crate) fn run(self, request: &Request, observe: &mut Observer) -> Result<Run, GridError> {
         self.run_to_velocity(request, observe).map(|(run, _)| run)
     }
 
-    /// The same, with x0' at the end where there is inertia.
+    /// The same, and returns the final x0' with inertia.
     pub(crate) fn run_to_velocity(
         mut self,
         request: &Request,
@@ -136,7 +136,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         Ok(())
     }
 
-    /// All stages but the first, which is there already; returns x0(t + h).
+    /// Evaluates all stages except the first, which is available; returns x0(t + h).
     fn stages_of_step(&mut self, h: f64) -> Option<f64> {
         for i in 1..self.tableau.stages() {
             let x = self.moved(h, &self.tableau.a[i])?;
@@ -145,7 +145,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         self.moved(h, &self.tableau.b)
     }
 
-    /// x0 + h Σ weight · velocity, unless that is not finite or a whole reach away: far too long a step.
+    /// x0 + h Σ weight · velocity; `None` if that is not finite or a reach away, because the step is far too long.
     fn moved(&self, h: f64, weights: &[f64]) -> Option<f64> {
         let distance = h * self.slope(weights, |stage| stage.velocity);
         (distance.abs() <= self.problem.footprint.reach()).then_some(self.x0 + distance)
@@ -194,7 +194,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         self.work.cells_updated += stage.imprint.values.len() as u64;
     }
 
-    /// What the cells of stage `i` say by the stencil in the scratch.
+    /// The value of the stencil in the scratch storage on the cells of stage `i`.
     fn read(&mut self, i: usize, h: f64) -> f64 {
         let Scratch { stencil, local, .. } = &mut self.scratch;
         local.reset(stencil.first, stencil.values.len());
@@ -205,7 +205,7 @@ impl<'a, S: Scheme> Marcher<'a, S> {
         stencil.dot(&local.values)
     }
 
-    /// Forms the carved cells in the scratch; returns the error relative to what is allowed.
+    /// Computes the new cells in the scratch storage; returns the error relative to its limit.
     fn carve_and_estimate(&mut self, h: f64, x0: f64) -> f64 {
         let first = self.stages.iter().map(|s| s.imprint.first).min().unwrap_or(0);
         let end = self.stages.iter().map(|s| s.imprint.end()).max().unwrap_or(0);
@@ -291,7 +291,7 @@ fn combine(
     }
 }
 
-/// Hairer, Nørsett and Wanner's e5²/√(e5² + 0.01 e3²); with no second estimate e5 itself.
+/// Hairer, Nørsett and Wanner's e5²/√(e5² + 0.01 e3²); without a second estimate e5.
 fn blend(fifth: f64, third: f64) -> f64 {
     if third > 0.0 { fifth * fifth / fifth.hypot(0.1 * third) } else { fifth }
 }

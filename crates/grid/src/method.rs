@@ -1,4 +1,4 @@
-//! The four discretisations, and one function to run any of them.
+//! The four discretisations, and a function that runs any of them.
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;
@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 /// A discretisation of [`Problem`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Method {
-    /// The paper's: u at x_j = j Δx from `from` to `to`, all N + 1 unknowns advanced at every stage by
+    /// The paper's method: u at x_j = j Δx from `from` to `to`, all N + 1 unknowns advanced at every stage by
     /// Dormand–Prince 5(4); the slope at the tip by central differences, interpolated linearly. Order 2.
     Uniform {
         /// Δx
@@ -23,25 +23,25 @@ pub enum Method {
         /// Right end
         to: f64,
     },
-    /// The same scheme and pair, but a step touches only the cells within reach of the tip. Order 2.
+    /// The same scheme and pair, but a step updates only the cells within reach of the tip. Order 2.
     Windowed {
         /// Δx
         spacing: f64,
     },
-    /// A footprint that is a sum of Gaussians, on a lattice that writes and reads with narrower ones;
-    /// order 8. With `spacing` ≤ 0.36 the time integration is the only error.
+    /// For a footprint that is a sum of Gaussians: a lattice with narrower Gaussians for writing and reading; order
+    /// 8. With `spacing` ≤ 0.36 the time integration is the only error.
     Spectral {
-        /// The very terms of the footprint
+        /// The terms of the footprint
         gaussians: Vec<Gaussian>,
-        /// In units of the smallest width; π/8.7 gives round-off
+        /// Spacing in units of the smallest width; π/8.7 gives round-off
         spacing: f64,
     },
-    /// Any smooth footprint, by samples and a regularised sinc; order 8. For Gaussians some 3 times the
-    /// work of [`Method::Spectral`].
+    /// For any smooth footprint: samples and a regularised sinc; order 8. For Gaussians about 3 times the work of
+    /// [`Method::Spectral`].
     Sinc {
-        /// Of the samples, in units of x: at most π over the largest wave number in f
+        /// Spacing of the samples, in units of x: at most π over the largest wave number in f
         spacing: f64,
-        /// Cells on either side that the interpolation reaches over, 80 for round-off
+        /// Cells on either side in the support of the interpolation, 80 for round-off
         half_width: usize,
     },
 }
@@ -49,7 +49,7 @@ pub enum Method {
 /// Runs `method` from the start to the last requested time.
 ///
 /// # Errors
-/// Unusable input; a tip that leaves a [`Method::Uniform`] grid; a step lost in round-off.
+/// Invalid input; a tip that leaves a [`Method::Uniform`] grid; a step lost in round-off.
 pub fn solve(
     problem: &Problem,
     method: &Method,
@@ -59,10 +59,10 @@ pub fn solve(
     solve_observed(problem, method, stepping, request, &mut |_, _| ControlFlow::Continue(()))
 }
 
-/// As [`solve`], showing the end of each accepted step to an observer.
+/// As [`solve`], with a callback at the end of each accepted step.
 ///
 /// # Errors
-/// As [`solve`], and [`GridError::Stopped`] where the observer breaks off.
+/// As [`solve`]; and [`GridError::Stopped`] if the observer stops the run.
 pub fn solve_observed(
     problem: &Problem,
     method: &Method,
@@ -97,7 +97,7 @@ pub fn solve_observed(
     }
 }
 
-/// A lattice that holds only what was carved; u0 and its slope are evaluated where they are wanted.
+/// A lattice that contains only u - u0; u0 and its slope are evaluated on request.
 fn spectral(
     problem: &Problem,
     scheme: impl Scheme,

@@ -1,4 +1,4 @@
-//! A run of consecutive cells.
+//! Patches of consecutive cells.
 
 /// Values at the cells `first`, `first` + 1, …; 0 elsewhere.
 #[derive(Debug, Clone, Default)]
@@ -8,7 +8,7 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Zeros at `len` cells, reusing the storage.
+    /// Sets `len` cells to 0, and reuses the storage.
     pub(crate) fn reset(&mut self, first: i64, len: usize) {
         self.first = first;
         self.values.clear();

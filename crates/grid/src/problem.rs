@@ -15,10 +15,10 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Without external force.
+    /// A problem without external force.
     ///
     /// # Errors
-    /// α < 0, r ≤ 0, or a number that is not finite.
+    /// α < 0, r ≤ 0, or a number is not finite.
     pub fn new(
         alpha: f64,
         r: f64,
@@ -28,10 +28,10 @@ impl<'a> Problem<'a> {
         Self::under(Wider::default(), (alpha, r), footprint, start)
     }
 
-    /// Under a wider law; without a spring α may be below 0, and r counts for nothing.
+    /// A problem of the extended model; without a spring α may be below 0, and r is ignored.
     ///
     /// # Errors
-    /// As [`new`](Self::new); a number of the wider law that is not finite or not above 0.
+    /// As [`new`](Self::new); or a parameter of the extended model is not finite or not above 0.
     pub fn under(
         wider: Wider<'a>,
         (alpha, r): (f64, f64),
@@ -51,19 +51,19 @@ impl<'a> Problem<'a> {
         Ok(Self { alpha, r, footprint, start, force: None, wider })
     }
 
-    /// The same with Fext.
+    /// Adds an external force Fext.
     #[must_use]
     pub fn with_force(self, force: &'a dyn Fn(f64) -> f64) -> Self {
         Self { force: Some(force), ..self }
     }
 
-    /// The start.
+    /// The initial condition.
     #[must_use]
     pub fn start(&self) -> &Start<'a> {
         &self.start
     }
 
-    /// Right-hand side of (10), given the slope under the tip: the force on it.
+    /// Right-hand side of (10), the force on the tip, for a given slope under the tip.
     pub(crate) fn velocity(&self, t: f64, x0: f64, slope: f64) -> f64 {
         let pull = match &self.wider.path {
             _ if !self.wider.spring => 0.0,
@@ -73,7 +73,7 @@ impl<'a> Problem<'a> {
         pull - slope + self.force.map_or(0.0, |force| force(t))
     }
 
-    /// What is left at t of the surface at the start.
+    /// Fraction of the initial surface that remains at t.
     pub(crate) fn left_of_start(&self, t: f64) -> f64 {
         self.wider.left_after(t - self.start.time)
     }

@@ -1,11 +1,12 @@
-//! An area scanned line by line, as the full PDE: heights on rows of cells, all rows within reach carved in every step.
+//! The full PDE for an area scanned line by line: heights on rows of cells, all rows within reach carved in every
+//! step.
 //!
 //! ```text
 //! x0' = -u_x(x0, Y, t) + R(t) - x0 + Fext(t),      u_t(x, y, t) = -α f(x - x0(t), y - Y)
 //! ```
 //!
-//! There is a row at the y of every line. Rows between them would be carved too but never be read: no motion depends on
-//! them. f(x,y) is a sum of products, so that a step makes one imprint for each and adds it to every row.
+//! There is a row at the y of every line. Rows between them are not needed, because no motion depends on them. f(x,y)
+//! is a sum of products, so that a step computes one imprint for each product and adds it to every row.
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;
@@ -15,70 +16,72 @@ use crate::scheme::{Scheme, sample};
 use crate::{Footprint, GridError, Path, Problem, Request, Start, Stepping, Wider, Work};
 use std::ops::ControlFlow;
 
-/// g(x) h(y), one of the products that f(x,y) is the sum of.
+/// One product g(x) h(y) of the sum f(x,y).
 #[derive(Clone, Copy)]
 pub struct Layer<'a> {
-    /// g
+    /// The factor g.
     pub along: &'a dyn Fn(f64) -> f64,
-    /// h
+    /// The factor h.
     pub across: &'a dyn Fn(f64) -> f64,
 }
 
-/// The way of the support along one line.
+/// The path of the support along one line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanLine {
-    /// Where it lies.
+    /// y of the line.
     pub y: f64,
-    /// Where the support starts, and where it ends.
+    /// Start of the support.
     pub from: f64,
-    /// End.
+    /// End of the support.
     pub to: f64,
 }
 
-/// What is scanned, and by what law.
+/// Definition of a scan.
 pub struct Scan<'a> {
     /// α and r.
     pub model: (f64, f64),
-    /// b and T; M without a velocity at the start, which is that of the line before on a zigzag, and otherwise 0.
+    /// b, T and M. The initial velocity with inertia is that of the line before on a zigzag, and otherwise 0.
     pub law: (Option<f64>, Option<f64>, Option<f64>),
-    /// f(x,y)
+    /// The terms of f(x,y).
     pub layers: &'a [Layer<'a>],
-    /// Beyond these distances in x and y it counts as 0.
+    /// Distances in x and y beyond which f is taken as 0.
     pub reach: (f64, f64),
-    /// In the order of the scan.
+    /// The lines in the order of the scan.
     pub lines: &'a [ScanLine],
-    /// Whether the tip starts a line where the one before has ended, or at its start.
+    /// Whether the tip starts a line at the position where the one before has ended, instead of at the start of the
+    /// line.
     pub zigzag: bool,
-    /// On the first line, by the time since its start.
+    /// External force on the first line, against the time since its start.
     pub force: &'a dyn Fn(f64) -> f64,
 }
 
-/// What became of it.
+/// Result of a scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scanned {
-    /// x0 on each line at the times asked for, since its start.
+    /// x0 on each line at the requested times since its start.
     pub x0: Vec<Vec<f64>>,
-    /// Times since the start of each line and x0 at the ends of its own steps.
+    /// Times since the start of each line and x0 at the ends of the grid's steps.
     pub steps: Vec<Vec<(f64, f64)>>,
     /// y of the rows, ascending.
     pub y: Vec<f64>,
-    /// u after the last line at the points asked for, a row for each y.
+    /// u after the last line at the requested points, a row for each y.
     pub u: Vec<Vec<f64>>,
-    /// What it took.
+    /// Cost of the scan.
     pub work: Work,
 }
 
-/// A tip so many reaches outside of where the support goes has left the grid.
+/// Distance from the range of the support, in reaches, at which a tip has left the grid.
 const OUTSIDE: f64 = 2.0;
 
-/// Told at every step how many lines are done, with the part of the one under way; may stop the scan there.
+/// Callback at every step with the number of finished lines, including the fraction of the current one; may stop the
+/// scan.
 pub type LineObserver<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
-/// Scans all lines on a flat surface; `spacing` is that of the cells. Times
-/// are those of every line, ascending from its start, each hit by a step; those after its end count for nothing.
+/// Scans all lines on a flat surface; `spacing` is that of the cells. Times are those of every line, ascending from
+/// its start, each reached exactly by a step; those after its end are ignored.
 ///
 /// # Errors
-/// Unusable input; a tip that leaves the grid; a step lost in round-off; [`GridError::Stopped`].
+/// Invalid input; a tip that leaves the grid; a step lost in round-off; [`GridError::Stopped`].
 pub fn scan(
     scan: &Scan,
     (method, spacing): (RowMethod, f64),
@@ -117,20 +120,20 @@ struct Plane {
     first: i64,
     rows: Vec<Vec<f64>>,
     spacing: f64,
-    /// Where a tip may be.
+    /// Range of possible positions of the tip.
     ends: (f64, f64),
 }
 
 /// x0 and x0' at the end of a line.
 type State = (f64, f64);
 
-/// How a line is to be stepped through, and what is noted.
+/// Stepping and output of a line.
 struct Asked<'a> {
     method: RowMethod,
     stepping: &'a Stepping,
     times: &'a [f64],
     steps: &'a mut Vec<(f64, f64)>,
-    /// Told the part of the line that is done.
+    /// Callback for the fraction of the line done.
     observe: &'a mut LineObserver<'a>,
 }
 
@@ -155,7 +158,7 @@ impl Plane {
         Ok(Self { y, first: from as i64, rows, spacing, ends })
     }
 
-    /// Scans one line from a state; x0 at the times as far as it lasts, and how it ends.
+    /// Scans one line from an initial state; returns x0 at the times within its duration, and the final state.
     fn line(
         &mut self,
         scan: &Scan,
@@ -228,7 +231,7 @@ impl Plane {
     }
 }
 
-/// A row as it was before the line.
+/// A row with its state before the line.
 struct Reader<'a> {
     scheme: RowScheme<'a>,
     first: i64,
@@ -255,7 +258,7 @@ impl Reader<'_> {
     }
 }
 
-/// Carves all rows within reach.
+/// Updates all rows within reach.
 struct Carver<'a> {
     plane: &'a mut Plane,
     scan: &'a Scan<'a>,
@@ -265,7 +268,7 @@ struct Carver<'a> {
 }
 
 impl Carver<'_> {
-    /// What one step adds, `left` of which remains at the end of the line.
+    /// Adds the contribution of one step, of which the fraction `left` remains at the end of the line.
     fn carve(&mut self, visits: &[(f64, f64, f64)], factor: f64, left: &dyn Fn(f64) -> f64) {
         let Self { plane, scan, line, imprint, cells } = self;
         let reach = scan.reach.0;

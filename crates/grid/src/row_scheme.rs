@@ -1,4 +1,4 @@
-//! How the rows of a scanned area are held along x.
+//! Discretisations of the rows of a scanned area along x.
 
 use crate::Footprint;
 use crate::patch::Patch;
@@ -7,17 +7,17 @@ use crate::sinc::Sinc;
 use crate::tableau::Tableau;
 use crate::three_point::ThreePoint;
 
-/// How rows are held along x, and steps are made.
+/// Discretisation of rows along x and in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowMethod {
-    /// Samples read by a regularised sinc, exact to round-off for a spacing of at most π over the largest wave number in f;
-    /// order 8 in time.
+    /// Samples interpolated by a regularised sinc, exact to round-off for a spacing of at most π over the largest
+    /// wave number in f; order 8 in time.
     Sinc,
-    /// As the paper's grid: slopes by central differences, interpolated linearly, order 2; order 5 in time.
+    /// The paper's grid: slopes by central differences, interpolated linearly, order 2; order 5 in time.
     ThreePoint,
 }
 
-/// Cells on either side that the sinc reaches over.
+/// Cells on either side in the support of the sinc.
 pub(crate) const HALF_WIDTH: usize = 80;
 
 impl RowMethod {
@@ -36,7 +36,7 @@ impl RowMethod {
     }
 }
 
-/// Either.
+/// One of the two discretisations.
 pub(crate) enum RowScheme<'a> {
     Sinc(Sinc<'a>),
     ThreePoint(ThreePoint<'a>),

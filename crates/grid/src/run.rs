@@ -1,17 +1,17 @@
-//! What is asked of a run, and what it returns.
+//! Request and result of a run.
 
 use crate::GridError;
 use std::ops::ControlFlow;
 
-/// Told the time t that each accepted step has come to, and x0(t); may stop the run there.
+/// Callback after each accepted step, with its time t and x0(t); may stop the run.
 pub type Observer<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
-/// Times at which x0 is wanted, and points at which u is wanted at the last of them.
+/// Times at which x0 is requested, and points at which u is requested at the last of them.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
-    /// Ascending, none before the start; the last one ends the run. Every one is hit by a step.
+    /// Times, ascending, none before the start; the last one ends the run. A step ends at each of them.
     pub times: &'a [f64],
-    /// Anywhere, in any order.
+    /// Points in any order.
     pub points: &'a [f64],
 }
 
@@ -28,26 +28,26 @@ impl Request<'_> {
     }
 }
 
-/// Trajectory, surface and effort.
+/// Result of a run: trajectory, surface and cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// x0 at the requested times.
     pub x0: Vec<f64>,
     /// u at the requested points, at the last requested time.
     pub u: Vec<f64>,
-    /// What it took.
+    /// Cost of the run.
     pub work: Work,
 }
 
 /// Counts that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Steps taken.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps tried in vain.
+    /// Number of rejected steps.
     pub rejected: u64,
-    /// Evaluations of the right-hand side of (10).
+    /// Number of evaluations of the right-hand side of (10).
     pub right_hand_sides: u64,
-    /// Evaluations of the right-hand side of (11), summed over the cells.
+    /// Number of evaluations of the right-hand side of (11), summed over the cells.
     pub cells_updated: u64,
 }

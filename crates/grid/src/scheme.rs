@@ -1,19 +1,19 @@
-//! What distinguishes one grid from another.
+//! The interface of a discretisation.
 
 use crate::patch::Patch;
 
-/// Cells x_j = j h with a rule to write on them and a rule to read off them.
+/// Cells x_j = j h, with a rule for writing and a rule for reading.
 ///
-/// The cells hold numbers w_j with w_j' = -α `imprint`(x_j - x0); the surface (or, for a scheme that
-/// holds only what was carved, its difference from u0) is a fixed linear combination of them.
+/// The cells contain numbers w_j with w_j' = -α `imprint`(x_j - x0); the surface (or, for a scheme that stores only
+/// the groove, its difference from u0) is a fixed linear combination of them.
 pub(crate) trait Scheme {
-    /// h
+    /// Spacing h.
     fn spacing(&self) -> f64;
-    /// What the tip at `tip` writes, within its reach.
+    /// The imprint of the tip at `tip`, within its reach.
     fn imprint(&self, tip: f64, out: &mut Patch);
-    /// Weights whose sum with the cells is u_x at `x`.
+    /// Weights of the cells in the sum for u_x at `x`.
     fn slope_stencil(&self, x: f64, out: &mut Patch);
-    /// Weights whose sum with the cells is u at `x`.
+    /// Weights of the cells in the sum for u at `x`.
     fn height_stencil(&self, x: f64, out: &mut Patch);
 }
 
@@ -24,7 +24,7 @@ pub(crate) fn cells_within(x: f64, reach: f64, spacing: f64) -> (i64, usize) {
     (first, usize::try_from(last + 1 - first).unwrap_or(0))
 }
 
-/// Samples f itself at the cells within its reach.
+/// Samples of f at the cells within its reach.
 pub(crate) fn sample(footprint: &crate::Footprint, spacing: f64, tip: f64, out: &mut Patch) {
     let (first, len) = cells_within(tip, footprint.reach(), spacing);
     out.reset(first, len);
@@ -50,7 +50,7 @@ pub(crate) fn defect(scheme: &impl Scheme, footprint: &crate::Footprint) -> f64 
     worst / largest
 }
 
-/// `write` at the cells of `read`.
+/// The values of `write` at the cells of `read`.
 fn local_copy(local: &mut Patch, read: &Patch, write: &Patch) {
     local.reset(read.first, read.values.len());
     local.add(1.0, write);

@@ -1,4 +1,4 @@
-//! A band-limited grid for any smooth f: samples, read by a regularised sinc.
+//! A band-limited grid for any smooth f: samples, interpolated by a regularised sinc.
 
 use crate::Footprint;
 use crate::bell::Bell;
@@ -6,13 +6,13 @@ use crate::patch::Patch;
 use crate::scheme::{Scheme, sample};
 use std::f64::consts::PI;
 
-/// Cells hold samples of u - u0, read by u(x) = Σ_j w_j S(x - x_j) with
+/// Cells contain samples of u - u0, interpolated by u(x) = Σ_j w_j S(x - x_j) with
 ///
 /// S(d) = sin(πd/h)/(πd/h) · exp(-d²/2s²),  s = m h/8.85,
 ///
-/// m cells on either side (L. Qian, Proc. Amer. Math. Soc. 131 (2003) 1169). A wave of number k is read
-/// with an error of about erfc((π/h - k) s/√2). With f̂ ∝ exp(-k²/2) the worst of it is
-/// exp(-(π/h)² s²/2(1+s²)): h = 0.36 and m = 80 (s = 3.25) give 1e-15, m = 25 only 2e-9.
+/// with m cells on either side (L. Qian, Proc. Amer. Math. Soc. 131 (2003) 1169). The error for a wave of number k is
+/// about erfc((π/h - k) s/√2). With f̂ ∝ exp(-k²/2) its maximum is exp(-(π/h)² s²/2(1+s²)): h = 0.36 and m = 80 (s =
+/// 3.25) give 1e-15, m = 25 only 2e-9.
 pub(crate) struct Sinc<'a> {
     footprint: Footprint<'a>,
     spacing: f64,
@@ -27,7 +27,7 @@ impl<'a> Sinc<'a> {
         Self { footprint, spacing, steepness: width.powi(-2), bell: Bell::new(width, spacing) }
     }
 
-    /// The regulariser at the cells about x.
+    /// The regulariser at the cells around x.
     fn regulariser(&self, x: f64, out: &mut Patch) {
         let half = self.bell.half_width();
         out.reset(self.bell.nearest(x) - half as i64, 2 * half + 1);

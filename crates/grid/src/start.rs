@@ -1,4 +1,4 @@
-//! Where and when the motion starts, and on what surface.
+//! Initial conditions: time, position and surface.
 
 use crate::Wider;
 use crate::footprint::{Footprint, Tail};
@@ -12,7 +12,7 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// Any start. `slope` must be the derivative of `height`; only the spectral grid uses it.
+    /// A general initial condition. `slope` must be the derivative of `height`; only the spectral grid uses it.
     pub fn new(
         time: f64,
         x0: f64,
@@ -28,7 +28,7 @@ impl<'a> Start<'a> {
         Self::new(position / r, position, |_| 0.0, |_| 0.0)
     }
 
-    /// An infinite past of steady motion that ends at X: t1 = (X + r + l0)/r with l0 = α f(0)/r,
+    /// Steady motion for infinite time up to the position X: t1 = (X + r + l0)/r with l0 = α f(0)/r,
     ///
     /// u0(x) = -(α/r) ∫_{x-X}^∞ f,  u0'(x) = (α/r) f(x - X).
     ///
@@ -45,8 +45,8 @@ impl<'a> Start<'a> {
         )
     }
 
-    /// The same under a wider law: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the weight that
-    /// this depth under the tip has, and l0 the slope there. On a path the start is at t = 0.
+    /// The same for the extended model: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the weight at
+    /// this depth, and l0 the slope under the tip. On a path the start is at t = 0.
     #[must_use]
     pub fn steady_under(
         wider: &Wider,
@@ -81,7 +81,7 @@ impl<'a> Start<'a> {
         )
     }
 
-    /// The same start on a surface with `height` added, whose derivative is `slope`.
+    /// The same initial condition with `height` added to the surface; `slope` is its derivative.
     #[must_use]
     pub fn on_top_of(
         self,

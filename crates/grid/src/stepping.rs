@@ -5,11 +5,11 @@ use crate::GridError;
 /// Local error allowed per step, in every unknown y: `atol` + `rtol` |y|, in the largest norm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
-    /// Relative part. It applies to x0 too, which grows for ever.
+    /// Relative part. It also applies to x0, which grows indefinitely.
     pub rtol: f64,
     /// Absolute part.
     pub atol: f64,
-    /// No step is longer.
+    /// Longest step.
     pub max_step: f64,
     /// The first step tried.
     pub first_step: f64,
@@ -22,19 +22,19 @@ impl Stepping {
         Self { rtol: 1e-3, atol: 1e-6, max_step: 0.04, first_step: 0.01 }
     }
 
-    /// The same absolute tolerance throughout, steps as long as it allows.
+    /// A constant absolute tolerance without a limit on the step.
     #[must_use]
     pub fn absolute(atol: f64) -> Self {
         Self { rtol: 0.0, atol, max_step: f64::INFINITY, first_step: 0.01 }
     }
 
-    /// Steps of one length: nothing is ever rejected.
+    /// Steps of constant length without error control.
     #[must_use]
     pub fn fixed(step: f64) -> Self {
         Self { rtol: 0.0, atol: f64::INFINITY, max_step: step, first_step: step }
     }
 
-    /// The error allowed where the unknown goes from `before` to `after`.
+    /// The error allowed if the unknown changes from `before` to `after`.
     pub(crate) fn allowed(&self, before: f64, after: f64) -> f64 {
         self.atol + self.rtol * before.abs().max(after.abs())
     }

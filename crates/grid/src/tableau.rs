@@ -2,8 +2,7 @@
 
 use differential_equations::tableau::ButcherTableau;
 
-/// x_i = x + h Σ_l a_il k_l, x(t+h) = x + h Σ b_l k_l, with one or two estimates of the error,
-/// h Σ e_l k_l.
+/// One pair: x_i = x + h Σ_l a_il k_l, x(t+h) = x + h Σ b_l k_l, with one or two estimates of the error, h Σ e_l k_l.
 pub(crate) struct Tableau {
     pub(crate) c: Vec<f64>,
     pub(crate) a: Vec<Vec<f64>>,
@@ -12,13 +11,13 @@ pub(crate) struct Tableau {
     /// Dormand and Prince's second estimate, of order 3; empty for a 5(4) pair.
     pub(crate) error3: Vec<f64>,
     pub(crate) order: i32,
-    /// The last stage is the first of the next step.
+    /// Whether the last stage is the first of the next step.
     pub(crate) first_same_as_last: bool,
 }
 
 impl Tableau {
-    /// Order 5(4), 7 stages, 6 a step: J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6 (1980)
-    /// 19. It is the pair of ode45.
+    /// Order 5(4), 7 stages, 6 per step: J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19. The pair
+    /// of ode45.
     pub(crate) fn dopri5() -> Self {
         let t = ButcherTableau::<f64, 7>::dopri5();
         Self::from_parts(&t.c, &t.a, &t.b, t.er.unwrap_or_default(), None, 5, true)
@@ -61,8 +60,8 @@ impl Tableau {
 mod tests {
     use super::*;
 
-    /// Σ b c^{k-1} = 1/k up to the order (quadrature conditions), rows of a sum to c, and error weights
-    /// sum to 0: a mistyped digit would show.
+    /// Σ b c^{k-1} = 1/k up to the order (quadrature conditions), row sums equal c, and error weights sum to 0: these
+    /// detect a mistyped digit.
     #[test]
     fn the_coefficients_meet_their_quadrature_conditions() {
         for tableau in [Tableau::dopri5(), Tableau::dop853()] {

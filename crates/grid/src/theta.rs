@@ -1,4 +1,4 @@
-//! The strongest grid, for sums of Gaussians: two narrower Gaussians, one to write, one to read.
+//! The most efficient grid, for sums of Gaussians: one narrower Gaussian for writing, and one for reading.
 
 use crate::GridError;
 use crate::bell::Bell;
@@ -22,9 +22,9 @@ pub struct Gaussian {
 ///
 /// exp(-(x-y)²/2) = √(2/π) h Σ_j exp(-(x-x_j)²) exp(-(x_j-y)²) (1 + ε),  |ε| ≤ 2 exp(-π²/2h²).
 ///
-/// Cells hold w_j with w_j' = -α g(x_j - x0), g the sum of the writing Gaussians; then
-/// u(x) = u0(x) + h Σ_j G(x - x_j) w_j. Unlike samples of u, which interpolation must reach over tens
-/// of cells to read to round-off, these are read within 6.3 W. h = W π/8.7 gives 7e-17.
+/// Cells contain w_j with w_j' = -α g(x_j - x0), g the sum of the writing Gaussians; then u(x) = u0(x) + h Σ_j G(x -
+/// x_j) w_j. Samples of u would need interpolation over tens of cells for round-off; these are read within 6.3 W. h =
+/// W π/8.7 gives 7e-17.
 pub(crate) struct Theta {
     spacing: f64,
     read: Bell,
@@ -36,7 +36,7 @@ pub(crate) struct Theta {
 }
 
 impl Theta {
-    /// `spacing` in units of the smallest width.
+    /// The scheme with `spacing` in units of the smallest width.
     pub(crate) fn new(gaussians: &[Gaussian], spacing: f64) -> Result<Self, GridError> {
         let usable = |g: &Gaussian| {
             g.amplitude.is_finite() && g.center.is_finite() && g.width.is_finite() && g.width > 0.0

@@ -4,7 +4,7 @@ use crate::Footprint;
 use crate::patch::Patch;
 use crate::scheme::{Scheme, sample};
 
-/// Cells hold u(x_j). With j the cell left of x and s = x/h - j,
+/// Cells contain u(x_j). With j the cell to the left of x and s = x/h - j,
 ///
 /// u_x(x) ≈ (1-s) (u_{j+1} - u_{j-1})/2h + s (u_{j+2} - u_j)/2h:
 ///
@@ -16,7 +16,7 @@ pub(crate) struct ThreePoint<'a> {
 }
 
 impl ThreePoint<'_> {
-    /// The cell at or left of x, and how far beyond it x is, in cells.
+    /// The cell at or to the left of x, and the distance of x from it, in cells.
     fn locate(&self, x: f64) -> (i64, f64) {
         let left = (x / self.spacing).floor();
         (left as i64, x / self.spacing - left)

@@ -1,4 +1,4 @@
-//! The paper's discretisation: N + 1 ordinary differential equations, all of them at every stage.
+//! The paper's discretisation: N + 1 ordinary differential equations, all advanced at every stage.
 
 use crate::control::{reached, too_small, towards};
 use crate::patch::Patch;
@@ -21,7 +21,7 @@ struct FullGrid<'a> {
     first: i64,
     len: usize,
     stencil: RefCell<Patch>,
-    /// Where a stage last left the grid, if one did.
+    /// Time and position at which a stage left the grid, if one did.
     left: Cell<Option<(f64, f64)>>,
 }
 
@@ -30,13 +30,13 @@ impl FullGrid<'_> {
         (self.first + k as i64) as f64 * self.scheme.spacing
     }
 
-    /// Σ stencil · u, `None` off the grid.
+    /// Σ stencil · u; `None` outside of the grid.
     fn read(&self, u: &[f64], stencil: &Patch) -> Option<f64> {
         let from = usize::try_from(stencil.first - self.first).ok()?;
         u.get(from..from + stencil.values.len()).map(|u| stencil.dot(u))
     }
 
-    /// x0, the cells, and x0' where there is inertia.
+    /// x0, the cells, and with inertia x0'.
     fn start(&self) -> Unknowns {
         let start = &self.problem.start;
         let heights = (0..self.len).map(|k| start.height(self.x(k)));
@@ -44,7 +44,7 @@ impl FullGrid<'_> {
         Unknowns(std::iter::once(start.x0).chain(heights).chain(velocity).collect())
     }
 
-    /// w of (61), `None` off the grid.
+    /// w of (61); `None` outside of the grid.
     fn weight(&self, u: &[f64], x0: f64, stencil: &mut Patch) -> Option<f64> {
         if self.problem.wider.depth_limit.is_none() {
             return Some(1.0);
@@ -125,7 +125,7 @@ pub(crate) fn run(
     Ok(Run { x0, u, work: runner.work })
 }
 
-/// The crate's stepper, led from one requested time to the next.
+/// The integrator of the crate, called from one requested time to the next.
 struct Runner<'g> {
     grid: &'g FullGrid<'g>,
     solver: Dopri5,
@@ -190,7 +190,7 @@ impl FullGrid<'_> {
         work.cells_updated += (evaluations * self.len) as u64;
     }
 
-    /// The tip's departure, if that is what stopped the run.
+    /// The error that the tip left the grid, if it did, and `otherwise` if not.
     fn departure(&self, otherwise: GridError) -> GridError {
         self.left.get().map_or(otherwise, |(time, x0)| GridError::LeftGrid { time, x0 })
     }

@@ -1,9 +1,9 @@
-//! The N + 1 unknowns of the paper's grid, as the stepper's crate wants them.
+//! The N + 1 unknowns of the paper's grid, in the form required by the crate of the integrator.
 
 use differential_equations::{tolerance::Tolerance, traits::State};
 
-/// x0, u(x_1), …, u(x_N). The error of a step is the largest of any unknown, as in ode45; the crate's
-/// own root mean square would let the tip's error drown among cells that it never touches.
+/// x0, u(x_1), …, u(x_N). The error of a step is the largest error of any unknown, as in ode45; in the crate's root
+/// mean square the many cells out of reach would hide the error of the tip.
 #[derive(Debug, Clone)]
 pub(crate) struct Unknowns(pub(crate) Vec<f64>);
 

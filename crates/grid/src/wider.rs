@@ -1,34 +1,34 @@
-//! What a wider law adds to (10) and (11), as the grids solve it.
+//! Extended model: its terms in (10) and (11), as the grids solve them.
 //!
 //! ```text
 //! M x0'' + x0' = -u_x(x0, t) + κ (R(t) - x0) + Fext(t)
 //! u_t(x, t) = -α w f(x - x0(t)) - u(x, t)/T,   w = exp(-|u(x0, t)|/b)      (61)
 //! ```
 //!
-//! The cells hold e^{(t - s)/T} u, which no cell out of reach changes (J. D. Lawson, SIAM J. Numer. Anal. 4
-//! (1967) 372), and s follows t. The corner of |u| is left to the control of the step size.
+//! The cells contain e^{(t - s)/T} u, which is constant for cells out of reach (J. D. Lawson, SIAM J. Numer. Anal. 4
+//! (1967) 372); the reference time s is moved along with t. The kink of |u| is handled by the step-size control.
 
 use crate::GridError;
 
-/// Motion of the support: R(t), and the times at which R' jumps.
+/// Path of the support: R(t), and the times at which R' jumps.
 pub struct Path<'a> {
-    /// R
+    /// Position R(t)
     pub position: &'a dyn Fn(f64) -> f64,
-    /// Ascending.
+    /// Times of the jumps, ascending.
     pub knots: &'a [f64],
 }
 
-/// b, T, M and κ; the default is (10), (11) themselves.
+/// b, T, M and κ; by default the basic model (10), (11).
 pub struct Wider<'a> {
     /// b
     pub depth_limit: Option<f64>,
     /// T
     pub healing_time: Option<f64>,
-    /// M, and the velocity at the start.
+    /// M, and the initial velocity.
     pub inertia: Option<(f64, f64)>,
-    /// κ = 1 or, without a spring, 0.
+    /// Whether there is a spring: κ = 1, or 0 without.
     pub spring: bool,
-    /// `None`: R = rt.
+    /// Path of the support; by default R = rt.
     pub path: Option<Path<'a>>,
 }
 
@@ -47,7 +47,7 @@ impl Wider<'_> {
         }
     }
 
-    /// w, where the surface has this height.
+    /// w at this height of the surface.
     pub(crate) fn weight(&self, height: f64) -> f64 {
         self.depth_limit.map_or(1.0, |limit| (-height.abs() / limit).exp())
     }

@@ -1,4 +1,4 @@
-//! Density to field: transform, multiply, transform back.
+//! Convolution: transform, multiply, transform back.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -9,15 +9,14 @@ use rustfft::num_complex::Complex;
 use crate::window::Window;
 use crate::{Density, Field, Kernel, Plan};
 
-/// A kernel made ready: its transform over the window's, and the Fourier transforms.
+/// A prepared kernel: its transform divided by that of the window, and plans of the Fourier transforms.
 ///
-/// **Who must cover what.** One call sees a window of [`length`](Self::length) cells of the
-/// density, and nothing else.
-/// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window see every
-///   source that matters, whether or not others lie outside. A window centered on `x` leaves room
-///   for targets up to `(separation − reach)/2` from `x`.
-/// - A kernel without: all sources must lie in the window, and the targets within `separation` of
-///   each of them.
+/// **Requirements on the window.** One call uses a window of [`length`](Self::length) cells of the density, and
+/// nothing else.
+/// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window include all sources within
+/// reach, whether or not others lie outside. A window centered on `x` allows targets up to `(separation − reach)/2`
+/// from `x`.
+/// - A kernel without reach: all sources must lie in the window, and the targets within `separation` of each of them.
 ///
 /// [`first_cell_about`](Self::first_cell_about) centers the window.
 pub struct Convolver {
@@ -39,7 +38,7 @@ impl Convolver {
         Self::with_plan(kernel, Plan::new(kernel, separation))
     }
 
-    /// Prepares the kernel by a plan of the caller's; accuracy is that of the plan.
+    /// Prepares the kernel with a given plan, which determines the accuracy.
     pub fn with_plan(kernel: &Kernel, plan: Plan) -> Self {
         let mut planner = RealFftPlanner::new();
         let forward = planner.plan_fft_forward(plan.length);
@@ -58,17 +57,17 @@ impl Convolver {
         convolver
     }
 
-    /// The choices made for this kernel.
+    /// The plan for this kernel.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The spacing that the density must have.
+    /// The spacing required of the density.
     pub fn spacing(&self) -> f64 {
         self.plan.spacing
     }
 
-    /// Cells in the window.
+    /// Number of cells of the window.
     pub fn length(&self) -> usize {
         self.plan.length
     }
@@ -80,10 +79,10 @@ impl Convolver {
 
     /// Convolves the window of `density` that starts at `first_cell`, overwriting `field`.
     ///
-    /// Allocates only if the field has held a shorter window before.
+    /// Allocates only if the field had a shorter window before.
     ///
     /// # Panics
-    /// If the density's spacing is not the plan's.
+    /// The spacing of the density differs from that of the plan.
     pub fn convolve(&mut self, density: &Density, first_cell: i64, field: &mut Field) {
         let same = density.spacing().to_bits() == self.plan.spacing.to_bits();
         assert!(same, "density of spacing {}, plan of {}", density.spacing(), self.plan.spacing);
@@ -102,7 +101,7 @@ impl Convolver {
             .expect("buffers have the lengths of the plan");
     }
 
-    /// Transforms `cells` into `self.spectrum`, destroying them.
+    /// Transforms `cells` into `self.spectrum`, and overwrites them.
     fn transform(&mut self, cells: &mut [f64]) {
         self.forward
             .process_with_scratch(cells, &mut self.spectrum, &mut self.scratch)
@@ -110,7 +109,8 @@ impl Convolver {
     }
 }
 
-/// The kernel, tapered if need be, on the circle of the window: two images meet in each cell.
+/// Periodic samples of the kernel, tapered if necessary, on the length of the window: two images overlap in each
+/// cell.
 fn periodic_samples(kernel: &Kernel, plan: &Plan) -> Vec<f64> {
     let image = |cell: i64| {
         let x = cell as f64 * plan.spacing;
@@ -123,7 +123,7 @@ fn periodic_samples(kernel: &Kernel, plan: &Plan) -> Vec<f64> {
     (0..length).map(|cell| image(cell) + image(cell - length)).collect()
 }
 
-/// Divides by the window once for the spreading and once for the reading, and normalises.
+/// Divides by the window once for writing and once for reading, and normalises.
 fn deconvolved(spectrum: &[Complex<f64>], length: usize) -> Vec<Complex<f64>> {
     let window = Window::shared();
     let divided = |(mode, k): (usize, &Complex<f64>)| {

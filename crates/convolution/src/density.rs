@@ -5,31 +5,31 @@ use std::ops::Range;
 use crate::lattice::Lattice;
 use crate::window::{BELOW, WIDTH, Window};
 
-/// The density of all sources so far, `D_i = Σ_j w_j φ((i − y_j/spacing)/8)`, on the cells `i` of
-/// a lattice that grows either way as sources come. Cell `i` lies at position `i · spacing`.
+/// The density of all sources so far, `D_i = Σ_j w_j φ((i − y_j/spacing)/8)`, on the cells `i` of a lattice that is
+/// extended in both directions as sources are added. Cell `i` is at position `i · spacing`.
 ///
 /// Sums are compensated (Kahan): a tip that sticks adds a million sources to the same few cells,
 /// where plain sums drift by as many roundings, all of one sign. The error of a cell is then two
 /// roundings of `Σ|w|`, whatever the number of sources.
 ///
-/// Growth doubles the store, so that `n` calls of [`add`](Self::add) cost of order `n`, and memory
-/// is sixteen bytes per cell between the first and the last source, at most four times over.
+/// Storage is doubled on growth, so that `n` calls of [`add`](Self::add) cost O(n). Memory is sixteen bytes per cell
+/// between the first and the last source, times four at most.
 #[derive(Clone, Debug)]
 pub struct Density {
     window: &'static Window,
     lattice: Lattice,
     sums: Vec<f64>,
-    /// What each sum has in excess of its exact value.
+    /// Compensation: the difference of each sum from its exact value.
     excess: Vec<f64>,
-    /// The cell of `sums[0]`.
+    /// Index of the cell in `sums[0]`.
     first: i64,
-    /// The cells that sources have touched; the store may hold more.
+    /// The cells that sources have changed; the storage may be larger.
     touched: Range<i64>,
 }
 
 impl Density {
-    /// An empty density on the lattice of the given spacing: that of a
-    /// [`Plan`](crate::Plan), or any positive number of few significant bits.
+    /// An empty density on the lattice with the given spacing: that of a [`Plan`](crate::Plan), or any positive
+    /// number with few significant bits.
     pub fn new(spacing: f64) -> Self {
         Self {
             window: Window::shared(),
@@ -46,14 +46,14 @@ impl Density {
         self.lattice.spacing
     }
 
-    /// The cells touched by sources; empty before the first.
+    /// The cells changed by sources; empty before the first.
     pub fn range(&self) -> Range<i64> {
         self.touched.clone()
     }
 
     /// Adds a source of the given weight.
     ///
-    /// The position must be finite, and not farther from the other sources than memory can span.
+    /// The position must be finite, and close enough to the other sources for the memory.
     #[inline]
     pub fn add(&mut self, position: f64, weight: f64) {
         debug_assert!(position.is_finite(), "a source at {position}");
@@ -71,12 +71,12 @@ impl Density {
         accumulate(sums, excess, &self.window.weights(offset), weight);
     }
 
-    /// All sources so far times a factor.
+    /// Multiplies all sources so far by a factor.
     pub fn scale(&mut self, factor: f64) {
         self.sums.iter_mut().chain(&mut self.excess).for_each(|sum| *sum *= factor);
     }
 
-    /// Copies the cells from `first_cell` on into `out`, with zeros where no source has been.
+    /// Copies the cells from `first_cell` on into `out`, with zeros beyond the sources.
     pub fn copy_window(&self, first_cell: i64, out: &mut [f64]) {
         let end = first_cell + out.len() as i64;
         let from = self.touched.start.clamp(first_cell, end);
@@ -91,7 +91,7 @@ impl Density {
         }
     }
 
-    /// Forgets all cells outside of `cells`, and gives back their room.
+    /// Removes all cells outside of `cells`, and releases their memory.
     pub fn keep(&mut self, cells: &Range<i64>) {
         let start = self.touched.start.clamp(cells.start, cells.end);
         let end = self.touched.end.clamp(start, cells.end.max(start));
@@ -104,33 +104,31 @@ impl Density {
         (self.first, self.touched) = (start, start..end);
     }
 
-    /// First cell touched, sums and what they have in excess of their exact values, cell by cell: all
-    /// that the density holds.
+    /// The complete state of the density: first cell, sums and their compensation, cell by cell.
     pub fn parts(&self) -> (i64, &[f64], &[f64]) {
         let at = (self.touched.start - self.first) as usize;
         let held = at..at + (self.touched.end - self.touched.start) as usize;
         (self.touched.start, &self.sums[held.clone()], &self.excess[held])
     }
 
-    /// From its [`parts`](Self::parts); `None` if they do not match each other.
+    /// The density with these [`parts`](Self::parts); `None` if they are inconsistent.
     pub fn from_parts(spacing: f64, first: i64, sums: Vec<f64>, excess: Vec<f64>) -> Option<Self> {
         let touched = first..first + sums.len() as i64;
         let same = sums.len() == excess.len();
         same.then(|| Self { sums, excess, first, touched, ..Self::new(spacing) })
     }
 
-    /// Moves the origin of positions and cells by `cells`: what was cell `i` becomes `i − cells`,
-    /// what was position `x` becomes `x − cells · spacing`. Exact, and no data moves.
+    /// Moves the origin of positions and cells by `cells`: cell `i` becomes `i − cells`, position `x` becomes `x −
+    /// cells · spacing`. Exact, and without copying.
     ///
-    /// The lattice itself loses nothing far from the origin, but positions do, being rounded to
-    /// one part in 2⁵³ of their distance from it. A [`Field`](crate::Field) has a `rebase` of its
-    /// own.
+    /// The lattice is exact far from the origin, but positions are rounded to one part in 2⁵³ of their distance from
+    /// it. A [`Field`](crate::Field) has its own `rebase`.
     pub fn rebase(&mut self, cells: i64) {
         self.first -= cells;
         self.touched = self.touched.start - cells..self.touched.end - cells;
     }
 
-    /// Makes the sixteen cells from `start` on part of the lattice.
+    /// Extends the lattice to the sixteen cells from `start` on.
     #[cold]
     fn touch(&mut self, start: i64) {
         let end = start + WIDTH as i64;
@@ -154,7 +152,7 @@ impl Density {
     }
 }
 
-/// One compensated addition per cell; as a function, so that the compiler knows the arrays apart.
+/// One compensated addition per cell; a separate function, so that the compiler can assume distinct arrays.
 #[inline]
 fn accumulate(
     sums: &mut [f64; WIDTH],

@@ -1,4 +1,4 @@
-//! The sum on a window of the lattice, read anywhere in it.
+//! The sum on a window of the lattice, evaluated at any position in it.
 
 use std::ops::RangeInclusive;
 
@@ -6,10 +6,10 @@ use crate::Plan;
 use crate::lattice::Lattice;
 use crate::window::{BELOW, WIDTH, Window};
 
-/// `S(x)` about one place, as left by [`Convolver::convolve`](crate::Convolver::convolve).
+/// `S(x)` on one window, computed by [`Convolver::convolve`](crate::Convolver::convolve).
 ///
-/// Reading changes nothing, so any number of threads may read at once. An empty field
-/// ([`Field::new`]) takes the size of the first window it holds, and is reused without allocation.
+/// Evaluation changes nothing, so that any number of threads may evaluate simultaneously. An empty field
+/// ([`Field::new`]) takes the size of its first window, and is reused without allocation.
 #[derive(Clone, Debug)]
 pub struct Field {
     window: &'static Window,
@@ -26,43 +26,42 @@ impl Default for Field {
 }
 
 impl Field {
-    /// A field that holds nothing yet.
+    /// An empty field.
     pub fn new() -> Self {
         let (window, lattice) = (Window::shared(), Lattice::new(1.0));
         Self { window, lattice, cells: Vec::new(), first: 0, margin: 0.0 }
     }
 
-    /// On these cells from `first` on, right wherever it can be read.
+    /// The field with these cells from `first` on, valid wherever it can be evaluated.
     pub(crate) fn of_cells(spacing: f64, first: i64, cells: Vec<f64>) -> Self {
         let (window, lattice) = (Window::shared(), Lattice::new(spacing));
         let margin = (WIDTH / 2) as f64 * spacing;
         Self { window, lattice, cells, first, margin }
     }
 
-    /// The targets at which the sum is right: those at least [`Plan::margin`] inside the window.
+    /// The targets at which the sum is valid: those at least [`Plan::margin`] inside the window.
     pub fn range(&self) -> RangeInclusive<f64> {
         let position = |cell: i64| cell as f64 * self.lattice.spacing;
         let last = self.first + self.cells.len() as i64 - 1;
         position(self.first) + self.margin..=position(last) - self.margin
     }
 
-    /// The first cell of the window, as given to
-    /// [`Convolver::convolve`](crate::Convolver::convolve).
+    /// The first cell of the window, as passed to [`Convolver::convolve`](crate::Convolver::convolve).
     pub fn first_cell(&self) -> i64 {
         self.first
     }
 
-    /// `S(x)`.
+    /// The sum `S(x)`.
     ///
     /// # Panics
-    /// If `x` is not 8 cells inside the window. Between there and [`range`](Self::range) it reads,
-    /// but sources outside the window are missing.
+    /// `x` is not at least 8 cells inside the window. Between there and [`range`](Self::range) there is a value, but
+    /// sources outside the window are missing.
     #[inline]
     pub fn value(&self, x: f64) -> f64 {
         self.value_and_derivative(x).0
     }
 
-    /// `S(x)` and `dS/dx`.
+    /// The sum `S(x)` and its derivative `dS/dx`.
     ///
     /// # Panics
     /// As [`value`](Self::value).
@@ -76,13 +75,12 @@ impl Field {
         (value, slope * self.lattice.per_unit)
     }
 
-    /// Moves the origin of positions by `cells`, along with
-    /// [`Density::rebase`](crate::Density::rebase).
+    /// Moves the origin of positions by `cells`, as [`Density::rebase`](crate::Density::rebase) does.
     pub fn rebase(&mut self, cells: i64) {
         self.first -= cells;
     }
 
-    /// Makes room for the window of a plan, whatever the cells held before.
+    /// Allocates the window of a plan; earlier values are lost.
     pub(crate) fn reset(&mut self, plan: &Plan, first_cell: i64) -> &mut [f64] {
         self.lattice = Lattice::new(plan.spacing);
         self.first = first_cell;

@@ -1,21 +1,20 @@
-//! What is summed: a formula and the two numbers that say how far it goes.
+//! The kernel: a formula, its bandwidth and its reach.
 
 use std::fmt;
 
 /// A real kernel `K(ξ)` of the separation `ξ = x − y`, target minus source.
 ///
-/// The two numbers are the caller's promise; the accuracy of every sum rests on them. For the
-/// Gaussian `exp(−ξ²/2σ²)` and its first derivatives, `band = 8.7/σ` and `reach = 8.7σ` do.
+/// The caller guarantees bandwidth and reach; the accuracy of every sum depends on them. For the Gaussian
+/// `exp(−ξ²/2σ²)` and its first derivatives, `band = 8.7/σ` and `reach = 8.7σ` are sufficient.
 #[derive(Clone, Copy)]
 pub struct Kernel<'a> {
-    /// The formula. Finite for every finite separation.
+    /// The formula; finite for every finite separation.
     pub value: &'a (dyn Fn(f64) -> f64 + Sync),
     /// The wavenumber (radians per unit length) beyond which the transform of `K` is below
     /// round-off. Positive.
     pub band: f64,
-    /// The distance beyond which `|K|` is below round-off, or `None` if it never is, as for the
-    /// Bessel functions `J0` and `J1`; such a kernel is tapered beyond the separations in use, and
-    /// needs only to stay bounded.
+    /// The distance beyond which `|K|` is below round-off, or `None` if there is none, as for the Bessel functions
+    /// `J0` and `J1`; such a kernel is tapered beyond the separations in use, and must only be bounded.
     pub reach: Option<f64>,
 }
 

@@ -1,10 +1,10 @@
-//! Where a position lies on the lattice, without loss however far it is.
+//! Position on the lattice, without loss of accuracy far from the origin.
 
-/// Bits of a spacing's mantissa: with six, rounding down costs at most one part in 32, and
-/// `cell · spacing` is exact up to 2⁴⁷ cells.
+/// Bits of a spacing's mantissa: with six, rounding down costs at most one part in 32, and `cell · spacing` is exact
+/// up to 2⁴⁷ cells.
 const SPACING_BITS: i32 = 6;
 
-/// The largest number of [`SPACING_BITS`] significant bits that is not above `limit`.
+/// The largest number with [`SPACING_BITS`] significant bits that is not above `limit`.
 pub(crate) fn dyadic_at_most(limit: f64) -> f64 {
     let (_, exponent) = libm::frexp(limit);
     let unit = libm::ldexp(1.0, exponent - SPACING_BITS);
@@ -23,11 +23,11 @@ impl Lattice {
         Self { spacing, per_unit: 1.0 / spacing }
     }
 
-    /// The cell at or below `position`, and how far above it the position lies, in spacings.
+    /// The cell at or below `position`, and the distance of the position from it, in spacings.
     ///
-    /// The offset is taken from `position − cell·spacing`, which is exact for a dyadic spacing,
-    /// and not from the fraction of `position/spacing`, which loses a digit for every tenfold
-    /// distance from the origin. It may leave [0, 1] by a rounding.
+    /// The offset is computed from `position − cell·spacing`, which is exact for a dyadic spacing, and not from the
+    /// fraction of `position/spacing`, which loses a digit for every tenfold distance from the origin. It may leave
+    /// [0, 1] by round-off.
     #[inline]
     pub(crate) fn locate(&self, position: f64) -> (i64, f64) {
         let scaled = position * self.per_unit;

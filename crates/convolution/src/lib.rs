@@ -5,23 +5,21 @@
 //! S(x) = Σ_j w_j K(x − y_j)
 //! ```
 //!
-//! **Domain.** `K` is real and effectively band limited: its transform is below round-off for
-//! wavenumbers above [`Kernel::band`]. It need be neither even nor odd, and it need not decay.
+//! **Domain.** `K` is real and effectively band limited: its transform is below round-off for wavenumbers above
+//! [`Kernel::band`]. It may be neither even nor odd, and need not decay.
 //!
-//! **Method.** A non-uniform fast Fourier transform there and back. Each source is spread over the
-//! sixteen nearest cells of a uniform lattice with a smooth [`Window`] φ ([`Density`]); the lattice
-//! is transformed, multiplied by `K̂/φ̂²` and transformed back ([`Convolver`]); each target reads
-//! sixteen cells with the same window ([`Field`]). The lattice is twice as fine as the band needs,
-//! so what the window folds into the band is at round-off.
+//! **Method.** A non-uniform fast Fourier transform and its inverse. Each source is spread over the sixteen nearest
+//! cells of a uniform lattice with a smooth [`Window`] φ ([`Density`]); the lattice is transformed, multiplied by
+//! `K̂/φ̂²` and transformed back ([`Convolver`]); each target is evaluated from sixteen cells with the same window
+//! ([`Field`]). The lattice is twice as fine as the bandwidth requires, so that aliasing by the window is at
+//! round-off.
 //!
-//! **Guarantee.** Errors are below `2e-14 Σ|w| max|K|`, and those of the derivative below
-//! `2e-14 Σ|w| max|K'|`, however many sources there are and however many of them coincide. The
-//! tests of this crate reach 1.2e-15 and 1e-14 for one source, and less for many. The error is
-//! relative to `Σ|w|`: where terms cancel, so do correct digits, as they do in [`direct_sum`].
+//! **Guarantee.** Errors are below `2e-14 Σ|w| max|K|`, and those of the derivative below `2e-14 Σ|w| max|K'|`, for
+//! any number of sources, coinciding ones included. The tests of this crate reach 1.2e-15 and 1e-14 for one source,
+//! and less for many. The error is relative to `Σ|w|`: cancellation of terms loses digits, as in [`direct_sum`].
 //!
-//! **Limits.** Memory and time also grow with the extent of sources and targets over the spacing,
-//! since every cell between the first and the last is stored. A few thousand pairs
-//! are cheaper by [`direct_sum`].
+//! **Limits.** Memory and time also grow with the extent of sources and targets over the spacing, because every cell
+//! between the first and the last is stored. For a few thousand pairs [`direct_sum`] is cheaper.
 //!
 //! **Source.** A. H. Barnett, J. Magland, L. af Klinteberg, A parallel nonuniform fast Fourier
 //! transform library based on an "exponential of semicircle" kernel, SIAM J. Sci. Comput. 41

@@ -1,4 +1,4 @@
-//! The choice of lattice and period for one kernel, as plain data.
+//! The choice of lattice and period for one kernel.
 
 use std::f64::consts::PI;
 
@@ -6,21 +6,21 @@ use crate::Kernel;
 use crate::lattice::dyadic_at_most;
 use crate::window::WIDTH;
 
-/// Lattice points per period of the band edge are twice what the sampling theorem asks.
+/// Lattice points per period of the band edge, relative to the sampling theorem.
 pub(crate) const UPSAMPLING: f64 = 2.0;
 
-/// Widths between the ends of a taper and its center: erfc(5.95)/2 = 2e-17.
+/// Distance between the ends of a taper and its center, in widths: erfc(5.95)/2 = 2e-17.
 const TAPER_HALF_WIDTHS: f64 = 5.95;
 
-/// What a taper adds to the band, in inverse widths: exp(−12.4²/4) = 2e-17.
+/// Increase of the bandwidth by a taper, in inverse widths: exp(−12.4²/4) = 2e-17.
 const TAPER_BAND_WIDTHS: f64 = 12.4;
 
-/// The factor `χ(ξ) = ½ erfc((|ξ| − center)/width)` that ends a kernel without reach.
+/// The factor `χ(ξ) = ½ erfc((|ξ| − center)/width)` that truncates a kernel without reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {
-    /// Where χ is one half.
+    /// Separation at which χ is one half.
     pub center: f64,
-    /// The scale on which it falls.
+    /// Width of the decay.
     pub width: f64,
 }
 
@@ -30,8 +30,8 @@ impl Taper {
         0.5 * libm::erfc((separation.abs() - self.center) / self.width)
     }
 
-    /// The taper that leaves separations up to `separation` alone and makes the fewest cells,
-    /// `(2A + 11.9w)(band + 12.4/w)` up to a factor, hence `w² ≈ 2A/band`.
+    /// The taper that does not change separations up to `separation` and gives the fewest cells, `(2A + 11.9w)(band +
+    /// 12.4/w)` up to a factor, hence `w² ≈ 2A/band`.
     fn beyond(separation: f64, band: f64) -> Self {
         let width = (2.0 * separation.max(1.0 / band) / band).sqrt();
         Self { center: separation + TAPER_HALF_WIDTHS * width, width }
@@ -42,32 +42,32 @@ impl Taper {
     }
 }
 
-/// How a kernel will be summed: everything that is decided before any source is known.
+/// The plan of a sum: all choices that do not depend on the sources.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// The largest separation of source and target whose kernel is exact.
+    /// The largest separation of source and target for which the kernel is exact.
     pub separation: f64,
     /// Distance between cells: at most half the sampling distance of the band, with six
     /// significant bits, so that its multiples are exact.
     pub spacing: f64,
-    /// Cells in the window, an even product of 2, 3 and 5.
+    /// Number of cells of the window, an even product of 2, 3 and 5.
     pub length: usize,
-    /// Where the kernel ends, taper included.
+    /// Reach of the kernel, including the taper.
     pub reach: f64,
-    /// The taper of a kernel that would not end by itself.
+    /// The taper of a kernel without reach.
     pub taper: Option<Taper>,
 }
 
 impl Plan {
     /// The plan for separations |x − y| up to `separation`.
     ///
-    /// A window of length `P` sums the kernel as if sources repeated with period `P`. The nearest
-    /// repetition is at `P − separation` or farther, beyond the reach if `P ≥ separation + reach`;
-    /// 48 cells are added for the windows of sources and targets at either end (see
-    /// [`margin`](Self::margin)), and 3 because it is centered on a cell.
+    /// A window of length `P` sums the kernel as if sources repeated with period `P`. The nearest repetition is at `P
+    /// − separation` or farther, beyond the reach if `P ≥ separation + reach`; 48 cells are added for the windows of
+    /// sources and targets at either end (see [`margin`](Self::margin)), and 3 because the window is centered on a
+    /// cell.
     ///
     /// # Panics
-    /// If the band is not positive and finite, or the separation or reach negative or not finite.
+    /// The bandwidth is not positive and finite, or the separation or reach is negative or not finite.
     pub fn new(kernel: &Kernel, separation: f64) -> Self {
         let not_negative = |x: f64| x >= 0.0 && x.is_finite();
         assert!(kernel.band > 0.0 && kernel.band.is_finite(), "band {}", kernel.band);
@@ -84,20 +84,20 @@ impl Plan {
         Self { separation, spacing, length: fast_length(cells), reach, taper }
     }
 
-    /// How far inside the window a target must lie.
+    /// Smallest distance of a target from the ends of the window.
     ///
-    /// A kernel with reach: `reach` plus 24 cells, whatever sources lie outside the window. The
-    /// window cuts the spread of sources at its ends, leaving fragments up to 16 cells inside;
-    /// they reach as far as the kernel, and the target reads from 8 cells nearer.
+    /// A kernel with reach: `reach` plus 24 cells, for any sources outside the window. The window truncates the
+    /// spread of sources at its ends, which leaves fragments up to 16 cells inside; these have the reach of the
+    /// kernel, and the target uses cells up to 8 away.
     ///
-    /// A tapered kernel: 8 cells, where every source must lie in the window, 8 cells inside too.
+    /// A tapered kernel: 8 cells; every source must also lie at least 8 cells inside the window.
     pub fn margin(&self) -> f64 {
         let half = (WIDTH / 2) as f64 * self.spacing;
         if self.taper.is_some() { half } else { self.reach + 3.0 * half }
     }
 }
 
-/// The least even product of 2, 3 and 5 that is not below `least`.
+/// The smallest even product of 2, 3 and 5 that is not below `least`.
 pub(crate) fn fast_length(least: usize) -> usize {
     let mut length = least.next_multiple_of(2);
     while !is_smooth(length) {

@@ -1,4 +1,4 @@
-//! Densities as Fourier sums over one stretch of the lattice, and fields made of such sums.
+//! Densities as Fourier sums over one range of the lattice, and fields from such sums.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -11,18 +11,18 @@ use crate::plan::{UPSAMPLING, fast_length};
 use crate::window::{WIDTH, Window};
 use crate::{Density, Field};
 
-/// Fourier transforms of densities, and the way back to fields, on one stretch of x:
+/// Fourier transforms of densities, and inverse transforms to fields, over one range of x:
 ///
 /// ```text
 /// ρ̂(k) = Σ_j w_j e^{-ik(y_j − origin)},      S(x) = (1/P) Σ_k Ŝ(k) e^{ik(x − origin)}
 /// ```
 ///
-/// at the wave numbers k = 2πj/P, j = 0, 1, …, up to the band; P is the length of the stretch. Where one kernel acts
-/// on one density a [`Convolver`](crate::Convolver) does; here many densities, kept as few numbers, add up under
-/// kernels that differ, before one transform back.
+/// at the wave numbers k = 2πj/P, j = 0, 1, …, up to the band; P is the length of the range. For one kernel and one
+/// density use a [`Convolver`](crate::Convolver); here many densities, stored as few numbers, are added under
+/// different kernels before one inverse transform.
 ///
-/// **Guarantee.** ρ̂ is right to 1e-14 Σ|w|, and so is S relative to Σ|Ŝ|/P, wherever sources and all that S is made of
-/// lie inside the stretch: S repeats with period P.
+/// **Guarantee.** The error of ρ̂ is at most 1e-14 Σ|w|, and that of S at most 1e-14 relative to Σ|Ŝ|/P, provided
+/// that all sources and all contributions to S lie inside the range: S repeats with period P.
 pub struct Spectra {
     spacing: f64,
     first: i64,
@@ -37,10 +37,10 @@ pub struct Spectra {
 }
 
 impl Spectra {
-    /// For kernels that end at the wave number `band`, on a stretch that holds `from` and `to`.
+    /// Transforms for kernels with the bandwidth `band`, over a range that contains `from` and `to`.
     ///
     /// # Panics
-    /// If the band is not positive, or the stretch not finite or of no length.
+    /// The bandwidth is not positive, or the range is empty or not finite.
     pub fn new(band: f64, from: f64, to: f64) -> Self {
         assert!(band > 0.0 && band.is_finite(), "band {band}");
         assert!(from.is_finite() && to.is_finite() && from < to, "a stretch from {from} to {to}");
@@ -67,12 +67,12 @@ impl Spectra {
         }
     }
 
-    /// The spacing that densities must have.
+    /// The spacing required of densities.
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Where phases are counted from.
+    /// Origin of the phases.
     pub fn origin(&self) -> f64 {
         self.first as f64 * self.spacing
     }
@@ -83,16 +83,16 @@ impl Spectra {
         (0..self.window.len()).map(move |mode| mode as f64 * lowest)
     }
 
-    /// Positions of sources, and of what fields are read at, that are safe.
+    /// Valid positions of sources and targets.
     pub fn range(&self) -> std::ops::RangeInclusive<f64> {
         let at = |cell: i64| (self.first + cell) as f64 * self.spacing;
         at(WIDTH as i64)..=at(self.length as i64 - 1 - WIDTH as i64)
     }
 
-    /// ρ̂ of all of a density.
+    /// ρ̂ of a whole density.
     ///
     /// # Panics
-    /// If the density has another spacing, or sources outside of the stretch.
+    /// The density has another spacing, or sources outside of the range.
     pub fn of(&mut self, density: &Density) -> Vec<Complex<f64>> {
         let same = density.spacing().to_bits() == self.spacing.to_bits();
         assert!(same, "density of spacing {}, not {}", density.spacing(), self.spacing);
@@ -106,10 +106,10 @@ impl Spectra {
         self.modes.iter().zip(&self.window).map(|(mode, window)| mode * window).collect()
     }
 
-    /// S(x) of these Ŝ.
+    /// S(x) from these Ŝ.
     ///
     /// # Panics
-    /// If there is not one for each wave number.
+    /// The number of Ŝ differs from that of wave numbers.
     pub fn field(&mut self, spectrum: &[Complex<f64>]) -> Field {
         assert_eq!(spectrum.len(), self.window.len(), "one number for each wave number");
         let scale = 1.0 / (self.spacing * self.length as f64);

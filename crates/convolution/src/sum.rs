@@ -1,14 +1,14 @@
-//! All sources and all targets known at once.
+//! Sums with all sources and all targets known in advance.
 
 use crate::{Convolver, Density, Field, Kernel, Plan};
 
 /// `S(x) = Σ_j w_j K(x − y_j)` at each target, by its definition.
 ///
-/// The oracle of this crate: one kernel evaluation per pair, sums compensated (Neumaier), so that
-/// the error is that of the kernel's own values.
+/// The reference solution of this crate: one kernel evaluation per pair, sums compensated (Neumaier), so that the
+/// error is that of the kernel's values.
 ///
 /// # Panics
-/// If there are not as many weights as sources.
+/// The numbers of weights and sources differ.
 pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -> Vec<f64> {
     assert_eq!(sources.len(), weights.len(), "one weight per source");
     let at = |&x: &f64| {
@@ -24,14 +24,14 @@ pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[
     targets.iter().map(at).collect()
 }
 
-/// `S(x) = Σ_j w_j K(x − y_j)` at each target, through one lattice that holds them all.
+/// `S(x) = Σ_j w_j K(x − y_j)` at each target, by one lattice that contains them all.
 ///
-/// Guarantee as in the [crate documentation](crate). Time is about 60 ns per source and per target,
-/// plus one transform of as many cells as sources and targets span. Sources beyond the reach of
-/// all targets, and targets beyond the reach of all sources, are left out of that span.
+/// Guarantee as in the [crate documentation](crate). Time is about 60 ns per source and per target, plus one
+/// transform with as many cells as sources and targets span. Sources beyond the reach of all targets, and targets
+/// beyond the reach of all sources, are excluded from that span.
 ///
 /// # Panics
-/// If there are not as many weights as sources, or if a position is not finite.
+/// The numbers of weights and sources differ, or a position is not finite.
 pub fn sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -> Vec<f64> {
     assert_eq!(sources.len(), weights.len(), "one weight per source");
     let reach = kernel.reach.unwrap_or(f64::INFINITY);
@@ -75,7 +75,7 @@ impl Span {
         self.low > self.high
     }
 
-    /// Nothing comes within reach of an empty span.
+    /// The interval widened by `by` at both ends; an empty one stays empty.
     fn widened(self, by: f64) -> Self {
         if self.is_empty() { self } else { Self { low: self.low - by, high: self.high + by } }
     }

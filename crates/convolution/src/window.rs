@@ -6,32 +6,32 @@ use multiversion::multiversion;
 use std::array::from_fn;
 use std::sync::LazyLock;
 
-/// Cells touched by one source or one target.
+/// Number of cells used for one source or one target.
 pub(crate) const WIDTH: usize = 16;
 const HALF: usize = WIDTH / 2;
-/// Cells of the window at or below the position's own cell, besides that cell.
+/// Number of cells of the window below the position's own cell.
 pub(crate) const BELOW: i64 = HALF as i64 - 1;
 
-/// Shape parameter β = 12π, or 2.36 per cell: the main lobe of φ̂, |8κ| < β, ends where the edge of
-/// the band, κ = π/2, is folded to, 2π − π/2. Barnett et al. take 2.30, which leaves φ ending in a
-/// step of 1e-16 instead of 4e-17; values hardly tell, but derivatives read 2.5 times better so.
+/// Shape parameter β = 12π, or 2.36 per cell: the main lobe of φ̂, |8κ| < β, ends at 2π − π/2, the alias of the edge
+/// of the band κ = π/2. Barnett et al. use 2.30, for which φ ends in a step of 1e-16 instead of 4e-17; values hardly
+/// differ, but derivatives are 2.5 times as accurate.
 const SHAPE: f64 = 12.0 * std::f64::consts::PI;
 
-/// Pairs of polynomial coefficients per weight. Degree 15 is at round-off, slopes too; degree 13
-/// costs the slopes a digit, and degree 19 gains nothing.
+/// Pairs of polynomial coefficients per weight. Degree 15 is at round-off, slopes included; degree 13 costs the
+/// slopes a digit, and degree 19 gains nothing.
 const PAIRS: usize = 8;
 const COEFFICIENTS: usize = 2 * PAIRS;
-/// Nodes of the transform per cell. Two already put the folded part of φ̂ (at 4π − κ) at round-off.
+/// Nodes of the transform per cell. Two are sufficient for an aliasing error (φ̂ at 4π − κ) at round-off.
 const NODES_PER_CELL: usize = 2;
 const NODES: usize = NODES_PER_CELL * HALF;
 
 /// The "exponential of semicircle" window, `φ(z) = exp(β(√(1 − z²) − 1))` for |z| ≤ 1 and zero
 /// beyond, with `z = m/8` at a distance of `m` cells, and β = 12π.
 ///
-/// **Method.** Within a cell each of the sixteen weights is an analytic function of the offset; each
-/// is held as a polynomial of degree 15, its power series about the middle of the cell cut down by
-/// Chebyshev polynomials. As φ is even, weight `k` at offset `t` is weight `15 − k` at `1 − t`: even
-/// and odd parts of eight polynomials give all sixteen, in loops of fixed length over neighbours.
+/// **Method.** Within a cell each of the sixteen weights is an analytic function of the offset; each is represented
+/// by a polynomial of degree 15, its power series about the middle of the cell economised by Chebyshev polynomials.
+/// As φ is even, weight `k` at offset `t` is weight `15 − k` at `1 − t`: even and odd parts of eight polynomials give
+/// all sixteen, in loops of fixed length over neighbours.
 ///
 /// **Guarantee.** Weights are within 1e-15 of the formula, whose peak is 1, and their slopes within
 /// 1e-15 (from 1/100 of a cell inside the ends, where the formula's slope is infinite).
@@ -41,7 +41,7 @@ pub struct Window {
     even: [[f64; HALF]; PAIRS],
     /// `odd[p][k]`: coefficient of `s^{2p+1}`.
     odd: [[f64; HALF]; PAIRS],
-    /// The same, weight by weight, for [`read`](Self::read).
+    /// The even coefficients, weight by weight, for [`read`](Self::read).
     even_of: [[f64; PAIRS]; HALF],
     odd_of: [[f64; PAIRS]; HALF],
     /// φ at the nodes of the transform, from the center outwards.
@@ -51,7 +51,7 @@ pub struct Window {
 static SHARED: LazyLock<Window> = LazyLock::new(Window::fit);
 
 impl Window {
-    /// The one window of this crate, fitted on first use.
+    /// The only window of this crate, fitted on first use.
     pub fn shared() -> &'static Self {
         &SHARED
     }
@@ -94,8 +94,8 @@ impl Window {
 
     /// `Σ_k weight_k cells_k` and its derivative with respect to the offset.
     ///
-    /// Cells are contracted with the coefficients first, which leaves one polynomial in the offset:
-    /// its derivative then costs next to nothing.
+    /// Cells are contracted with the coefficients first, which gives one polynomial in the offset; its derivative is
+    /// then cheap.
     #[inline]
     pub fn read(&self, cells: &[f64; WIDTH], offset: f64) -> (f64, f64) {
         let (even, odd) = contracted(&self.even_of, &self.odd_of, cells);
@@ -109,7 +109,7 @@ impl Window {
     /// The transform `φ̂(κ) = ∫ φ(m/8) cos(κm) dm` over distances in cells, for `κ = k·spacing`
     /// with |κ| ≤ π.
     ///
-    /// By the trapezoidal rule, whose error is φ̂ at 4π − κ: round-off, like φ at its ends.
+    /// The trapezoidal rule, whose error is φ̂ at 4π − κ: round-off, like φ at its ends.
     pub fn transform(&self, kappa: f64) -> f64 {
         let step = kappa / NODES_PER_CELL as f64;
         let off_center: f64 =
@@ -131,7 +131,7 @@ fn unfold(even: [f64; HALF], odd: [f64; HALF]) -> [f64; WIDTH] {
 
 /// `Σ_k coefficients_k cell_k` of the even and of the odd part, vectors over the powers.
 ///
-/// Compiled for wider vectors too: powers do not know of each other.
+/// Also compiled for wider vectors, because the powers are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn contracted(
     even_of: &[[f64; PAIRS]; HALF],

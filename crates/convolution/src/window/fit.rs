@@ -1,9 +1,9 @@
-//! The polynomials of the window: a power series, cut down to the degree that is needed.
+//! The polynomials of the window: a power series, economised to the necessary degree.
 
 use super::{COEFFICIENTS, HALF, SHAPE, Window};
 
-/// Terms of the power series that the polynomials are cut from: the slowest, of the outermost cell
-/// whose end is the branch point of the square root, is below 1e-17 from here on.
+/// Terms of the power series before economisation: the slowest series, of the outermost cell whose end is the branch
+/// point of the square root, is below 1e-17 from here on.
 const TERMS: usize = 40;
 
 /// Powers of `s` in each of the lower eight weights, for `s = 2·offset − 1` in [−1, 1].
@@ -16,9 +16,9 @@ pub(super) fn lower_weights() -> [[f64; COEFFICIENTS]; HALF] {
     })
 }
 
-/// The power series in `s` of `φ(center + step·s)`, by the recurrences of the square root and of
-/// the exponential. Unlike an interpolant of rounded samples, it has high coefficients as accurate
-/// as they are small, which the slopes need.
+/// The power series in `s` of `φ(center + step·s)`, by the recurrences of the square root and of the exponential.
+/// Unlike those of an interpolant of rounded samples, its high coefficients have a small relative error, which the
+/// slopes require.
 fn series(center: f64, step: f64) -> [f64; TERMS] {
     // r² = 1 − z², and then φ' = β r' φ.
     let square = [1.0 - center * center, -2.0 * center * step, -step * step];
@@ -35,8 +35,8 @@ fn series(center: f64, step: f64) -> [f64; TERMS] {
     phi
 }
 
-/// Lowers the degree on [−1, 1], each power from the top giving way to the multiple of a Chebyshev
-/// polynomial that it leads (Lanczos).
+/// Lowers the degree on [−1, 1]: from the top, each power is replaced by means of the Chebyshev polynomial of its
+/// degree (Lanczos).
 fn economised(mut powers: [f64; TERMS], chebyshev: &[[f64; TERMS]; TERMS]) -> [f64; COEFFICIENTS] {
     for n in (COEFFICIENTS..TERMS).rev() {
         let factor = powers[n] / chebyshev[n][n];

@@ -1,4 +1,4 @@
-//! The bifurcation diagram: the branches of cycles with their period doublings, and what runs settle into.
+//! The bifurcation diagram: the branches of cycles with their period doublings, and the settled motion of runs.
 
 use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
@@ -9,14 +9,14 @@ use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};
 use stickslip_outcome::{Regime, judge_trajectory};
 use stickslip_tip::{Scenario, Trajectory};
 
-/// Up to which transients die out, and how long is looked at then.
+/// Time after which transients have decayed, and duration of the evaluation.
 const SETTLED: f64 = 1500.0;
 const SHOWN: f64 = 200.0;
-/// Between samples in which maxima are looked for.
+/// Sampling interval for the search of maxima.
 const SAMPLE: f64 = 0.02;
-/// Maxima closer than this are one.
+/// Maxima at a smaller distance count as one.
 const SAME: f64 = 1e-4;
-/// Beyond, l runs off the picture: at the trapping threshold of 2.0868 the periods diverge.
+/// Largest α: beyond it, l leaves the picture; at the trapping threshold of 2.0868 the periods diverge.
 const LAST: f64 = 1.9;
 const FIRST: f64 = 1.0;
 
@@ -36,7 +36,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
     Ok(document)
 }
 
-/// From onset, and from its first period doubling.
+/// The branch from onset, and that from its first period doubling.
 fn branches(tip: &Tip) -> Result<(Branch, Option<Branch>), Failed> {
     let settings = Continuation { to: LAST, longest_step: 0.02, ..Continuation::default() };
     let go_on = |_: &Cycle| ControlFlow::Continue(());
@@ -94,7 +94,7 @@ fn maxima(runs: &Runs) -> PanelDocument {
     panel
 }
 
-/// What runs settle into.
+/// The settled motion of runs.
 #[derive(Debug, Default)]
 struct Runs {
     alpha: Vec<f64>,
@@ -130,7 +130,7 @@ impl Runs {
     }
 }
 
-/// The distinct local maxima of l after `from`, each at the top of the parabola through three samples.
+/// The distinct local maxima of l after `from`, each at the maximum of the parabola through three samples.
 fn maxima_of(trajectory: &Trajectory, from: f64) -> Vec<f64> {
     let l: Vec<f64> =
         spaced(from, trajectory.end(), SAMPLE).iter().map(|t| trajectory.l(*t)).collect();

@@ -1,4 +1,4 @@
-//! What is born along the boundary: a small stable oscillation above it, or none.
+//! The small oscillation along the boundary: stable above it, or unstable below.
 
 use super::parts::{curve, figure as empty, panel, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};

@@ -1,4 +1,4 @@
-//! What goes wrong.
+//! Errors of the reproduction.
 
 use thiserror::Error;
 

@@ -39,8 +39,8 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
     Ok(document)
 }
 
-/// Squared amplitudes over the distance from the critical point, with the lines through the points next to
-/// it, and zeros where motion is steady.
+/// Squared amplitudes against the distance from the critical point, with the lines through the nearest points, and
+/// zeros for steady motion.
 pub(super) fn amplitudes(
     heading: &str,
     x_label: &str,

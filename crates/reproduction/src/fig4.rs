@@ -1,4 +1,4 @@
-//! Fig. 4: the surface that the Gaussian tip leaves, and the one it started on.
+//! Fig. 4: the surface after the Gaussian tip, and its initial surface.
 
 use super::parts::{curve, failed, figure as empty, finished, heights, panel, spaced};
 use super::tips::{BETA_0, beta_0};
@@ -8,10 +8,10 @@ use stickslip::{FigureDocument, StyleName};
 use stickslip_tip::{Noise, Run, Scenario};
 
 pub(super) const END: f64 = 460.0;
-/// The paper's, grid included: the motion grows out of it.
+/// The paper's noise with its grid, from which the motion grows.
 const NOISE: Noise = Noise { amplitude: 1e-4, spacing: 0.001, seed: 1 };
 
-/// The run of Figs. 4 and 7, made once.
+/// The run of Figs. 4 and 7, computed once.
 pub(super) fn settled() -> Result<&'static (Scenario, Run), Failed> {
     static SETTLED: LazyLock<Result<(Scenario, Run), Failed>> = LazyLock::new(compute);
     SETTLED.as_ref().map_err(|failure| failed("Fig. 4", failure))

@@ -1,4 +1,4 @@
-//! u over position and time: the tip sticks, digs, and slips out of its pit.
+//! u against position and time: the tip sticks, digs, and slips out of its pit.
 
 use super::parts::{figure as empty, finished, heights, panel, spaced};
 use super::tips::beta_1;

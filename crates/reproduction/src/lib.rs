@@ -1,7 +1,7 @@
-//! The paper's figures and numbers, computed again: a user of the libraries, like any other.
+//! The paper's figures and numbers, recomputed with the libraries of this project.
 //!
-//! Each figure is a function that computes its document, from which alone it is drawn; [`table`] sets every number
-//! that the paper prints beside ours. `docs/reproduction.md` shows them.
+//! Each figure is a function that computes a document, and is drawn from it alone; [`table`] compares every number
+//! printed in the paper with ours. `docs/reproduction.md` shows them.
 
 mod bifurcation;
 mod criticality;
@@ -25,10 +25,10 @@ pub use table::{page, table};
 
 use stickslip::FigureDocument;
 
-/// A figure: its name, and what computes it.
+/// A figure: its name, and the function that computes it.
 pub type Figure = (&'static str, fn() -> Result<FigureDocument, Failed>);
 
-/// All figures: those of the paper, and four beyond it.
+/// All figures: those of the paper, and four others.
 pub const FIGURES: [Figure; 11] = [
     ("fig1", fig1::figure),
     ("fig2", fig2::figure),
@@ -46,7 +46,7 @@ pub const FIGURES: [Figure; 11] = [
 /// The figure of that name.
 ///
 /// # Errors
-/// There is none, or it could not be computed.
+/// There is no such figure, or it could not be computed.
 pub fn figure(name: &str) -> Result<FigureDocument, Failed> {
     let known = FIGURES.iter().find(|(known, _)| *known == name);
     let (_, compute) = known.ok_or_else(|| Failed::new(format!("there is no figure {name}")))?;

@@ -1,4 +1,4 @@
-//! Oscillations just beyond onset: the limit cycles themselves, where the paper waited for its transients.
+//! Oscillations slightly beyond onset, as limit cycles; the paper simulates until transients decay.
 
 use super::parts::{failed, line_of_best_fit};
 use super::tips::Tip;
@@ -6,7 +6,7 @@ use crate::failed::Failed;
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_tip::Model;
 
-/// The lines of best fit go through this many points.
+/// Number of points of the lines of best fit.
 pub(super) const FITTED: usize = 4;
 
 /// Amplitudes and wavelengths along a line of parameters that begins at a critical point.
@@ -14,15 +14,15 @@ pub(super) const FITTED: usize = 4;
 pub(super) struct Onset {
     /// Distance from the critical point.
     pub(super) distance: Vec<f64>,
-    /// Half peak-to-peak of the surface left behind, squared.
+    /// Half peak-to-peak of the surface far behind the tip, squared.
     pub(super) u_squared: Vec<f64>,
-    /// Half peak-to-peak of x0 less its steady advance, squared.
+    /// Half peak-to-peak of the oscillation of x0 about its steady advance, squared.
     pub(super) x0_squared: Vec<f64>,
     pub(super) wavelength: Vec<f64>,
 }
 
 impl Onset {
-    /// At these distances, α or r varied by `model`.
+    /// The oscillations at these distances; `model` varies α or r.
     pub(super) fn along(
         distances: &[f64],
         model: impl Fn(f64) -> Result<Model, Failed>,
@@ -38,13 +38,13 @@ impl Onset {
         Ok(onset)
     }
 
-    /// Above αc at r = 1.
+    /// The oscillations above αc at r = 1.
     pub(super) fn above(tip: &Tip, distances: &[f64]) -> Result<Self, Failed> {
         let critical = tip.critical(1.0)?;
         Self::along(distances, |distance| tip.model(critical.alpha + distance, 1.0))
     }
 
-    /// The fit to the points next to the critical one: intercept and slope.
+    /// Intercept and slope of the fit to the points next to the critical one.
     pub(super) fn fit(&self, values: &[f64]) -> (f64, f64) {
         line_of_best_fit(&self.distance[..FITTED], &values[..FITTED])
     }

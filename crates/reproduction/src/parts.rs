@@ -1,4 +1,4 @@
-//! What figures are put together from.
+//! Building blocks of figures.
 
 use crate::failed::Failed;
 use std::fmt::Display;
@@ -17,12 +17,12 @@ pub(super) fn panel(heading: &str, labels: (&str, &str)) -> PanelDocument {
     PanelDocument::new(heading, labels)
 }
 
-/// A curve; without a name it is not in the legend.
+/// A curve; an empty name keeps it out of the legend.
 pub(super) fn curve(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> CurveDocument {
     CurveDocument::new(style, name, x, y)
 }
 
-/// What a library refused or could not do.
+/// An error of a library, with the name of the computation.
 pub(super) fn failed(what: &str, error: &impl Display) -> Failed {
     Failed::new(format!("{what}: {error}"))
 }

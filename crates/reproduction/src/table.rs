@@ -1,4 +1,4 @@
-//! Every number printed in the paper beside ours.
+//! Comparison of every number printed in the paper with ours.
 
 mod markdown;
 mod numbers;
@@ -10,10 +10,10 @@ pub use markdown::page;
 use crate::failed::Failed;
 use stickslip::{Document, ReproductionDocument, ReproductionFound, ReproductionParameters};
 
-/// The numbers.
+/// The comparison of all numbers.
 ///
 /// # Errors
-/// One of them could not be computed.
+/// A number could not be computed.
 pub fn table() -> Result<ReproductionDocument, Failed> {
     let mut entries = numbers::stability()?;
     entries.extend(numbers::formulas()?);

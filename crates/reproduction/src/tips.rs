@@ -1,4 +1,4 @@
-//! The paper's two tips, and where they lose stability.
+//! The paper's two tips, and their critical points.
 
 use super::parts::failed;
 use crate::failed::Failed;
@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use stickslip_stability::{Critical, critical, critical_r};
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// Said of every figure that has a panel for β = 0.
+/// Remark of every figure that has a panel for β = 0.
 pub(super) const BETA_0: &str = "β = 0 is drawn with exp(-x²), a Gaussian of width 1/√2: the numbers that the \
      paper prints for β = 0 are those of this tip, not of exp(-x²/2), (48) with β = 0 (docs/corrections.md, 3)";
 
@@ -14,7 +14,7 @@ pub(super) const BETA_0: &str = "β = 0 is drawn with exp(-x²), a Gaussian of w
 #[derive(Debug, Clone)]
 pub(super) struct Tip {
     pub(super) function: TipFunction,
-    /// For headings.
+    /// Name in headings.
     pub(super) name: &'static str,
 }
 

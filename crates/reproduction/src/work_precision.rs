@@ -1,5 +1,5 @@
-//! Time against the error reached. Times differ at every measuring, so they are not taken here but from
-//! what `make work-precision` measured last.
+//! Time against error. Times vary between measurements; therefore the figure uses the saved results of `make
+//! work-precision`.
 
 use super::parts::{curve, failed, figure as empty, panel};
 use crate::failed::Failed;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};
 
-/// Written by benches/work_precision.
+/// Results of benches/work_precision.
 const MEASURED: &str = include_str!("../../../data/work_precision.json");
 
 #[derive(Debug, Deserialize)]
@@ -39,7 +39,7 @@ struct Point {
     seconds: f64,
 }
 
-/// The methods, and how each is drawn and called.
+/// The methods, with their styles and names.
 const METHODS: [(&str, StyleName, &str); 3] = [
     ("modes", StyleName::Line, "modes"),
     ("fft", StyleName::Dashed, "fft"),

@@ -1,4 +1,4 @@
-//! The table for people.
+//! The comparison as a page of Markdown.
 
 use stickslip::{NumberDocument, ReproductionDocument};
 
@@ -11,7 +11,7 @@ differs is explained by an entry of `docs/corrections.md`, whose number is given
 |---|---|---|---|---|---|---|
 ";
 
-/// Below this, numbers are round-off of 0.
+/// Absolute value below which a number is round-off of 0.
 const ROUND_OFF: f64 = 1e-9;
 
 /// The table as a page of Markdown.

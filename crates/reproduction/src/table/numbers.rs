@@ -1,4 +1,4 @@
-//! Critical points, and what formulas give.
+//! Critical points, and numbers from formulas.
 
 use super::printed::Printed;
 use crate::failed::Failed;
@@ -10,7 +10,7 @@ use stickslip_tip::{InitialSurface, Model, TipFunction, Wider};
 
 const OTHER_TIP: &str = "the printed number is that of exp(-x²)";
 
-/// Section V: αc, ω and L of both tips, rc and what goes with it.
+/// Section V: αc, ω and L of both tips, rc and related numbers.
 pub(super) fn stability() -> Result<Vec<NumberDocument>, Failed> {
     let case = "β = 1, r = 1";
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
@@ -42,7 +42,7 @@ pub(super) fn stability() -> Result<Vec<NumberDocument>, Failed> {
     Ok(all)
 }
 
-/// The numbers for β = 0: with the tip that they belong to, and with the one that is named.
+/// The numbers for β = 0: with the tip for which they are correct, and with the tip that the paper names.
 fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let narrow = beta_0()?;
@@ -72,8 +72,8 @@ fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
     Ok(all)
 }
 
-/// The α at which a root gets a positive real part, by halving an interval about the critical one: the
-/// count of roots, not the formula for αc.
+/// The α at which a root gets a positive real part, by bisection of an interval around the critical one: from the
+/// number of roots, without the formula for αc.
 fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
     let (mut stable, mut unstable) = (0.9 * critical, 1.1 * critical);
     while unstable - stable > 1e-6 {
@@ -126,7 +126,7 @@ fn largest_steady(model: &Model) -> f64 {
     heights.fold(0.0, f64::max) * model.r() / model.alpha()
 }
 
-/// Section IV.C, where the numbers are formulas: at r = 1 and 2.
+/// Section IV.C, for numbers given by formulas: at r = 1 and 2.
 fn bessel() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     for (r, alpha, omega) in [(1.0, "1", "0.786151"), (2.0, "4", "0.624811")] {

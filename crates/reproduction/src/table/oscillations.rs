@@ -1,4 +1,4 @@
-//! What the paper says of the oscillations, as numbers.
+//! The paper's statements on the oscillations, as numbers.
 
 use super::printed::Printed;
 use crate::failed::Failed;
@@ -7,7 +7,7 @@ use crate::parts::line_of_best_fit;
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;
 
-/// α - αc so small that the leading order is what one sees.
+/// Distances α - αc small enough for the leading order.
 const NEAR: [f64; 2] = [1e-3, 2e-3];
 
 /// Exponents and limits at onset, and the mean velocity.

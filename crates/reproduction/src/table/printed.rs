@@ -2,18 +2,18 @@
 
 use stickslip::NumberDocument;
 
-/// Where a printed number stands, and what it is the value of.
+/// A printed number: its place in the paper, and its quantity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Printed<'a> {
     pub(super) quantity: &'a str,
     pub(super) case: &'a str,
     pub(super) place: &'a str,
-    /// As printed, a decimal as precise as its digits, a whole number or a fraction.
+    /// The number as printed, a decimal as precise as its digits, a whole number or a fraction.
     pub(super) text: &'a str,
 }
 
 impl Printed<'_> {
-    /// Beside ours.
+    /// The comparison with our value.
     pub(super) fn beside(&self, ours: f64) -> NumberDocument {
         let (value, precision) = (value(self.text), precision(self.text));
         // The quotient of two decimals is off by a rounding.
@@ -33,14 +33,14 @@ impl Printed<'_> {
         }
     }
 
-    /// Beside ours, which is another for the reason that an entry of docs/corrections.md gives.
+    /// The comparison with our value, which differs for the reason given by an entry of docs/corrections.md.
     pub(super) fn corrected(&self, ours: f64, correction: u32, remark: &str) -> NumberDocument {
         let remark = Some(remark.into());
         NumberDocument { correction: Some(correction), remark, ..self.beside(ours) }
     }
 }
 
-/// Of a decimal, a whole number or a fraction.
+/// The value of a decimal, a whole number or a fraction.
 fn value(text: &str) -> f64 {
     let number = |text: &str| text.parse().unwrap_or(f64::NAN);
     match text.split_once('/') {
@@ -49,9 +49,9 @@ fn value(text: &str) -> f64 {
     }
 }
 
-/// What a whole number may be off by, for it is exact.
+/// Allowed difference of a whole number, which is exact.
 const EXACT: f64 = 1e-9;
-/// An exponent is exact as well, but is measured at a distance from where it holds.
+/// Allowed difference of an exponent, which is exact but measured at a finite distance from its limit.
 const EXPONENT: f64 = 5e-3;
 
 /// Half a unit of the last digit after the point.

@@ -20,7 +20,7 @@ pub enum Verdict {
     Sound,
     /// Too few rows to separate noise from shape.
     Few {
-        /// The text as given.
+        /// Number of rows.
         rows: usize,
     },
     /// Noise has an effect.

@@ -12,7 +12,7 @@ pub enum RasterError {
         "the pitch must be a finite number above 0, and at least {least:.1e} for a footprint that reaches {reach:.3} across, not {pitch:?}"
     )]
     Pitch {
-        /// The text as given.
+        /// The value as given.
         pitch: f64,
         /// Reach of the footprint across the lines.
         reach: f64,
@@ -24,7 +24,7 @@ pub enum RasterError {
         "the length of a line must be a finite number above 0 and at most {most:.1e}, not {length:?}"
     )]
     Length {
-        /// The text as given.
+        /// The value as given.
         length: f64,
         /// The largest valid length.
         most: f64,
@@ -39,7 +39,7 @@ pub enum RasterError {
     AreaLine {
         /// Index of the line, from 1.
         line: usize,
-        /// The text as given.
+        /// The value as given.
         found: AreaLine,
         /// The largest length.
         most: f64,

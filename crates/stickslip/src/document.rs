@@ -180,7 +180,7 @@ fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
 }
 
 /// A map reader that stores the fields of the envelope and passes on the others. (`#[serde(flatten)]` would copy the
-/// whole content of a document.)
+/// whole content of a document.).
 struct Rest<'a, M, Q> {
     map: M,
     envelope: &'a mut Envelope<Q>,

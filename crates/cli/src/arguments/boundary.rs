@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use stickslip::{Boundary, RasterBoundary};
 
 /// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
-/// against their pitch
+/// against their pitch.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
@@ -18,7 +18,7 @@ pub(crate) struct BoundaryArguments {
     pub(crate) answer: AnswerArguments,
 
     /// Draw the slope of the squared amplitude along the boundary, subcritical where it is below 0, to this .svg or
-    /// .png
+    /// .png.
     #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with = "pitch_range")]
     pub(crate) plot_onset: Option<PathBuf>,
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::{GridName, Raster, Run};
 
-/// Compare the closed equation with the full PDE on a grid: largest difference and speed
+/// Compare the closed equation with the full PDE on a grid: largest difference and speed.
 ///
 /// The comparison is of a run to --until, or with --lines or --area of a raster. The tolerance is that of the closed
 /// equation.
@@ -34,7 +34,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed
+    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed.
     #[arg(
         long,
         value_parser = named::<GridName>(),
@@ -49,7 +49,7 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) spacing: Option<f64>,
 
-    /// Adaptive steps with local error E in every unknown [default: as --tolerance]
+    /// Adaptive steps with local error E in every unknown [default: as --tolerance].
     #[arg(
         long,
         value_name = "E",
@@ -59,15 +59,15 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) grid_tolerance: Option<f64>,
 
-    /// Constant steps of this length instead, at most that of the run; the paper has about 0.04
+    /// Constant steps of this length instead, at most that of the run; the paper has about 0.04.
     #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) step: Option<f64>,
 
-    /// End time of the grid, if earlier; the speedup is then that over the same span of time
+    /// End time of the grid, if earlier; the speedup is then that over the same span of time.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) grid_until: Option<f64>,
 
-    /// Time limit of either side, in seconds: stop once it is predicted to be exceeded
+    /// Time limit of either side, in seconds: stop once it is predicted to be exceeded.
     #[arg(
         long,
         value_name = "S",

@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::Continue;
 
-/// Follow a branch of cycles in α or r, stable or not, and find its special points
+/// Follow a branch of cycles in α or r, stable or not, and find its special points.
 ///
 /// The branch begins at the cycle of the given α and r, or of --from; if the continuation parameter is not given, at
 /// the onset of oscillation. It continues through folds, and ends at --to, in steady motion, at a branch of half the
@@ -17,7 +17,7 @@ pub(crate) struct ContinueArguments {
     #[command(flatten)]
     pub(crate) options: Options<Continue>,
 
-    /// Begin with the cycle in a document of `stickslip cycle`, with its tip, r and α unless they are given
+    /// Begin with the cycle in a document of `stickslip cycle`, with its tip, r and α unless they are given.
     #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
     pub(crate) from: Option<PathBuf>,
 

@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::Cycle;
 
-/// Compute the periodic motion at given α and r, and its stability, without simulating the transient
+/// Compute the periodic motion at given α and r, and its stability, without simulating the transient.
 ///
 /// Solves for the motion and its period simultaneously, for unstable cycles too. A Floquet multiplier is the factor
 /// by which a small deviation changes in a period.
@@ -17,7 +17,7 @@ pub(crate) struct CycleArguments {
     pub(crate) options: Options<Cycle>,
 
     /// Start from the cycle in a document of `stickslip cycle`, with its tip, r and α unless they are given; by
-    /// default from the oscillation that bifurcates at αc or from a short run
+    /// default from the oscillation that bifurcates at αc or from a short run.
     #[arg(long, value_name = "CYCLE.json", help_heading = "Start", conflicts_with = "parameters")]
     pub(crate) from: Option<PathBuf>,
 

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DisturbanceArguments {
     /// Noise on the initial surface: heights uniform in [-A, A] on a grid, interpolated by a cubic spline; A is 0 or
-    /// above [default: none; 1e-4 with --start paper]
+    /// above [default: none; 1e-4 with --start paper].
     #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) noise: Option<f64>,
 
     /// Spacing of the noise grid, in σ [default: 0.1]. It is part of the initial condition: white noise has no limit
-    /// as the spacing goes to 0
+    /// as the spacing goes to 0.
     #[arg(
         long,
         value_name = "S",
@@ -33,17 +33,17 @@ pub(crate) struct DisturbanceArguments {
 
     /// Profile added to the initial surface: CSV `x,u`, interpolated by a cubic spline with level ends, 0 outside;
     /// or, with --start flat, one surface `t,x,u` as written by `surface -o FILE.csv`, which contains the groove
-    /// already. Columns with a unit in their heading, x_nm,u_nm, are converted by --units or --sigma
+    /// already. Columns with a unit in their heading, x_nm,u_nm, are converted by --units or --sigma.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 
     /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable. A pulse before the start or after the end
-    /// causes a warning
+    /// causes a warning.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
     /// External force from a file: CSV `t,force`, interpolated by a cubic spline, 0 outside; or with units,
-    /// t_s,force_nN
+    /// t_s,force_nN.
     #[arg(long, value_name = "FILE", help_heading = "Force")]
     pub(crate) force_file: Option<PathBuf>,
 }

@@ -53,7 +53,7 @@ impl FigureName {
     }
 }
 
-/// Redraw the paper's figures, and compare its numbers with ours
+/// Redraw the paper's figures, and compare its numbers with ours.
 ///
 /// Each figure is written as JSON and drawn from it as SVG and PNG; reproduction.md and .json contain the printed
 /// numbers, ours, and the explanation of each difference. The figures for β = 0 use exp(-x²), the tip of the printed
@@ -61,11 +61,11 @@ impl FigureName {
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct FiguresArguments {
-    /// Output folder; it is created if necessary, and files of the same names are replaced
+    /// Output folder; it is created if necessary, and files of the same names are replaced.
     #[arg(long, value_name = "DIR")]
     pub(crate) out_dir: PathBuf,
 
-    /// Make only these
+    /// Make only these.
     #[arg(long, value_enum, value_name = "NAME1,NAME2,…", value_delimiter = ',')]
     pub(crate) only: Option<Vec<FigureName>>,
 }

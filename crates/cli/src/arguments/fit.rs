@@ -5,7 +5,7 @@ use super::{OutletArguments, TipArguments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Estimate α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals
+/// Estimate α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals.
 ///
 /// Compares the settled motion, the limit cycle at α and r, with measured ripples and forces. Offsets, slopes, phases
 /// and unknown gains are fitted simultaneously; both scan directions are tried; starting values are estimated from
@@ -22,11 +22,11 @@ pub(crate) struct FitArguments {
     pub(crate) ripple: Vec<PathBuf>,
 
     /// Lateral force against the position of the support, two columns; three are a loop: trace, then retrace, over
-    /// the same positions
+    /// the same positions.
     #[arg(long, value_name = "FILE", help_heading = "Data")]
     pub(crate) friction: Vec<PathBuf>,
 
-    /// Velocities, and the loads at the onset of stick-slip, two columns
+    /// Velocities, and the loads at the onset of stick-slip, two columns.
     #[arg(long, value_name = "FILE", help_heading = "Data")]
     pub(crate) onsets: Option<PathBuf>,
 
@@ -34,23 +34,23 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "FILE", help_heading = "Data")]
     pub(crate) wavelengths: Option<PathBuf>,
 
-    /// k/a, if known: heights in the units of the data are k/a times σ² times those of the model
+    /// k/a, if known: heights in the units of the data are k/a times σ² times those of the model.
     #[arg(long, value_name = "G", allow_hyphen_values = true, help_heading = "Data")]
     pub(crate) height_gain: Option<f64>,
 
-    /// k, if known: forces in the units of the data are k times σ times those of the model
+    /// k, if known: forces in the units of the data are k times σ times those of the model.
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Data")]
     pub(crate) force_gain: Option<f64>,
 
-    /// Unit of lengths, for files without one and for the result [default: that of the first file]
+    /// Unit of lengths, for files without one and for the result [default: that of the first file].
     #[arg(long, value_name = "UNIT", help_heading = "Data")]
     pub(crate) unit: Option<String>,
 
-    /// Reduce the weight of outliers, by Huber's weights
+    /// Reduce the weight of outliers, by Huber's weights.
     #[arg(long, help_heading = "Data")]
     pub(crate) robust: bool,
 
-    /// Direction in which the tip moved along the positions of ripples and traces [default: both are tried]
+    /// Direction in which the tip moved along the positions of ripples and traces [default: both are tried].
     #[arg(long, value_name = "DIRECTION", help_heading = "Data")]
     pub(crate) scan: Option<ScanName>,
 
@@ -58,34 +58,34 @@ pub(crate) struct FitArguments {
     #[command(flatten)]
     pub(crate) tip: TipArguments,
 
-    /// r, if known
+    /// r, if known.
     #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Known")]
     pub(crate) r: Option<f64>,
 
-    /// α, if known
+    /// α, if known.
     #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Known")]
     pub(crate) alpha: Option<f64>,
 
-    /// Depth limit b of (61), in kσ²/a, if known
+    /// Depth limit b of (61), in kσ²/a, if known.
     #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Known")]
     pub(crate) depth_limit: Option<f64>,
 
-    /// Healing time T of the surface, in Γ/k, if known
+    /// Healing time T of the surface, in Γ/k, if known.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Known")]
     pub(crate) healing_time: Option<f64>,
 
-    /// Inertia of the tip, in Γ²/k, if known
+    /// Inertia of the tip, in Γ²/k, if known.
     #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Known")]
     pub(crate) inertia: Option<f64>,
 
-    /// Further parameters to fit: beta, depth-limit, healing-time, inertia
+    /// Further parameters to fit: beta, depth-limit, healing-time, inertia.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', help_heading = "Fitted")]
     pub(crate) free: Vec<String>,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw data, model, residuals and the profiles of the likelihood to this .svg, .png or .pdf
+    /// Draw data, model, residuals and the profiles of the likelihood to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

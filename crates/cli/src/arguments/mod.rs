@@ -69,7 +69,7 @@ use stickslip::SCHEMAS;
 #[derive(Debug, Parser)]
 #[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
-    /// Print only errors: no progress, no warnings, no summary
+    /// Print only errors: no progress, no warnings, no summary.
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
 

@@ -12,7 +12,7 @@ pub(crate) struct TipArguments {
     #[arg(long, value_parser = named::<TipName>(), value_name = "NAME")]
     pub(crate) tip: Option<TipName>,
 
-    /// Side-lobe weight β of the triple Gaussian: ∫f is proportional to 1 - β [default: 1]
+    /// Side-lobe weight β of the triple Gaussian: ∫f is proportional to 1 - β [default: 1].
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     pub(crate) beta: Option<f64>,
 
@@ -22,7 +22,7 @@ pub(crate) struct TipArguments {
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f` sampled on x ≥
     /// 0. In three dimensions each Gaussian also has a "width_y", and a "center_y" if that is not 0, or the CSV is
-    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y)
+    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y).
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
 }
@@ -66,7 +66,7 @@ pub(crate) struct WiderArguments {
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     pub(crate) depth_limit: Option<f64>,
 
-    /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0 [default: never]
+    /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0 [default: never].
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) healing_time: Option<f64>,
 
@@ -75,7 +75,7 @@ pub(crate) struct WiderArguments {
     pub(crate) inertia: Option<f64>,
 
     /// No spring and no support: a particle driven by its own groove. There is no --r then, --alpha may be below 0,
-    /// and the initial surface is flat
+    /// and the initial surface is flat.
     #[arg(long)]
     pub(crate) no_spring: bool,
 }

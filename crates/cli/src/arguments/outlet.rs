@@ -19,12 +19,12 @@ pub(crate) enum Format {
 #[derive(Debug, Clone, Args)]
 pub(crate) struct OutletArguments {
     /// File to write, with the format given by its extension: .json for the document, .csv or .npz for the columns;
-    /// `-` is standard output
+    /// `-` is standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 
     /// Output format, independent of the file name [default: by its extension; on standard output text for a
-    /// terminal, else json]
+    /// terminal, else json].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<Format>,
 
@@ -35,7 +35,7 @@ pub(crate) struct OutletArguments {
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct FieldArguments {
     /// Print this field of the document, such as parameters.alpha, or period if only one field ends so: one line
-    /// each, instead of the document on standard output; repeatable
+    /// each, instead of the document on standard output; repeatable.
     #[arg(long, value_name = "FIELD", help_heading = "Output")]
     pub(crate) print: Vec<String>,
 }

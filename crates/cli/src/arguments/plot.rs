@@ -5,7 +5,7 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Draw a saved document: a run, a surface, a cycle, a sweep, or any other JSON output that has a picture
+/// Draw a saved document: a run, a surface, a cycle, a sweep, or any other JSON output that has a picture.
 ///
 /// The picture is that of the command's own `--plot`, with a width, a resolution and axes of your choice.
 #[derive(Debug, Args)]
@@ -30,18 +30,18 @@ pub(crate) struct PlotArguments {
     pub(crate) dpi: Option<f64>,
 
     /// Abscissas shown, LO:HI, of the first panel and of all panels with the same axis, in its unit. A run is drawn
-    /// from its history, with the resolution that the range requires
+    /// from its history, with the resolution that the range requires.
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) x_range: Option<String>,
 
-    /// Ordinates shown, LO:HI, of the first panel and of all panels with the same axis
+    /// Ordinates shown, LO:HI, of the first panel and of all panels with the same axis.
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) y_range: Option<String>,
 
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
 
-    /// For a boundary, draw the oscillation at onset, as `boundary --plot-onset` does
+    /// For a boundary, draw the oscillation at onset, as `boundary --plot-onset` does.
     #[arg(long)]
     pub(crate) onset: bool,
 }

@@ -10,12 +10,12 @@ use stickslip::Raster;
 #[derive(Debug, Args)]
 pub(crate) struct AreaArguments {
     /// Area of any shape, scanned line by line: CSV `y,start,length`, a row for each line in the order of the scan,
-    /// in σ; replaces --pitch, --lines and --length
+    /// in σ; replaces --pitch, --lines and --length.
     #[arg(long, value_name = "FILE", help_heading = "Scan")]
     pub(crate) area: Option<PathBuf>,
 }
 
-/// Scan an area line by line, and report the pattern of the lines
+/// Scan an area line by line, and report the pattern of the lines.
 ///
 /// Wavelength and crest angle are those of the strongest wave on the last half of the lines, with 95 % errors; a
 /// number that these lines do not determine is null, with a warning.
@@ -36,17 +36,17 @@ pub(crate) struct RasterArguments {
     pub(crate) area: AreaArguments,
 
     /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ, on the first line, T after its start; it disturbs all
-    /// later lines; repeatable
+    /// later lines; repeatable.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
     /// File to write: .json for the document, .csv for the samples, .npz for samples, heights and history as NumPy
-    /// arrays, .gsf for the height map in Gwyddion; `-` is standard output
+    /// arrays, .gsf for the height map in Gwyddion; `-` is standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,
 
     /// Output format, independent of the file name [default: by its extension; on standard output text for a
-    /// terminal, else json]
+    /// terminal, else json].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<Format>,
 
@@ -56,7 +56,7 @@ pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Draw the heights with the crests marked, and the lags, to this .svg or .png
+    /// Draw the heights with the crests marked, and the lags, to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

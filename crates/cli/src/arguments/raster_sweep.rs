@@ -9,7 +9,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::PathName;
 
-/// Compute the pattern of a raster over a grid of pitch and α
+/// Compute the pattern of a raster over a grid of pitch and α.
 ///
 /// Each point is a raster. Finished points are saved immediately beside the output (FILE.partial): after an interrupt
 /// the same command resumes from there.
@@ -31,7 +31,7 @@ pub(crate) struct RasterSweepArguments {
     pub(crate) wider: WiderArguments,
 
     /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a tip without its own f(x,y) [default: the width of the tip's
-    /// Gaussians]
+    /// Gaussians].
     #[arg(long, value_name = "V", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) width_y: Option<f64>,
 
@@ -39,15 +39,15 @@ pub(crate) struct RasterSweepArguments {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Scan")]
     pub(crate) pitch: Range,
 
-    /// Number of lines
+    /// Number of lines.
     #[arg(long, value_name = "N", help_heading = "Scan")]
     pub(crate) lines: usize,
 
-    /// Distance that the support moves along each line, in σ
+    /// Distance that the support moves along each line, in σ.
     #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Scan")]
     pub(crate) length: f64,
 
-    /// Path of the support from one line to the next
+    /// Path of the support from one line to the next.
     #[arg(
         long,
         value_parser = named::<PathName>(),
@@ -57,7 +57,7 @@ pub(crate) struct RasterSweepArguments {
     )]
     pub(crate) path: PathName,
 
-    /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2
+    /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[arg(
         long,
         value_name = "E",
@@ -67,16 +67,16 @@ pub(crate) struct RasterSweepArguments {
     )]
     pub(crate) tolerance: f64,
 
-    /// Number of points computed in parallel [default: the number of cores]
+    /// Number of points computed in parallel [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
     /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`, or slurm/N: the
-    /// part of this task of an array job, as for `stickslip sweep`
+    /// part of this task of an array job, as for `stickslip sweep`.
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another
+    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another.
     #[arg(long, conflicts_with = "plot", help_heading = "Work")]
     pub(crate) if_needed: bool,
 
@@ -87,7 +87,7 @@ pub(crate) struct RasterSweepArguments {
     pub(crate) outlet: OutletArguments,
 
     /// Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that varies, to this
-    /// .svg or .png
+    /// .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

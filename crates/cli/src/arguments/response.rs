@@ -5,7 +5,7 @@ use super::{AnswerArguments, Options};
 use clap::Args;
 use stickslip::Response;
 
-/// Compute the linear response of steady motion to weak pulses, as a sum of modes (A.9)
+/// Compute the linear response of steady motion to weak pulses, as a sum of modes (A.9).
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct ResponseArguments {

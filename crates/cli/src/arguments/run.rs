@@ -16,7 +16,7 @@ pub(crate) enum HistoryName {
     None,
 }
 
-/// Integrate the motion of the tip and classify the result
+/// Integrate the motion of the tip and classify the result.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -31,17 +31,17 @@ pub(crate) struct RunArguments {
     pub(crate) disturbance: DisturbanceArguments,
 
     /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R` of times and displacements,
-    /// beginning with 0,0, linear between the rows (steps, holds, trace and retrace); --r is the velocity before
+    /// beginning with 0,0, linear between the rows (steps, holds, trace and retrace); --r is the velocity before.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
     /// File to write: .json for the document, .csv for the samples, .npz for samples and history as NumPy arrays,
-    /// .jsonl for samples written during the run, in constant memory; `-` is standard output [default: -]
+    /// .jsonl for samples written during the run, in constant memory; `-` is standard output [default: -].
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
 
     /// Output format, independent of the file name [default: by its extension; on standard output text for a
-    /// terminal, else json]
+    /// terminal, else json].
     #[arg(long, value_parser = named::<RunFormat>(), value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<RunFormat>,
 
@@ -51,20 +51,20 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Part of the dense history in a .json or .npz; `surface` needs all of it
+    /// Part of the dense history in a .json or .npz; `surface` needs all of it.
     #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
     pub(crate) history: HistoryName,
 
-    /// Draw l(t), the tip's velocity and the final surface to this .svg or .png
+    /// Draw l(t), the tip's velocity and the final surface to this .svg or .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 
     /// Repeat the run with another memory and a tighter tolerance, and report the difference in the document; exit
-    /// status 1 if it exceeds the tolerance allowed. Takes many times as long as the run
+    /// status 1 if it exceeds the tolerance allowed. Takes many times as long as the run.
     #[arg(long, help_heading = "Accuracy")]
     pub(crate) verify: bool,
 
-    /// Save the state of the run to FILE at intervals, so that `--resume FILE` can continue it
+    /// Save the state of the run to FILE at intervals, so that `--resume FILE` can continue it.
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) checkpoint: Option<PathBuf>,
 
@@ -79,7 +79,7 @@ pub(crate) struct RunArguments {
     pub(crate) checkpoint_every: Option<f64>,
 
     /// Resume the run from the checkpoint FILE, with the same output as an uninterrupted run, to the files that the
-    /// checkpoint names if they are in its folder, or else to -o and --plot; all other options come from FILE
+    /// checkpoint names if they are in its folder, or else to -o and --plot; all other options come from FILE.
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) resume: Option<PathBuf>,
 }

@@ -5,7 +5,7 @@ use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use stickslip::{RasterStability, Stability, Walking};
 
-/// Compute the critical point of steady motion, and all growth exponents
+/// Compute the critical point of steady motion, and all growth exponents.
 ///
 /// Without --alpha (with --solve-for r: without --r) the growth exponents are those of the critical point. With
 /// --pitch: the threshold for ripples that grow from scan line to scan line. With --no-spring: the speeds of steady

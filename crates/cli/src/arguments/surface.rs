@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct SurfaceArguments {
-    /// Document of `stickslip run` or `stickslip raster`; `-` is standard input
+    /// Document of `stickslip run` or `stickslip raster`; `-` is standard input.
     #[arg(value_name = "RUN.json")]
     pub(crate) run: PathBuf,
 
@@ -22,15 +22,15 @@ pub(crate) struct SurfaceArguments {
     pub(crate) x: Option<Vec<f64>>,
 
     /// First and last position, and the number of positions [default: from 12 behind the start of the tip to 12 ahead
-    /// of its end]
+    /// of its end].
     #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true)]
     pub(crate) range: Option<Interval>,
 
-    /// Distance of the positions, if the range has no number of them [default: 0.05]
+    /// Distance of the positions, if the range has no number of them [default: 0.05].
     #[arg(long, value_name = "DX", allow_hyphen_values = true)]
     pub(crate) spacing: Option<f64>,
 
-    /// First and last position across the path, and the number of positions: images u(x,y,t) instead of curves u(x,t)
+    /// First and last position across the path, and the number of positions: images u(x,y,t) instead of curves u(x,t).
     #[arg(
         long,
         value_name = "LO:HI:N",
@@ -61,7 +61,7 @@ pub(crate) struct SurfaceArguments {
     pub(crate) spacing_y: Option<f64>,
 
     /// V in f(x,y) = f(x) exp(-y²/(2 V²)), for a run whose tip file had no f(x,y) [default: the width of the tip's
-    /// Gaussians]
+    /// Gaussians].
     #[arg(
         long,
         value_name = "V",
@@ -74,7 +74,7 @@ pub(crate) struct SurfaceArguments {
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
 
-    /// Only the groove far behind the tip, (35), without the initial surface
+    /// Only the groove far behind the tip, (35), without the initial surface.
     #[arg(long)]
     pub(crate) far_behind: bool,
 
@@ -84,14 +84,14 @@ pub(crate) struct SurfaceArguments {
     pub(crate) output: PathBuf,
 
     /// Output format, independent of the file name [default: by its extension; on standard output text for a
-    /// terminal, else json]
+    /// terminal, else json].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Output")]
     pub(crate) format: Option<Format>,
 
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Draw the surfaces to this .svg or .png; images as height maps with a colour bar
+    /// Draw the surfaces to this .svg or .png; images as height maps with a colour bar.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use stickslip::TipName;
 
 /// Find the motion that the tip settles into, over a grid of α, r and any other parameter of the model or of the
-/// initial condition
+/// initial condition.
 ///
 /// Each point is computed independently of the others: below αc the steady motion, above it the stable cycle, and if
 /// none is found the result of a run. With --until each point is a run from the given initial condition; if seeds
@@ -32,7 +32,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_parser = named::<TipName>(), value_name = "NAME", help_heading = "Model")]
     pub(crate) tip: Option<TipName>,
 
-    /// Side-lobe weight β of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1]
+    /// Side-lobe weight β of the triple Gaussian: a RANGE is V, LO:HI:N or V1,V2,… [default: 1].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
     pub(crate) beta: Option<Range>,
 
@@ -63,7 +63,7 @@ pub(crate) struct SweepArguments {
     pub(crate) run: SweepRunArguments,
 
     /// Largest residual of the equation of motion (18) on a cycle, in units of kσ/Γ; or error of a run, in σ; from
-    /// 1e-11 to 1e-4
+    /// 1e-11 to 1e-4.
     #[arg(
         long,
         value_name = "E",
@@ -73,17 +73,17 @@ pub(crate) struct SweepArguments {
     )]
     pub(crate) tolerance: f64,
 
-    /// Number of points computed in parallel [default: the number of cores]
+    /// Number of points computed in parallel [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
     /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`: the part of this
     /// task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N if
-    /// the array contains only some of N parts
+    /// the array contains only some of N parts.
     #[arg(long, value_name = "I/N", help_heading = "Work")]
     pub(crate) shard: Option<Shard>,
 
-    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another
+    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another.
     #[arg(long, conflicts_with = "plot", help_heading = "Work")]
     pub(crate) if_needed: bool,
 
@@ -94,7 +94,7 @@ pub(crate) struct SweepArguments {
     pub(crate) outlet: OutletArguments,
 
     /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this .svg or
-    /// .png. Points with neither, such as steady and trapped ones, are marked at the foot
+    /// .png. Points with neither, such as steady and trapped ones, are marked at the foot.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -107,7 +107,7 @@ pub(crate) struct WiderRanges {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) depth_limit: Option<Range>,
 
-    /// Healing time of the surface, in Γ/k; above 0 [default: never]
+    /// Healing time of the surface, in Γ/k; above 0 [default: never].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) healing_time: Option<Range>,
 
@@ -115,7 +115,7 @@ pub(crate) struct WiderRanges {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub(crate) inertia: Option<Range>,
 
-    /// Not available in `sweep`
+    /// Not available in `sweep`.
     #[arg(long)]
     pub(crate) no_spring: bool,
 }
@@ -126,11 +126,11 @@ pub(crate) enum SweepThen {
     Raster(Box<RasterSweepArguments>),
 }
 
-/// Combine the parts of a sweep: the result is byte for byte that of one sweep over all points
+/// Combine the parts of a sweep: the result is byte for byte that of one sweep over all points.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg")]
 pub(crate) struct MergeArguments {
-    /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order
+    /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order.
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
@@ -140,7 +140,7 @@ pub(crate) struct MergeArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw the result, as for `sweep`
+    /// Draw the result, as for `sweep`.
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 }

@@ -9,28 +9,28 @@ use stickslip::StartName;
 #[command(next_help_heading = "Runs")]
 pub(crate) struct SweepRunArguments {
     /// Make each point a run to this time, in Γ/k, as of `stickslip run`, instead of the motion that the tip settles
-    /// into
+    /// into.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: Option<f64>,
 
-    /// Initial condition [default: steady]
+    /// Initial condition [default: steady].
     #[arg(long, value_parser = named::<StartName>(), value_name = "START", requires = "until")]
     pub(crate) start: Option<StartName>,
 
-    /// Initial position X of the tip, in σ [default: 14]
+    /// Initial position X of the tip, in σ [default: 14].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) start_position: Option<Range>,
 
-    /// Displacement D: the tip starts at X - D [default: 0]
+    /// Displacement D: the tip starts at X - D [default: 0].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) kick: Option<Range>,
 
-    /// Initial velocity of a tip with inertia, in kσ/Γ [default: r with --start steady, else 0]
+    /// Initial velocity of a tip with inertia, in kσ/Γ [default: r with --start steady, else 0].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) start_velocity: Option<Range>,
 
     /// Noise on the initial surface: heights uniform in [-A, A] on a grid, interpolated by a cubic spline [default:
-    /// none; 1e-4 with --start paper]
+    /// none; 1e-4 with --start paper].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true, requires = "until")]
     pub(crate) noise: Option<Range>,
 

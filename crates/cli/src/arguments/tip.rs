@@ -5,7 +5,7 @@ use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Fit a footprint to a measured profile, which may be noisy, tilted, off centre, and in nanometres
+/// Fit a footprint to a measured profile, which may be noisy, tilted, off centre, and in nanometres.
 ///
 /// Fits a sum of Gaussians on a sloping background, with their number determined by the data, and reports the width
 /// of the tip, the α at the onset of stick-slip, and their uncertainty. The output is a tip file, which every command
@@ -17,7 +17,7 @@ pub(crate) struct MeasuredTipArguments {
     /// Positions and heights, in two columns with any separator and decimal mark, with a heading such as `x_nm,z_nm`
     /// or a row of units below it; rows may be in any order and at any distance, and rows without a value are
     /// omitted. Heights of a pit are below its surroundings. `-` is standard input. An image, .gsf (Gwyddion), gives
-    /// f(x,y): the profile along x through its middle, and the width of each Gaussian across
+    /// f(x,y): the profile along x through its middle, and the width of each Gaussian across.
     #[arg(value_name = "MEASURED.csv")]
     pub(crate) measured: PathBuf,
 
@@ -25,7 +25,7 @@ pub(crate) struct MeasuredTipArguments {
     #[arg(long, value_name = "UNIT")]
     pub(crate) unit: Option<String>,
 
-    /// The profile is one half of an even one, about position 0 [default: if it begins at 0 with its apex]
+    /// The profile is one half of an even one, about position 0 [default: if it begins at 0 with its apex].
     #[arg(long, conflicts_with_all = ["both", "centre"])]
     pub(crate) half: bool,
 
@@ -33,34 +33,34 @@ pub(crate) struct MeasuredTipArguments {
     #[arg(long)]
     pub(crate) both: bool,
 
-    /// Centre of symmetry, in the unit of the positions [default: fitted]
+    /// Centre of symmetry, in the unit of the positions [default: fitted].
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     pub(crate) centre: Option<f64>,
 
-    /// σ, with a unit, such as 30nm; 1σ if the positions are in σ [default: fitted]
+    /// σ, with a unit, such as 30nm; 1σ if the positions are in σ [default: fitted].
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) sigma: Option<String>,
 
-    /// Number of Gaussians, where a symmetric pair counts as one [default: by Schwarz' criterion]
+    /// Number of Gaussians, where a symmetric pair counts as one [default: by Schwarz' criterion].
     #[arg(long, value_name = "N")]
     pub(crate) terms: Option<usize>,
 
-    /// Dimensionless support velocity at which onset and trapping threshold are computed
+    /// Dimensionless support velocity at which onset and trapping threshold are computed.
     #[arg(long, value_name = "R", default_value_t = 1.0, allow_hyphen_values = true)]
     pub(crate) r: f64,
 
-    /// Number of resampled profiles for the intervals
+    /// Number of resampled profiles for the intervals.
     #[arg(long, value_name = "N", default_value_t = 400)]
     pub(crate) resamples: usize,
 
-    /// Seed of the random numbers
+    /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw data, fit and residuals to this .svg, .png or .pdf
+    /// Draw data, fit and residuals to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }

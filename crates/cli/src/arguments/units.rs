@@ -4,7 +4,7 @@ use super::examples::examples;
 use super::{ModelArguments, OutletArguments};
 use clap::Args;
 
-/// Convert measured quantities to the numbers of the model, and back
+/// Convert measured quantities to the numbers of the model, and back.
 ///
 /// Give all six quantities to obtain α and r. Or leave one out and give --r or --alpha, or leave two out and give
 /// both: they are solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
@@ -32,7 +32,7 @@ pub(crate) struct UnitsArguments {
     )]
     pub(crate) stiffness: Option<String>,
 
-    /// Width σ of the tip (m), (7); by default that of a --tip-file written by `stickslip tip`
+    /// Width σ of the tip (m), (7); by default that of a --tip-file written by `stickslip tip`.
     #[arg(
         long,
         value_name = "σ",

@@ -27,7 +27,7 @@ use std::path::PathBuf;
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct VerifyArguments {
     /// Output of `stickslip run`: a document (.json), lines (.jsonl), or incomplete lines (.jsonl.part); `-` is
-    /// standard input
+    /// standard input.
     #[arg(value_name = "RUN")]
     pub(crate) run: PathBuf,
 

@@ -23,7 +23,7 @@ pub struct CheckpointHead {
     /// machine with the same arithmetic continues with identical bits.
     #[serde(default)]
     pub arithmetic: Option<String>,
-    /// The parameters of the comparison.
+    /// The request of the run command.
     pub order: Order,
     /// Time reached, in Γ/k.
     pub t: f64,

@@ -66,9 +66,9 @@ pub enum Kind {
     Other,
 }
 
-/// What the schema of a question says, made once in a process.
+/// The parsed schema of a question, computed once per process.
 struct Described {
-    /// Every property of the schema, options or not.
+    /// All properties of the schema, options or not.
     properties: BTreeMap<String, Property>,
     options: Vec<Parameter>,
 }
@@ -79,7 +79,7 @@ struct Property {
     is_required: bool,
 }
 
-/// The schema of a question takes longer to make than many an answer.
+/// The parsed schema of a question, cached because computing it takes longer than many an answer.
 fn described<Q: JsonSchema + 'static>() -> &'static Described {
     static KNOWN: Mutex<BTreeMap<TypeId, &'static Described>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -172,7 +172,7 @@ fn names_of(schema: &Value) -> Vec<(String, String)> {
 /// The question with the given parameters, and defaults for the others.
 ///
 /// # Errors
-/// A name that is none of its parameters, one that is missing, a value of another kind.
+/// An unknown name, a missing parameter, or a value of the wrong kind.
 pub fn question<Q: JsonSchema + DeserializeOwned + 'static>(
     values: Map<String, Value>,
 ) -> Result<Q, Refused> {
@@ -202,8 +202,8 @@ pub fn question<Q: JsonSchema + DeserializeOwned + 'static>(
     })
 }
 
-/// Reads a question as [`question`] does: serde alone lets names pass that are none of its parameters, where some of these are
-/// grouped.
+/// Reads a question and rejects unknown names as [`question`] does; serde alone accepts unknown names in grouped
+/// parameters.
 pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwned + 'static>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
@@ -257,7 +257,7 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
     })
 }
 
-/// The first name among these that is none of the parameters of `Q`.
+/// The first of these names that is not a parameter of `Q`.
 pub fn stranger<Q: JsonSchema + 'static>(values: &Map<String, Value>) -> Option<&str> {
     let properties = &described::<Q>().properties;
     values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))

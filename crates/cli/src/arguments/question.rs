@@ -184,7 +184,7 @@ fn number(value: f64) -> Value {
     if value.is_finite() { json!(value) } else { json!(stickslip::Typed(value).to_string()) }
 }
 
-/// Puts what was given of a parameter among the others; a range may say how many values it has.
+/// Adds the value of a parameter to the others; a range may contain its number of values.
 fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMatches) {
     let Parameter { name, kind, .. } = parameter;
     let value = match kind {

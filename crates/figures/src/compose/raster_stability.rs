@@ -9,7 +9,7 @@ use stickslip::{
     RasterKindName, RasterStabilityDocument, StyleName, ThresholdColumns,
 };
 
-/// Room above the lowest thresholds.
+/// Space above the lowest thresholds, as a factor.
 const AIR: f64 = 1.3;
 
 impl Drawn for RasterStabilityDocument {
@@ -92,7 +92,7 @@ const KINDS: [(RasterKindName, ColourName); 3] = [
     (RasterKindName::Snaking, ColourName::Green),
 ];
 
-/// The threshold of each kind over the pitch.
+/// The threshold of each kind against the pitch.
 fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
     let ThresholdColumns { ripples, bunching, snaking, .. } = columns;
     let curves = KINDS.iter().zip([ripples, bunching, snaking]);
@@ -100,7 +100,7 @@ fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
     drawn.map(|((kind, colour), alpha)| curve((kind.as_str(), *colour), pitch, alpha)).collect()
 }
 
-/// Angles of the waves that come first, which jump where another kind does.
+/// Angles of the critical waves, interrupted where their kind changes.
 fn angles(pitch: &[f64], angle: &[f64], first: &[RasterKindName]) -> Vec<CurveDocument> {
     let of = |kind: RasterKindName| {
         let rows = angle.iter().zip(first);

@@ -15,7 +15,8 @@ const UNSTABLE_PART: f64 = 0.15;
 const PADDING: f64 = 0.06;
 
 impl Drawn for StabilityDocument {
-    /// Exponents along the scan. Those at the critical point neither grow nor decay, whatever round-off says.
+    /// Exponents along the scan. Those of the critical point are drawn on the imaginary axis, without their
+    /// round-off.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
         let snaking = self.snaking.as_ref().and_then(Option::as_ref);

@@ -67,10 +67,11 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     }
 }
 
-/// Lines on whose grooves `left` is left, with a spring across the scan if there is one.
+/// A raster of lines, with a spring across the scan if there is one; a fraction `left` of each groove remains after
+/// another line.
 ///
 /// # Errors
-/// What [`Raster::new`] and [`Raster::with_stiffness_across`] refuse.
+/// An error of [`Raster::new`] or [`Raster::with_stiffness_across`].
 pub fn raster(
     footprint: &Footprint,
     law: Wider,
@@ -84,7 +85,8 @@ pub fn raster(
     }
 }
 
-/// Why a raster has no threshold; what is not of r, the law, the path or the tip is of its pitches.
+/// The reason why a raster has no threshold, as a rejection of r, of the law, of the path, of the tip or else of the
+/// pitches.
 pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
     match error {
         StabilityError::R(_) => Refused::number("r", r, error),

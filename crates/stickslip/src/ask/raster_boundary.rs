@@ -1,5 +1,5 @@
-//! The question `raster-boundary`: where ripples begin to grow from line to line, over the distance of the lines; of a tip that
-//! gives way across the scan, where lines bunch and snake too.
+//! The question `raster-boundary`: the threshold for ripples that grow from line to line, against the pitch; for a
+//! tip that is free to move across the scan, also the thresholds of bunching and snaking.
 
 use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
@@ -47,8 +47,8 @@ pub struct RasterBoundary {
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where lines bunch or
-    /// snake too. Without it the tip is held on its lines.
+    /// κ_y, the spring constant across the scan over that along it, above 0, for a tip that is free to move across:
+    /// also analyse bunching and snaking of the lines. Without it the tip cannot leave its lines.
     #[schemars(extend("x-option" = option("K", "Raster", 34)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
@@ -67,7 +67,7 @@ impl Question for RasterBoundary {
 }
 
 impl RasterBoundary {
-    /// Refuses a range that is none, or of too few or too many points.
+    /// Rejects an invalid range, or too few or too many points.
     fn judged(&self) -> Result<(), Refused> {
         let [low, high] = self.pitch_range;
         if !(high.is_finite() && 0.0 < low && low < high) {
@@ -123,8 +123,8 @@ impl Ask for RasterBoundary {
     }
 }
 
-/// Where waves of lines that go one way begin to grow, of each kind by rising α, and the α of a zigzag; of that none over a
-/// surface that heals, and none where nothing grows.
+/// The thresholds of one-way lines, of each kind by rising α, and the critical α of a zigzag; the latter is missing
+/// on a healing surface, and both are missing if nothing grows.
 fn thresholds(
     footprint: &Footprint,
     law: Wider,
@@ -166,24 +166,24 @@ pub struct RasterBoundaryFound {
     pub crest_angle: Vec<f64>,
     /// Critical α of a zigzag; null if nothing grows, and on a healing surface, where zigzags have no threshold.
     pub alpha_zigzag: Vec<Option<f64>>,
-    /// With a spring across the scan: what grows at `alpha`, and where each kind of wave begins to.
+    /// With a spring across the scan: the kind of wave that grows at `alpha`, and the threshold of each kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thresholds: Option<ThresholdColumns>,
 }
 
-/// Thresholds of one-way lines by kind, for each pitch: of waves that begin to grow before those next to them. Where a band of
-/// waves merges with another of lower α, its kind has the threshold of another band, or none, which is null. Only the lowest of
-/// all is certain.
+/// Thresholds of one-way lines by kind, for each pitch: minima of the critical α over wave vectors. If a band of
+/// waves merges with another of lower α, the threshold of its kind is that of another band, or null if there is none.
+/// Only the lowest of all thresholds is certain.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThresholdColumns {
-    /// The kind of the lowest.
+    /// Kind of the lowest threshold.
     pub kind: Vec<RasterKindName>,
     /// Critical α of ripples.
     pub ripples: Vec<Option<f64>>,
-    /// Critical α of lines that bunch.
+    /// Critical α of bunching lines.
     pub bunching: Vec<Option<f64>>,
-    /// Critical α of lines that snake.
+    /// Critical α of snaking lines.
     pub snaking: Vec<Option<f64>>,
 }
 

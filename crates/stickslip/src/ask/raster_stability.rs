@@ -1,5 +1,5 @@
-//! The question `raster-stability`: where ripples begin to grow from line to line, and how fast; of a tip that gives way across
-//! the scan, where lines bunch and snake too.
+//! The question `raster-stability`: the threshold for ripples that grow from line to line, and their growth; for a
+//! tip that is free to move across the scan, also for bunching and snaking.
 
 use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
@@ -25,18 +25,19 @@ const SHOWN: f64 = 0.4;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterStabilityFound {
-    /// Where a ripple first does not fade from line to line, or with a spring across the scan any wave; null for a line that is
-    /// repeated, where every α makes some ripple grow.
+    /// The critical ripple, or with a spring across the scan the critical wave of any kind: the first that does not
+    /// decay from line to line; null for a repeated line, where some ripple grows at every α.
     pub critical: Option<RasterCriticalDocument>,
-    /// With a spring across the scan: the lowest threshold of each kind that has one, by rising α. The first is `critical`, the
-    /// only one that is certain to be the lowest of its kind: the others have a tolerance of 1 and no cells.
+    /// With a spring across the scan: the lowest threshold of each kind that has one, by rising α. The first is
+    /// `critical`, and only it is certain to be the lowest of its kind: the others have a tolerance of 1 and no
+    /// cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thresholds: Option<Vec<RasterCriticalDocument>>,
-    /// Whether every ripple fades from line to line at the α of `parameters`, or with a spring across the scan every wave; null
-    /// where none was given.
+    /// Whether every ripple, or with a spring across the scan every wave, decays from line to line at the α of
+    /// `parameters`; null if no α was given.
     pub stable: Option<bool>,
-    /// By how much ripples e^{iqx} change from line to line at the α of `parameters`, along the scan and with a spring across
-    /// it in both directions; null where none was given.
+    /// Growth of ripples e^{iqx} from line to line at the α of `parameters`, along the scan and with a spring across
+    /// it in both directions; null if no α was given.
     pub growth: Option<RasterGrowth>,
 }
 
@@ -74,12 +75,12 @@ pub struct RasterStability {
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where lines bunch or
-    /// snake too. Without it the tip is held on its lines.
+    /// κ_y, the spring constant across the scan over that along it, above 0, for a tip that is free to move across:
+    /// also analyse bunching and snaking of the lines. Without it the tip cannot leave its lines.
     #[schemars(extend("x-option" = option("K", "Raster", 34)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
-    /// Whether α is the critical one, for want of another.
+    /// Whether α is the critical one, because no other was given.
     #[serde(default)]
     pub at_critical_point: bool,
 }
@@ -92,7 +93,7 @@ impl Question for RasterStability {
     type Answer = RasterStabilityFound;
 }
 
-/// The lowest threshold of each kind, by rising α, or that there is none.
+/// The lowest threshold of each kind, by rising α, or the reason why there is none.
 type Thresholds = Result<Vec<RasterCritical>, StabilityError>;
 
 impl RasterStability {
@@ -138,7 +139,7 @@ impl RasterStability {
         refused(error, self.r, pitch)
     }
 
-    /// Of a repeated line none. That nothing grows is an answer for a given α.
+    /// The thresholds; `None` for a repeated line. A raster without growth is an answer if α is given.
     fn thresholds(&self, raster: &Raster) -> Result<Option<Thresholds>, Refused> {
         let path = match self.path {
             PathName::OneWay => RasterPath::OneWay,
@@ -212,7 +213,7 @@ impl Ask for RasterStability {
 }
 
 impl RasterGrowth {
-    /// |z| and arg z over wave numbers.
+    /// |z| and arg z as functions of the wave number.
     fn of(raster: &Raster, question: &RasterStability, alpha: f64) -> Self {
         let band = question.tip.0.band();
         let number = |i: u32| SHOWN * band * f64::from(i) / f64::from(WAVE_NUMBERS);
@@ -226,26 +227,27 @@ impl RasterGrowth {
     }
 }
 
-/// What a wave of the tracks of a raster is.
+/// Kinds of waves of the tracks of a raster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RasterKindName {
     /// Crests across the lines or oblique, at 22.5° or more to them.
     Ripples,
-    /// Crests nearly along the lines, which fall into the grooves of earlier ones: trenches along the scan, or pairs of lines.
+    /// Crests nearly along the lines, which move into the grooves of earlier ones: trenches along the scan, or pairs
+    /// of lines.
     Bunching,
-    /// Deviations across the lines of which each line's own groove is most of the cause.
+    /// Deviations across the lines, caused mainly by each line's own groove.
     Snaking,
 }
 
-/// Where a ripple first does not fade.
+/// The critical ripple: at a slightly larger α it grows.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterCriticalDocument {
-    /// With a spring across the scan: what grows there.
+    /// With a spring across the scan: the kind of wave that grows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<RasterKindName>,
-    /// The smallest α of such a ripple.
+    /// The critical α.
     pub alpha: f64,
     /// r, dimensionless.
     pub r: f64,
@@ -255,9 +257,9 @@ pub struct RasterCriticalDocument {
     pub kappa: Option<f64>,
     /// Angle between crests and scan axis, atan(q/|κ|), in degrees; null for a zigzag.
     pub crest_angle: Option<f64>,
-    /// 2π/q, in σ; null where the lines stay straight, q = 0, as those that bunch in pairs do.
+    /// 2π/q, in σ; null if the lines stay straight, q = 0, as for lines that bunch in pairs.
     pub wavelength_x: Option<f64>,
-    /// Phase from one line to the next, from -π to π; on a zigzag that from a way there to the way back after it.
+    /// Phase from one line to the next, from -π to π; for a zigzag that from a trace to the retrace after it.
     pub phase_per_line: f64,
     /// Evidence for the threshold; missing in documents of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -296,7 +298,7 @@ pub struct RasterGrowth {
 }
 
 impl RasterCriticalDocument {
-    /// A threshold, and of which kind it is where there are several.
+    /// A threshold, with its kind if there are several kinds.
     pub fn of(critical: &RasterCritical, has_kind: bool) -> Self {
         let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, .. } = *critical;
         let kind = has_kind.then(|| critical.kind.into());
@@ -336,7 +338,7 @@ impl From<&RasterCertificate> for RasterCertificateDocument {
 }
 
 impl Tabular for RasterStabilityFound {
-    /// The growth over wave numbers; without α the critical ripple, or the thresholds of all kinds.
+    /// The growth as a table over wave numbers; without α the critical ripple, or the thresholds of all kinds.
     fn columns(&self) -> Vec<Named<'_>> {
         if let Some(RasterGrowth { q, factor, phase }) = &self.growth {
             return vec![

@@ -44,8 +44,8 @@ pub struct Stability {
     /// Whether α and r are those of the critical point, because one of them was not given.
     #[serde(default)]
     pub at_critical_point: bool,
-    /// κ_y, the spring across the scan in units of that along it, above 0, on which the tip gives way: where a line begins to
-    /// snake, and many to bunch. Without it the tip is held on its line.
+    /// κ_y, the spring constant across the scan over that along it, above 0, for a tip that is free to move across:
+    /// compute the onset of snaking of a line, and of bunching of many. Without it the tip cannot leave its line.
     #[schemars(extend("x-option" = option("K", "Across the scan", 25)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,

@@ -78,7 +78,7 @@ impl Product for StabilityDocument {
     }
 }
 
-/// Where a line snakes, if it ever does.
+/// Adds the onset of snaking of a line, if there is one.
 fn across(told: Told, snaking: Option<&SnakingDocument>) -> Told {
     let Some(at) = snaking else { return told.row("snakes above", "no α") };
     told.row("snakes above", format!("α = {}", digits(at.alpha, CRITICAL)))

@@ -80,7 +80,7 @@ impl Product for RasterStabilityDocument {
     }
 }
 
-/// What begins at a threshold.
+/// Description of the motion that grows above a threshold.
 fn grows(at: &RasterCriticalDocument) -> &'static str {
     match at.kind {
         Some(RasterKindName::Bunching) if at.wavelength_x.is_none() => "lines bunch in pairs",

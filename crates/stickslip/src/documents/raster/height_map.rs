@@ -33,8 +33,8 @@ impl HeightMap {
         Self { x, y, u }
     }
 
-    /// u on every line, at even distances from the smallest x to the largest; on evenly spaced rows where lines are not,
-    /// and around a line that was repeated on lines beside it too.
+    /// u on every line, at even distances from the smallest x to the largest. Unevenly spaced lines are interpolated
+    /// on evenly spaced rows; around a repeated line, rows on either side are added.
     pub(crate) fn of(plan: &Plan, lines: &[Line]) -> Self {
         let width = 8.7 / plan.footprint.path().band();
         let (low, high) = plan.area.ends();

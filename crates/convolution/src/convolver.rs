@@ -14,8 +14,8 @@ use crate::{Density, Field, Kernel, Plan};
 /// **Requirements on the window.** One call uses a window of [`length`](Self::length) cells of the density, and
 /// nothing else.
 /// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window include all sources within
-/// reach, whether or not others lie outside. A window centered on `x` allows targets up to `(separation − reach)/2`
-/// from `x`.
+///   reach, whether or not others lie outside. A window centered on `x` allows targets up to `(separation − reach)/2`
+///   from `x`.
 /// - A kernel without reach: all sources must lie in the window, and the targets within `separation` of each of them.
 ///
 /// [`first_cell_about`](Self::first_cell_about) centers the window.

@@ -1,5 +1,4 @@
-//! Parameters of the extended model that diverged without an effect on the data are reduced to the range in which
-//! they have one.
+//! Reduction of diverged parameters of the extended model to the range in which they have an effect on the data.
 //!
 //! A search may end with a healing time of 1e30, where neither this value nor a change of it has an effect: from
 //! there its interval cannot be found, nor those of other parameters at shorter healing times.

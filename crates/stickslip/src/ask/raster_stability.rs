@@ -309,7 +309,7 @@ impl RasterCriticalDocument {
 }
 
 impl RasterKindName {
-    /// As it is written.
+    /// The name in documents.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Ripples => "ripples",

@@ -233,7 +233,7 @@ fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
     Some((squares(&found.residuals), crest))
 }
 
-/// Smallest number of turns over the extent, and the step between numbers that are tried.
+/// Smallest number of turns over the extent that is tried, number of trials per turn, and largest number of turns.
 const FEWEST_TURNS: f64 = 1.25;
 const STEPS_A_TURN: f64 = 6.0;
 const MOST_TURNS: f64 = 300.0;

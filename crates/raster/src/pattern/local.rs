@@ -22,8 +22,8 @@ pub(super) struct Extent {
     pub(super) across: f64,
 }
 
-/// Standard deviation of the average in wavelengths along the line; its limit, by which the average covers at most
-/// half of the line; and its cutoff, in standard deviations.
+/// Standard deviation of the average, in wavelengths along the line; it is limited so that the average covers at most
+/// half of the line. Second constant: its cutoff, in standard deviations.
 const AVERAGED: f64 = 0.6;
 const ENDS: f64 = 3.5;
 /// Magnitude of ψ relative to its mean below which its phase is undetermined.

@@ -195,7 +195,7 @@ pub struct CycleFound {
     /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
-    /// Maxima of l in one period.
+    /// Number of maxima of l in one period.
     pub slips: usize,
     /// One period, beginning at the maximum of l, at uneven times: densely sampled where the motion is fast.
     pub profile: CycleProfile,

@@ -75,7 +75,7 @@ pub struct OscillationDocument {
     /// Error of `amplitude_u`, in kσ²/a; null if that is null.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
-    /// Maxima of l in one period.
+    /// Number of maxima of l in one period.
     pub slips: usize,
     /// Largest change of a maximum of l from one period to the next, over the amplitude.
     pub drift: f64,

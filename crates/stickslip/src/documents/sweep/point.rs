@@ -81,7 +81,7 @@ pub struct SweepPoint {
     /// Standard deviation of l at these times, σ, a measure of oscillation in stick-slip or by noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviation_l: Option<f64>,
-    /// Maxima of l in one period.
+    /// Number of maxima of l in one period.
     pub slips: Option<usize>,
     /// Largest modulus of the Floquet multipliers except that of a shift in time; for cycles only. The error is at
     /// most 5e-8 above 0.01 and at most 1e-6 below.

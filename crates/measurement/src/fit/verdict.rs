@@ -84,7 +84,7 @@ struct Part {
     judged: Judged,
     noise: Noise,
     freedom: f64,
-    /// Columns of the model's free directions and columns of arbitrary waves, on these rows alone.
+    /// Columns of arbitrary waves, and below the linear columns of the model, on these rows alone.
     tests: Vec<Vec<f64>>,
     linear: Vec<Vec<f64>>,
     residuals: Vec<f64>,

@@ -38,7 +38,7 @@ pub struct Parameter {
     pub is_required: bool,
     /// The symbol of its value on the help page, such as `R`.
     pub symbol: String,
-    /// The group of parameters that it belongs to, such as `Wider law`.
+    /// The group of parameters that it belongs to, such as `Extended model`.
     pub group: String,
     /// Its rank on the help page.
     place: u64,

@@ -60,7 +60,7 @@ pub(crate) struct ModelArguments {
 
 /// Options of the extended model.
 #[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Wider law")]
+#[command(next_help_heading = "Extended model")]
 pub(crate) struct WiderArguments {
     /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b) [default: none].
     #[arg(long, value_name = "B", allow_hyphen_values = true)]

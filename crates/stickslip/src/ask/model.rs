@@ -148,20 +148,20 @@ fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionErro
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Law {
     /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b).
-    #[schemars(extend("x-option" = option("B", "Wider law", 10)))]
+    #[schemars(extend("x-option" = option("B", "Extended model", 10)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_limit: Option<f64>,
     /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0.
-    #[schemars(extend("x-option" = option("T", "Wider law", 11)))]
+    #[schemars(extend("x-option" = option("T", "Extended model", 11)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub healing_time: Option<f64>,
     /// Inertia M of the tip, in Γ²/k; above 0.
-    #[schemars(extend("x-option" = option("M", "Wider law", 12)))]
+    #[schemars(extend("x-option" = option("M", "Extended model", 12)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<f64>,
     /// No spring and no support: a particle driven by its own groove. There is no r then, α may be below 0, and the
     /// initial surface is flat.
-    #[schemars(extend("x-option" = option("", "Wider law", 13)))]
+    #[schemars(extend("x-option" = option("", "Extended model", 13)))]
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub no_spring: bool,
 }

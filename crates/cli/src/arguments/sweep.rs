@@ -101,7 +101,7 @@ pub(crate) struct SweepArguments {
 
 /// Options of the extended model, each a range.
 #[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Wider law")]
+#[command(next_help_heading = "Extended model")]
 pub(crate) struct WiderRanges {
     /// Depth limit b of (61), in kσ²/a; above 0 [default: none].
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]

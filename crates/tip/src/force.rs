@@ -10,29 +10,29 @@ use thiserror::Error;
 /// A Gaussian pulse A exp(-(t-T)²/(2W²)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pulse {
-    /// A
+    /// Amplitude A.
     pub amplitude: f64,
-    /// T
+    /// Time T of the maximum.
     pub time: f64,
-    /// W
+    /// Width W.
     pub width: f64,
 }
 
-/// Why a force was refused.
+/// Errors in a force.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ForceError {
-    /// A pulse with a number that is not finite.
+    /// A pulse contains a number that is not finite.
     #[error("the pulse {0:?} has an entry that is not a finite number")]
     PulseNotFinite(Pulse),
-    /// A pulse of no width.
+    /// The width of a pulse is not positive.
     #[error("the pulse {0:?} needs a width above 0")]
     PulseWidth(Pulse),
-    /// A table that is no function of time.
+    /// The table is not a function of time.
     #[error("the force table: {0}")]
     Table(#[from] crate::series::SeriesError),
 }
 
-/// Sum of pulses, a table and, for tests and manufactured solutions, a function.
+/// An external force: the sum of pulses, a table and, for tests and manufactured solutions, a function.
 #[derive(Clone, Default)]
 pub struct Force {
     pulses: Vec<Pulse>,
@@ -50,28 +50,28 @@ impl fmt::Debug for Force {
     }
 }
 
-/// exp(-10²/2) = 2e-22: a pulse is nothing outside of this many widths.
+/// Cut-off of a pulse, in widths: exp(-10²/2) = 2e-22.
 const WIDTHS_OF_PULSE: f64 = 10.0;
-/// Steps within a pulse are at most this many of its widths long, so that none is jumped over.
+/// Longest step within a pulse, in widths of the pulse, so that no step skips it.
 const WIDTHS_PER_STEP: f64 = 1.5;
 
 impl Pulse {
-    /// Whether it is felt just after t.
+    /// Whether the pulse acts immediately after t.
     fn acts_after(&self, t: f64) -> bool {
         self.begins() <= t && t < self.ends()
     }
 
-    /// Before this time it is nothing.
+    /// The time before which the pulse is 0.
     fn begins(&self) -> f64 {
         self.time - WIDTHS_OF_PULSE * self.width
     }
 
-    /// After this time it is nothing.
+    /// The time after which the pulse is 0.
     fn ends(&self) -> f64 {
         self.time + WIDTHS_OF_PULSE * self.width
     }
 
-    /// Adds its coefficients: `W² F' = -(t - T) F`.
+    /// Adds the Taylor coefficients of the pulse: `W² F' = -(t - T) F`.
     fn add_series(&self, t: f64, coefficients: &mut [f64]) {
         let z = (t - self.time) / self.width;
         let (mut before, mut here) = (0.0, self.amplitude * libm::exp(-0.5 * z * z));
@@ -106,19 +106,19 @@ impl Force {
         Ok(Self { pulses, table, function: None })
     }
 
-    /// Any smooth function of time; it must vary over times of order one.
+    /// A force given by any smooth function of time; it must vary over times of order one.
     pub fn from_fn(function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self { function: Some(Arc::new(function)), ..Self::default() }
     }
 
-    /// With one more pulse.
+    /// Adds a pulse.
     #[must_use]
     pub fn with_pulse(mut self, pulse: Pulse) -> Self {
         self.pulses.push(pulse);
         self
     }
 
-    /// Its pulses.
+    /// The pulses.
     #[must_use]
     pub fn pulses(&self) -> &[Pulse] {
         &self.pulses
@@ -137,8 +137,8 @@ impl Force {
             + self.function.as_ref().map_or(0.0, |f| f(t))
     }
 
-    /// Coefficients of powers of the time from t on, up to the next break; false if they are not known, of a
-    /// function of time.
+    /// Taylor coefficients of the force about t, valid up to the next break. The result is false if they are unknown,
+    /// for a function of time.
     pub(crate) fn series(&self, t: f64, coefficients: &mut [f64]) -> bool {
         coefficients.fill(0.0);
         for pulse in self.pulses.iter().filter(|pulse| pulse.acts_after(t)) {
@@ -153,7 +153,7 @@ impl Force {
         self.function.is_none()
     }
 
-    /// The time from which on it is nothing; none for a function of time, of which that is not known.
+    /// The time after which the force is 0: -∞ without any force, infinite for a function of time.
     #[must_use]
     pub fn ends(&self) -> f64 {
         let pulses = self.pulses.iter().map(Pulse::ends);
@@ -162,7 +162,7 @@ impl Force {
         pulses.chain(table).chain(function).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The time up to which it is nothing: infinite where there is none at all, -∞ for a function of time.
+    /// The time before which the force is 0: infinite without any force, -∞ for a function of time.
     #[must_use]
     pub fn begins(&self) -> f64 {
         let acting = self.pulses.iter().filter(|pulse| pulse.amplitude.abs() > 0.0);
@@ -172,8 +172,8 @@ impl Force {
         pulses.chain(table).chain(function).fold(f64::INFINITY, f64::min)
     }
 
-    /// The next time after t at which a step must end: where a pulse begins or ends, and the knots of
-    /// the table, so that the force is smooth within every step.
+    /// The next time after t at which a step must end, so that the force is smooth within every step: the start or
+    /// end of a pulse, or a knot of the table.
     pub(crate) fn next_break(&self, t: f64) -> f64 {
         let edges = self.pulses.iter().flat_map(|p| [p.begins(), p.ends()]);
         let knot = self.table.as_ref().map_or(f64::INFINITY, |table| table.next_knot(t));

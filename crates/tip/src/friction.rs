@@ -1,29 +1,29 @@
-//! The work that the support does on a tip: friction.
+//! Friction: the work that the support does on a tip.
 
 use crate::{Step, Support, SupportPath, Trajectory};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
-/// A closed loop of the support: from where it started, back to there.
+/// A closed loop of the support.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loop {
-    /// Time at which it begins, in Γ/k.
+    /// Start time, in Γ/k.
     pub from: f64,
-    /// Time at which it ends, in Γ/k.
+    /// End time, in Γ/k.
     pub to: f64,
-    /// ∮ (R - x0)dR, in kσ².
+    /// Work ∮ (R - x0)dR, in kσ².
     pub work: f64,
 }
 
-/// The lag is a polynomial of a degree below twice this on each step.
+/// Number of Gauss points: on each step the lag is a polynomial of a degree below twice this number.
 const POINTS: usize = 4;
 
 static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(POINTS).unwrap() }));
 
-/// The loops of a support on a path, one after the other: each ends where the support is back where it started and
-/// goes the way it went then, or stops. None for one that moves with r.
+/// Successive loops of a support on a path. Each ends when the support returns to its first position and moves in its
+/// first direction, or when it stops there. A support of constant velocity has no loops.
 #[must_use]
 pub fn loops(motion: &Trajectory) -> Vec<Loop> {
     let Support::Path(path) = motion.support() else { return vec![] };
@@ -39,7 +39,7 @@ pub fn loops(motion: &Trajectory) -> Vec<Loop> {
         .collect()
 }
 
-/// ∫ (R - x0)dR from one time to another.
+/// Work ∫ (R - x0)dR of the support between two times.
 #[must_use]
 pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
     let support = motion.support();
@@ -55,8 +55,8 @@ pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
     motion.steps().iter().map(of_step).sum()
 }
 
-/// Times after the start at which the support is back where it started, going the way it went first, or at the end
-/// of its path.
+/// Times after the start at which the support is at its first position again, and moves in its first direction or is
+/// at the end of its path.
 fn returns(path: &SupportPath) -> Vec<f64> {
     let (t, way) = path.knots();
     let pieces = || t.windows(2).zip(way.windows(2));

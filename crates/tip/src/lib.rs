@@ -1,18 +1,17 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
-//! The closed delay equation of a tip that carves the surface it is dragged over.
+//! The closed delay equation of a tip that is dragged over a surface and carves it.
 //!
-//! A tip at x0(t), pulled by a spring whose far end moves with velocity r, indents a soft surface
-//! u(x,t) with its footprint f and is pushed down the slope that it left there itself:
+//! A spring whose far end moves with velocity r pulls a tip at x0(t). The tip indents a soft surface u(x,t) with its
+//! footprint f, and the slope of its own groove pushes it downhill:
 //!
 //! ```text
 //!     x0'(t)  = -u_x(x0(t), t) + r t - x0(t) + Fext(t)            (10)
 //!     u_t(x,t) = -α f(x - x0(t))                                  (11)
 //! ```
 //!
-//! All that the surface does to the tip is a memory of the tip's own past, so x0(t) alone obeys a
-//! closed equation (18), which this crate integrates: [`run`]. Lengths are in units of the tip width
-//! σ, times in units of Γ/k. Equation numbers are those of the paper named in the project's README;
-//! `docs/mathematics.md` derives them again.
+//! The surface depends on the past positions of the tip alone, so that x0(t) obeys a closed equation (18), which this
+//! crate integrates: [`run`]. Lengths are in units of the tip width σ, times in units of Γ/k. Equation numbers are
+//! those of the paper named in the project's README; `docs/mathematics.md` contains the derivations.
 
 pub mod collocation;
 pub mod elementary;

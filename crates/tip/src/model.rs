@@ -1,4 +1,4 @@
-//! The model: a tip function, the two numbers α and r, and what a wider law adds to them.
+//! The model: a tip function, the two numbers α and r, and the terms of the extended model.
 
 use crate::wider::{Wider, WiderError};
 use crate::{TipFunction, lambert};
@@ -24,13 +24,13 @@ pub enum ModelError {
     /// r must be finite and > 0.
     #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0:?}")]
     R(f64),
-    /// A tip without a spring has no support to be dragged by: r is 0.
+    /// r must be 0 without a spring, because there is no support.
     #[error("without a spring there is no support, and no velocity r of it, not {0:?}")]
     SupportWithoutSpring(f64),
-    /// cos x has no depth of its own.
+    /// A depth limit needs a footprint with a mean depth; cos x has none.
     #[error("the tip cosine has no mean depth, and cannot be under a depth limit")]
     Cosine,
-    /// A parameter of the wider law.
+    /// A parameter of the extended model is out of range.
     #[error(transparent)]
     Wider(#[from] WiderError),
 }
@@ -42,10 +42,10 @@ impl Model {
         Self::under(Wider::default(), tip, alpha, r)
     }
 
-    /// Under a wider law. Without a spring α may be below 0, and r is 0.
+    /// A model with the terms of the extended model. Without a spring α may be below 0, and r is 0.
     ///
     /// # Errors
-    /// As [`new`](Self::new); a parameter of the wider law out of its range.
+    /// As [`new`](Self::new); a parameter of the extended model out of its range.
     pub fn under(wider: Wider, tip: TipFunction, alpha: f64, r: f64) -> Result<Self, ModelError> {
         wider.validate()?;
         if !(alpha.is_finite() && (alpha >= 0.0 || !wider.spring)) {
@@ -81,19 +81,19 @@ impl Model {
         self.r
     }
 
-    /// What the wider law adds to the paper's.
+    /// Terms of the extended model.
     #[must_use]
     pub fn wider(&self) -> &Wider {
         &self.wider
     }
 
-    /// s = 1/(rT): how fast what a steady tip left fades with the distance from it. 0 without healing.
+    /// Decay rate s = 1/(rT), per unit length, of the groove of steady motion behind the tip; 0 without healing.
     #[must_use]
     pub fn fading(&self) -> f64 {
         self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
     }
 
-    /// w0, the rate of indentation of a tip in steady motion, relative to α: 1 without a depth limit.
+    /// Relative indentation rate w0 of a tip in steady motion, in units of α: 1 without a depth limit.
     ///
     /// With b of (61) the height under the tip is h0 = -(α w0/r)φ, φ = ∫_0^∞ f(y) e^{-sy}dy, and
     /// w0 = e^{-|h0|/b}, so that w0 = W(c)/c with c = α|φ|/(rb) and Lambert's W.
@@ -105,20 +105,20 @@ impl Model {
         if c > 0.0 { lambert::w0(c) / c } else { 1.0 }
     }
 
-    /// h0, the height of the surface under a tip in steady motion.
+    /// Height h0 of the surface under a tip in steady motion.
     #[must_use]
     pub fn steady_height(&self) -> f64 {
         0.0 - self.steady_density() * self.tip.fading_tail(0.0, self.fading())
     }
 
-    /// α w0/r: what a tip in steady motion indents per length of its way.
+    /// Indentation α w0/r per unit length of the path in steady motion.
     #[must_use]
     pub fn steady_density(&self) -> f64 {
         self.alpha * self.steady_weight() / self.r
     }
 
-    /// l0, the value of l = rt - r - x0 in steady motion: α f(0)/r. (21) prints α/r, which holds where
-    /// f(0) = 1. Under the wider law (α w0/r)(f(0) - sφ), with the φ of [`steady_weight`](Self::steady_weight).
+    /// Value l0 of l = rt - r - x0 in steady motion: α f(0)/r. Equation (21) has α/r, which requires f(0) = 1. In the
+    /// extended model it is (α w0/r)(f(0) - sφ), with the φ of [`steady_weight`](Self::steady_weight).
     #[must_use]
     pub fn steady_l(&self) -> f64 {
         let apex = self.tip.value(0.0);
@@ -131,13 +131,13 @@ impl Model {
         }
     }
 
-    /// r + l0, the distance by which the tip lags behind the support in steady motion, (23).
+    /// Lag r + l0 of the tip behind the support in steady motion, (23).
     #[must_use]
     pub fn steady_lag(&self) -> f64 {
         self.r + self.steady_l()
     }
 
-    /// Height that steady motion leaves far behind the tip, (25); nothing where the surface heals.
+    /// Height of the surface far behind a tip in steady motion, (25); 0 if the surface heals.
     #[must_use]
     pub fn steady_surface_behind(&self) -> f64 {
         if self.wider.healing_time.is_some() {

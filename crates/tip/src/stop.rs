@@ -1,8 +1,8 @@
-//! How long work is told that nobody waits for it any more.
+//! Cancellation of long computations.
 //!
-//! Whoever starts long work on this thread lends it a flag, which a signal handler or another thread may raise;
-//! loops that may be long look at it, and end early as if they had failed. It is the thread's own, so that the
-//! work of others goes on.
+//! The caller of a long computation sets a flag for its own thread, which a signal handler or another thread may
+//! raise. Long loops read the flag and end early with an error. The flag applies to this thread only, so that other
+//! computations continue.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -22,9 +22,9 @@ thread_local! {
     static FLAG: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
-/// Does some work on this thread, that ends early once the flag is raised.
+/// Runs a computation on this thread; it ends early once the flag is raised.
 pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
-    /// Puts back what was there before, even where the work panics.
+    /// Restores the previous flag, even after a panic.
     struct Before(Option<Arc<AtomicBool>>);
     impl Drop for Before {
         fn drop(&mut self) {
@@ -35,13 +35,13 @@ pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T 
     work()
 }
 
-/// The flag lent to this thread, for it to lend to others that share its work.
+/// The flag of this thread, to be shared with other threads that take part in its computation.
 #[must_use]
 pub fn flag() -> Option<Arc<AtomicBool>> {
     FLAG.with_borrow(Clone::clone)
 }
 
-/// Whether the work under way on this thread is to end.
+/// Whether the computation on this thread is to end.
 #[must_use]
 pub fn is_asked() -> bool {
     FLAG.with_borrow(|flag| flag.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))

@@ -1,4 +1,4 @@
-//! Where the support of the spring is: R(t).
+//! Position R(t) of the support of the spring.
 
 use crate::series::{SeriesError, checked};
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use thiserror::Error;
 /// The motion of the support.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Support {
-    /// R = rt
+    /// A support of constant velocity: R = rt.
     Moving(f64),
-    /// On a path of its own.
+    /// A support on a given path.
     Path(Arc<SupportPath>),
-    /// There is none: R is 0, where the tip started from.
+    /// No support, because there is no spring; R is set to 0.
     None,
 }
 
@@ -25,10 +25,10 @@ pub struct SupportPath {
     displacement: Vec<f64>,
 }
 
-/// Why a path was refused.
+/// Errors in a path.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PathError {
-    /// No function of time.
+    /// The path is not a function of time.
     #[error("the path of the support: {0}")]
     Series(#[from] SeriesError),
     /// The first row is not t = 0, R = 0.
@@ -36,15 +36,15 @@ pub enum PathError {
         "the path of the support begins at t = {t:?}, R = {displacement:?}: times and displacements count from the start of the run, so that its first row is 0,0"
     )]
     Start {
-        /// First time.
+        /// Time of the first row.
         t: f64,
-        /// First displacement.
+        /// Displacement of the first row.
         displacement: f64,
     },
 }
 
 impl SupportPath {
-    /// Through these knots, straight between them; times and displacements from the start of the run.
+    /// A piecewise linear path through these knots; times and displacements are relative to the start of the run.
     ///
     /// # Errors
     /// Fewer than two rows, a number that is not finite, times that do not increase, or a first row other
@@ -57,13 +57,13 @@ impl SupportPath {
         Ok(Self { start: 0.0, t, displacement })
     }
 
-    /// From this position at t = 0.
+    /// The same path with this position at t = 0.
     #[must_use]
     pub fn starting_at(self, start: f64) -> Self {
         Self { start, ..self }
     }
 
-    /// The last time for which it is known.
+    /// The last time of the path.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.t[self.t.len() - 1]
@@ -75,7 +75,7 @@ impl SupportPath {
         (&self.t, &self.displacement)
     }
 
-    /// Number of the piece at t, the one after a knot.
+    /// Number of the piece that contains t; at a knot, that of the piece after it.
     fn piece(&self, t: f64) -> usize {
         self.t.partition_point(|knot| *knot <= t).clamp(1, self.t.len() - 1) - 1
     }
@@ -92,7 +92,7 @@ impl SupportPath {
 }
 
 impl Support {
-    /// R(t).
+    /// Position R(t).
     #[must_use]
     pub fn position(&self, t: f64) -> f64 {
         match self {
@@ -102,7 +102,7 @@ impl Support {
         }
     }
 
-    /// R(t + dt) - R(t), for a dt ≥ 0 within the piece that begins at t or holds it.
+    /// Advance R(t + dt) - R(t), for dt ≥ 0 within the piece that contains t or begins there.
     #[must_use]
     pub fn advance(&self, t: f64, dt: f64) -> f64 {
         match self {
@@ -112,7 +112,7 @@ impl Support {
         }
     }
 
-    /// R'(t), after a knot.
+    /// Velocity R'(t); at a knot, that after it.
     #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
         match self {

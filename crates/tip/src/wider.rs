@@ -1,4 +1,4 @@
-//! What a wider law adds to the paper's (10), (11): a depth limit, healing, inertia; no spring.
+//! The extended model: a depth limit, healing and inertia in addition to (10), (11); optionally without the spring.
 //!
 //! ```text
 //!     M x0'' + x0' = -u_x(x0,t) + κ (R(t) - x0) + Fext(t)
@@ -6,26 +6,26 @@
 //!     w(t) = exp(-|h(t)|/b),   h = u(x0,t)                        (61)
 //! ```
 //!
-//! The paper says of (61) that no closed equation exists for it. It does: the height h under the tip is one
-//! more sum over the tip's past, each visit with its own weight w. So the past stays a groove.
+//! According to the paper no closed equation exists for (61). There is one: the height h under the tip is a further
+//! integral over the past of the tip, with a weight w for each position. So the history remains a groove.
 
 use crate::elementary::exp;
 use thiserror::Error;
 
-/// b, T, M and κ. The default is the paper's law.
+/// The parameters b, T, M and κ. The default is the basic model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wider {
-    /// b of (61), in kσ²/a, the unit of heights: the rate of indentation falls as e^{-|h|/b}.
+    /// Depth limit b of (61), in kσ²/a, the unit of heights: the indentation rate falls as e^{-|h|/b}.
     pub depth_limit: Option<f64>,
-    /// T, in Γ/k: the surface comes back as e^{-t/T}.
+    /// Relaxation time T of the surface, in Γ/k: indentations decay as e^{-t/T}.
     pub healing_time: Option<f64>,
-    /// M, in Γ²/k.
+    /// Inertia M, in Γ²/k.
     pub inertia: Option<f64>,
-    /// Whether there is a spring: κ is 1 or 0.
+    /// Whether there is a spring: κ = 1 with a spring, 0 without.
     pub spring: bool,
 }
 
-/// A parameter of the wider law out of its range.
+/// A parameter of the extended model is out of range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum WiderError {
     /// b must be finite and > 0.
@@ -47,12 +47,12 @@ impl Default for Wider {
     }
 }
 
-/// Numbers between which products of a few of them are finite.
+/// Range of the parameters; products of a few of them are finite.
 const RANGE: (f64, f64) = (1e-100, 1e100);
 
 impl Wider {
     /// # Errors
-    /// A parameter that is no finite number above 0.
+    /// A parameter that is not a finite number above 0.
     pub fn validate(&self) -> Result<(), WiderError> {
         let bad = |value: &f64| !(RANGE.0..=RANGE.1).contains(value);
         if let Some(b) = self.depth_limit.filter(bad) {
@@ -67,31 +67,32 @@ impl Wider {
         Ok(())
     }
 
-    /// Whether the tip swings back after a slip: from M = 1/2 on its spring alone makes it resonate.
+    /// Whether the tip is resonant: for M > 1/2 it swings back after a slip by its spring alone.
     #[must_use]
     pub fn swings_back(&self) -> bool {
         self.inertia.is_some_and(|mass| mass > 0.5)
     }
 
-    /// Whether a tip can be held for ever: a depth limit lets the groove deepen ever more slowly, healing lets it go.
+    /// Whether the model allows permanent trapping: not with a depth limit, which slows the growth of the groove ever
+    /// more, and not with healing, which removes the groove.
     #[must_use]
     pub fn traps(&self) -> bool {
         self.depth_limit.is_none() && self.healing_time.is_none()
     }
 
-    /// Whether it is the paper's law.
+    /// Whether it is the basic model.
     #[must_use]
     pub fn is_papers(&self) -> bool {
         *self == Self::default()
     }
 
-    /// w of (61) at the height h under the tip.
+    /// Weight w of (61) at the height h under the tip.
     #[must_use]
     pub fn weight(&self, height: f64) -> f64 {
         self.depth_limit.map_or(1.0, |limit| exp(-height.abs() / limit))
     }
 
-    /// What is left after a time of what was there: e^{-time/T}.
+    /// Undecayed part e^{-time/T} of an indentation after this time.
     #[must_use]
     pub fn left_after(&self, time: f64) -> f64 {
         self.healing_time.map_or(1.0, |healing| exp(-time / healing))

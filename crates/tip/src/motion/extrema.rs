@@ -1,4 +1,4 @@
-//! Maxima and minima of l(t), the latest of them.
+//! The latest maxima and minima of l(t).
 
 use crate::collocation::{RADAU, STAGES, apply};
 use crate::roots::zero_between;
@@ -6,37 +6,37 @@ use crate::state::{Damaged, Reader, State};
 use crate::{Step, Trajectory};
 use std::collections::VecDeque;
 
-/// A time and the value of l there.
+/// An extremum of l(t): its time and value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extremum {
-    /// In Γ/k.
+    /// Time, in Γ/k.
     pub t: f64,
-    /// l there, in σ.
+    /// Value of l, in σ.
     pub l: f64,
-    /// Whether l falls on both sides.
+    /// Whether it is a maximum.
     pub is_maximum: bool,
 }
 
-/// Where in a step an extremum lies: it is found more exactly only where it is needed.
+/// The place of an extremum within a step; its exact time is computed only on request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
     pub step: Step,
-    /// Fractions of the step.
+    /// Bracket of the extremum, in fractions of the step.
     between: (f64, f64),
     is_maximum: bool,
 }
 
-/// The latest extrema of l, in order.
+/// The latest extrema of l, in order of time.
 #[derive(Debug, Clone, Default)]
 pub struct Extrema {
     latest: VecDeque<Turn>,
 }
 
-/// So many are enough to compare three cycles of up to eight slips.
+/// Largest number of extrema kept: enough to compare three cycles of up to eight slips.
 const MOST: usize = 64;
 
 impl Extrema {
-    /// Adds those of a step; says whether there were any.
+    /// Adds the extrema within a step; returns whether there are any.
     pub fn observe(&mut self, step: &Step, r: f64) -> bool {
         let mut found = false;
         turns(step, r, |turn| {
@@ -49,24 +49,24 @@ impl Extrema {
         found
     }
 
-    /// Forgets those of steps before t.
+    /// Removes the extrema within steps that begin before t.
     pub fn forget_before(&mut self, t: f64) {
         while self.latest.front().is_some_and(|turn| turn.step.t < t) {
             self.latest.pop_front();
         }
     }
 
-    /// The earliest one kept, if as many are kept as are needed.
+    /// The earliest extremum, if the largest number of them is kept.
     pub fn earliest_needed(&self) -> Option<&Turn> {
         self.latest.front().filter(|_| self.latest.len() == MOST)
     }
 
-    /// All that are kept, latest first.
+    /// All extrema kept, latest first.
     pub fn latest_first(&self, r: f64) -> Vec<Extremum> {
         self.latest.iter().rev().map(|turn| turn.extremum(r)).collect()
     }
 
-    /// Writes down all that it holds.
+    /// Writes all its data to a state.
     pub fn save(&self, state: &mut State) {
         state.count(self.latest.len() as u64);
         for turn in &self.latest {
@@ -77,10 +77,10 @@ impl Extrema {
         }
     }
 
-    /// Takes up what [`save`](Self::save) wrote.
+    /// Reads the data that [`save`](Self::save) wrote.
     ///
     /// # Errors
-    /// A state of something else.
+    /// A state that does not contain extrema.
     pub fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let one = |state: &mut Reader| {
             let (step, between) = (state.step()?, (state.finite()?, state.finite()?));
@@ -110,7 +110,7 @@ impl Turn {
     }
 }
 
-/// Where l' = r - x0' changes sign between collocation nodes of the step.
+/// Finds sign changes of l' = r - x0' between collocation nodes of the step.
 fn turns(step: &Step, r: f64, mut found: impl FnMut(Turn)) {
     let at_start: f64 =
         (0..STAGES).map(|j| RADAU.derivative_at_start[j] * step.displacement[j]).sum();

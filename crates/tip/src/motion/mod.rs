@@ -1,5 +1,5 @@
-//! What a trajectory shows: the maxima and minima of l(t), and the period and amplitude of a motion that
-//! repeats itself. What the motion *is*, its regime, is for `stickslip-outcome` to say.
+//! Properties of a trajectory: the maxima and minima of l(t), and the period and amplitude of a periodic motion.
+//! `stickslip-outcome` classifies the motion into regimes.
 
 mod extrema;
 mod oscillation;

@@ -1,4 +1,4 @@
-//! Period and amplitude of a motion that repeats itself.
+//! Period and amplitude of a periodic motion.
 
 use super::extrema::Extremum;
 use crate::Trajectory;
@@ -9,27 +9,27 @@ use crate::roots::zero_between;
 pub struct Oscillation {
     /// Period of l(t).
     pub period: f64,
-    /// Wavelength of the surface behind the tip: the way of the support in one period.
+    /// Wavelength of the surface behind the tip: the path of the support in one period.
     pub wavelength: f64,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance.
+    /// Half the peak-to-peak value of l, that is, of x0 minus its steady advance.
     pub amplitude_x0: f64,
-    /// Maxima of l in one period: 2 after a period doubling.
+    /// Number of maxima of l in one period: 2 after a period doubling.
     pub slips: usize,
-    /// Largest change of a maximum of l from one period to the next, over the amplitude: how far the
-    /// motion still is from repeating itself.
+    /// Largest change of a maximum of l from one period to the next, in units of the amplitude: the deviation from a
+    /// periodic motion.
     pub drift: f64,
-    /// Time at which the last whole period begins.
+    /// Start time of the last whole period.
     pub last_period_from: f64,
 }
 
-/// Changes from cycle to cycle below this fraction of the amplitude count as repetition.
+/// Largest change between cycles, in units of the amplitude, of a motion that counts as periodic.
 const REPEATS_WITHIN: f64 = 1e-3;
 const MOST_SLIPS: usize = 8;
-/// Cycles that must repeat each other.
+/// Number of cycles that must agree.
 const CYCLES: usize = 3;
 
 impl Oscillation {
-    /// The cycle with the fewest maxima that the end of the trajectory repeats, if there is one.
+    /// The cycle with the fewest maxima that is repeated at the end of the trajectory, if there is one.
     #[must_use]
     pub fn of(trajectory: &Trajectory, latest_first: &[Extremum]) -> Option<Self> {
         (1..=MOST_SLIPS).find_map(|slips| {
@@ -43,7 +43,8 @@ impl Oscillation {
         })
     }
 
-    /// The last stretch between maxima of which so many make a period, whether or not it repeats itself.
+    /// The last interval between maxima that contains a period of `slips` maxima, whether or not the motion is
+    /// periodic.
     #[must_use]
     pub fn with_slips(
         trajectory: &Trajectory,
@@ -74,7 +75,7 @@ fn maxima(latest_first: &[Extremum]) -> Vec<Extremum> {
     latest_first.iter().filter(|e| e.is_maximum).copied().collect()
 }
 
-/// The last time before t at which l rises through a level.
+/// The last time before t at which l crosses a level upwards.
 fn last_rise_through(
     trajectory: &Trajectory,
     latest_first: &[Extremum],

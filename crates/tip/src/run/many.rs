@@ -1,4 +1,4 @@
-//! Many runs, those side by side that allow it.
+//! Many runs, vectorised where possible.
 
 use super::{MOST_STEPS, Run, RunError, Scenario, Start, run};
 use crate::integrator::{BeginBeside, EndedBeside, SideBySide, Work};
@@ -6,7 +6,7 @@ use crate::memory::{Fit, MemoryChoice, MemoryReport, Retreat, Sum, accuracy_need
 use crate::{Step, TipFunction, Trajectory};
 use std::sync::Arc;
 
-/// Runs of all these scenarios, as [`run`] makes each, in their order: see [`run_each`].
+/// Runs of all these scenarios, each as by [`run`] and in the order of the scenarios: see [`run_each`].
 #[must_use]
 pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
     let mut runs: Vec<_> = scenarios.iter().map(|_| None).collect();
@@ -14,12 +14,13 @@ pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
     runs.into_iter().flatten().collect()
 }
 
-/// Makes a run of each of these scenarios, and hands it over with its number when it has ended, in any order.
+/// Runs all these scenarios and passes each result, with the number of its scenario, to `ended` as soon as it is
+/// complete. The order is not specified.
 ///
-/// Under the basic law, without forces, noise and profiles, where the memory is `auto` or `modes`, motions of one footprint
-/// and one tolerance go side by side in the lanes of the machine, in less than half of the time ([`Run::side_by_side`]).
-/// They are as accurate as those that [`run`] makes, though not the same to the last bits; they do not depend
-/// on what other scenarios there are. All others, and those that become too stiff on the way, are made by [`run`].
+/// Some motions are integrated together in SIMD lanes, in less than half of the time ([`Run::side_by_side`]). They
+/// must have one footprint, one tolerance, the basic model, the memory `auto` or `modes`, and no force, noise or
+/// profile. They are as accurate as the runs of [`run`] but differ in the last bits; they do not depend on the other
+/// scenarios. [`run`] integrates all other scenarios, and those that become too stiff during the run.
 ///
 /// ```
 /// use stickslip_tip::{Model, Scenario, TipFunction, run_each};
@@ -51,7 +52,7 @@ pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run,
     }
 }
 
-/// Motions that go side by side: of one footprint, in one sum of exponentials, to one tolerance.
+/// Motions that share SIMD lanes: they have one footprint, one sum of exponentials and one tolerance.
 struct Group {
     tip: TipFunction,
     fit: Arc<Fit>,
@@ -86,7 +87,7 @@ fn groups(scenarios: &[Scenario]) -> Vec<Group> {
     groups
 }
 
-/// Whether nothing acts but the groove and a support of one velocity.
+/// Whether the groove and a support of constant velocity are the only forces.
 fn is_plain(scenario: &Scenario) -> bool {
     let Scenario { model, path, start_velocity, noise, profile, force, memory, .. } = scenario;
     let is_free = path.is_none() && start_velocity.is_none() && force.begins().is_infinite();

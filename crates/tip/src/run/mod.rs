@@ -1,4 +1,4 @@
-//! A run: a tip set going from a given start, integrated to a given time.
+//! A run: the motion of a tip from a given start to a given time.
 
 mod many;
 mod running;
@@ -16,32 +16,33 @@ use std::ops::ControlFlow;
 /// A finished run.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// u0(x), what the tip found at the start.
+    /// Surface u0(x) at the start.
     pub initial_surface: InitialSurface,
     /// x0(t) at every t of the run.
     pub trajectory: Trajectory,
-    /// Counts.
+    /// Numbers of steps, iterations and series.
     pub work: Work,
     /// Name of the memory in use at the end.
     pub memory: &'static str,
-    /// Why that one.
+    /// Reason for this memory.
     pub memory_reason: String,
-    /// Whether the observer stopped it before `until`.
+    /// Whether the observer stopped the run before `until`.
     pub interrupted: bool,
-    /// Whether its series were made side by side with those of other motions: [`run_each`].
+    /// Whether the run shared SIMD lanes with other motions: [`run_each`].
     pub side_by_side: bool,
 }
 
-/// Integrates (15) from the start of the scenario to its end, and keeps the whole history; for more than
-/// [`MOST_STEPS`] of it take the steps one by one from [`Running`].
+/// Integrates (15) from the start of the scenario to its end, and keeps the whole history. A history of more than
+/// [`MOST_STEPS`] steps is an error; for longer runs take the steps one by one from [`Running`].
 ///
 /// # Errors
-/// A parameter out of range, a tolerance that turned out not to be met, or too long a history.
+/// A parameter out of range, a tolerance that cannot be met, or too long a history.
 pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
     run_observed(scenario, |_| ControlFlow::Continue(()))
 }
 
-/// As [`run`], showing each accepted step to an observer, who may stop the run there; so may [`stop`].
+/// Integrates as [`run`], and passes each accepted step to an observer. The observer or [`stop`] may end the run
+/// there.
 ///
 /// # Errors
 /// As [`run`].

@@ -1,4 +1,4 @@
-//! A run under way: step by step, in bounded memory, to be saved and taken up again at any step.
+//! A run in progress: step by step, in bounded memory; it can be saved and resumed at any step.
 
 use super::{RunError, Scenario};
 use crate::integrator::{IntegrationError, Integrator, Work};
@@ -6,14 +6,14 @@ use crate::memory::{MemoryReport, Policy};
 use crate::state::{Damaged, Reader, Saved, State};
 use crate::{InitialSurface, Step};
 
-/// A tip on its way through a scenario. It keeps no history but what the memory needs.
+/// A tip in motion through a scenario. Of its history only the data of the memory are kept.
 pub struct Running<'a> {
     scenario: &'a Scenario,
     integrator: Integrator<'a, Policy>,
 }
 
 impl<'a> Running<'a> {
-    /// At the start of a scenario, over its [`Scenario::initial_surface`].
+    /// Begins a scenario over its [`Scenario::initial_surface`].
     ///
     /// # Errors
     /// A parameter out of range.
@@ -32,8 +32,8 @@ impl<'a> Running<'a> {
         Ok(Self { scenario, integrator })
     }
 
-    /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as
-    /// without the interruption.
+    /// Resumes a run from a state written by [`save`](Self::save). Every later step equals that of the uninterrupted
+    /// run, bit for bit.
     ///
     /// # Errors
     /// As [`new`](Self::new); a state that is not one of this scenario.
@@ -51,7 +51,7 @@ impl<'a> Running<'a> {
         Ok(running)
     }
 
-    /// All that the rest of the run depends on, beside the scenario.
+    /// Writes all data, except the scenario, that determine the rest of the run.
     pub fn save(&self, state: &mut State) {
         self.integrator.save(state);
     }
@@ -90,13 +90,13 @@ impl<'a> Running<'a> {
         self.memory_report().name()
     }
 
-    /// Why that one.
+    /// Reason for this memory.
     #[must_use]
     pub fn memory_reason(&self) -> String {
         self.memory_report().reason()
     }
 
-    /// Which memory is in use, why, and how it fared.
+    /// The memory in use, the reason for it, and its errors.
     #[must_use]
     pub fn memory_report(&self) -> MemoryReport {
         self.integrator.memory().report()

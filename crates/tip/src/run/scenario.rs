@@ -1,4 +1,4 @@
-//! Everything that defines a run, and what no run can be made of.
+//! Scenarios: all parameters of a run, and errors in them.
 
 use crate::integrator::IntegrationError;
 use crate::memory::{FitError, MemoryChoice, Policy, Retreat, accuracy_needed};
@@ -9,7 +9,7 @@ use crate::{Force, InitialSurface, Model, Noise, Step, Support, SupportPath, Tip
 use std::sync::Arc;
 use thiserror::Error;
 
-/// What the tip finds when it starts.
+/// The initial condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
     /// The steady state (22), (24), as after an infinite past: t1 = (X + r + l0)/r.
@@ -18,18 +18,18 @@ pub enum Start {
     Flat,
 }
 
-/// Everything that defines a run. Lengths in σ, times in Γ/k, forces in kσ.
+/// All parameters of a run. Lengths in σ, times in Γ/k, forces in kσ.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     /// Footprint, α and r.
     pub model: Model,
     /// Steady or flat.
     pub start: Start,
-    /// Position X that the start is made for.
+    /// Start position X, before the kick.
     pub start_position: f64,
     /// The tip starts at X - kick, so that l is `kick` above its start value.
     pub kick: f64,
-    /// A motion of the support of its own, from t = 0 on; `None`: it moves with r.
+    /// Path of the support, from t = 0 on; `None`: it moves with velocity r.
     pub path: Option<SupportPath>,
     /// Velocity V of a tip with inertia at the start; `None`: r on a steady start, 0 on a flat one.
     pub start_velocity: Option<f64>,
@@ -41,13 +41,13 @@ pub struct Scenario {
     pub force: Force,
     /// Time to integrate to.
     pub until: f64,
-    /// Largest error of l(t) asked for, in σ.
+    /// Target for the error of l(t), in σ.
     pub tolerance: f64,
     /// Memory to use.
     pub memory: MemoryChoice,
 }
 
-/// Why a run was refused or could not be finished.
+/// Errors of a run: an invalid scenario, or an integration that cannot be completed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
     /// X is not finite.
@@ -56,15 +56,15 @@ pub enum RunError {
     /// The kick is not finite.
     #[error("the kick must be a finite number, not {0:?}")]
     Kick(f64),
-    /// The start velocity is not finite, or means nothing.
+    /// The start velocity is not finite, or not 0 for a tip without inertia.
     #[error(
         "a start velocity of {0:?}: it must be a finite number, and only a tip with inertia has one of its own (without, the surface and the forces decide)"
     )]
     StartVelocity(f64),
-    /// The path of the support cannot be taken.
+    /// The path of the support is invalid.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// A path for a support that is not there.
+    /// A path is given, but without a spring there is no support.
     #[error("without a spring there is no support that could move on a path")]
     PathWithoutSpring,
     /// The path ends before the run does.
@@ -74,27 +74,27 @@ pub enum RunError {
     PathEnds {
         /// Its last time.
         end: f64,
-        /// End asked for.
+        /// Requested end.
         until: f64,
     },
-    /// There is no steady motion to start from.
+    /// The scenario has no steady motion to start from.
     #[error("{0}")]
     NoSteadyStart(&'static str),
-    /// The run would end before it begins.
+    /// The end of the run precedes its start.
     #[error("the run starts at t = {start:?}: it must end after that, not at {until:?}")]
     Until {
-        /// End asked for.
+        /// Requested end.
         until: f64,
         /// Time at which the tip is at its start position.
         start: f64,
     },
-    /// A tolerance that is no positive number, or that f64 cannot meet.
+    /// The tolerance is not a positive number, or f64 cannot meet it.
     #[error(
         "the tolerance must lie between {min:e}, below which round-off takes over, and {max}; {0:e} does not",
         min = TOLERANCES.0, max = TOLERANCES.1
     )]
     Tolerance(f64),
-    /// Positions so far out that the initial surface there cannot be resolved.
+    /// A position so large that its rounding error is too coarse for the initial surface there.
     #[error(
         "at x = {x:e} positions are rounded to {rounding:.1e}, too coarse for a tolerance of {tolerance:e} on the initial surface there: ask for a tolerance of {least:.1e} or above, or stay nearer to 0",
         rounding = f64::EPSILON * x, least = f64::EPSILON * x / SHARE_OF_ROUNDING
@@ -102,10 +102,11 @@ pub enum RunError {
     TooFar {
         /// Farthest position of the initial surface.
         x: f64,
-        /// As asked.
+        /// Requested tolerance.
         tolerance: f64,
     },
-    /// Noise that is negative or not finite, of no spacing, or on too many points.
+    /// The amplitude of the noise is negative or not finite, its spacing is not positive, or it needs too many
+    /// points.
     #[error(
         "noise of amplitude {:?} on a spacing of {:?}: both must be finite, the amplitude 0 or above, the spacing above 0, and the run would need {points:e} points (at most {MOST_NOISE_POINTS:e})",
         noise.amplitude, noise.spacing
@@ -116,16 +117,16 @@ pub enum RunError {
         /// Grid points between the start and the end.
         points: f64,
     },
-    /// An initial surface that is no function of x.
+    /// The initial surface is not a function of x.
     #[error("the initial surface: {0}")]
     Profile(SeriesError),
-    /// `modes` was asked for where it does not apply.
+    /// `modes` is requested but does not apply.
     #[error(transparent)]
     Modes(#[from] FitError),
-    /// The integration could not go on.
+    /// The integration cannot continue.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
-    /// More steps than a history can hold.
+    /// The history has too many steps.
     #[error(
         "at t = {t}: the history has {MOST_STEPS} steps, more than memory is allowed to hold; end the run earlier, or keep no history"
     )]
@@ -133,29 +134,29 @@ pub enum RunError {
         /// Time reached.
         t: f64,
     },
-    /// A saved state that is not one of this scenario.
+    /// The saved state does not belong to this scenario.
     #[error("the saved state cannot be taken up: {0}")]
     State(#[from] Damaged),
 }
 
-/// The longest history that is kept in memory.
+/// Largest number of steps in a history.
 pub const MOST_STEPS: usize = 1_700_000;
 
 // A run that is refused for its length has stayed below 256 MB until then.
 const _: () = assert!(MOST_STEPS * size_of::<Step>() <= 235_000_000);
 
-/// Tolerances that can be met: below 1e-13 round-off of positions takes over.
+/// Range of the tolerances. Below 1e-13 the rounding errors of positions dominate.
 pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
 
-/// Some 600 MB of splines.
+/// Largest number of noise points; their splines take some 600 MB.
 const MOST_NOISE_POINTS: f64 = 2e7;
-/// Roundings of a position may take up this share of the tolerance.
+/// Share of the tolerance available for rounding errors of positions.
 const SHARE_OF_ROUNDING: f64 = 0.05;
-/// Noise reaches this far behind the start and ahead of the support's last position.
+/// Length of the noise behind the start and ahead of the last position of the support.
 const NOISE_BEYOND: f64 = 30.0;
 
 impl Scenario {
-    /// The steady start at X = 14 without any disturbance, to a tolerance of 1e-9.
+    /// A steady start at X = 14 without any disturbance, with a tolerance of 1e-9.
     #[must_use]
     pub fn new(model: Model, until: f64) -> Self {
         Self {
@@ -174,8 +175,8 @@ impl Scenario {
         }
     }
 
-    /// Time t1 at which the run starts: when the support, moving with r, is where it is to be then; 0 for one
-    /// that moves on a path, or where there is none.
+    /// Start time t1 of the run. A support of constant velocity r then has the position that the start requires. t1 =
+    /// 0 for a support on a path, and without a spring.
     #[must_use]
     pub fn start_time(&self) -> f64 {
         if self.path.is_some() || !self.model.wider().spring {
@@ -184,7 +185,7 @@ impl Scenario {
         (self.start_position + self.start_extension()) / self.model.r()
     }
 
-    /// What pulls the tip along.
+    /// The motion of the support.
     #[must_use]
     pub fn support(&self) -> Support {
         match &self.path {
@@ -197,7 +198,7 @@ impl Scenario {
         }
     }
 
-    /// Velocity with which a tip with inertia starts.
+    /// Start velocity of a tip with inertia.
     #[must_use]
     pub fn velocity_at_start(&self) -> f64 {
         self.start_velocity.unwrap_or(match self.start {
@@ -206,7 +207,7 @@ impl Scenario {
         })
     }
 
-    /// R - x0 at the start, before the kick.
+    /// Extension R - x0 at the start, before the kick.
     pub(crate) fn start_extension(&self) -> f64 {
         if !self.model.wider().spring {
             return -self.start_position;
@@ -217,10 +218,10 @@ impl Scenario {
         }
     }
 
-    /// u0(x).
+    /// The initial surface u0(x).
     ///
     /// # Errors
-    /// A profile that is no function of x.
+    /// A profile that is not a function of x.
     pub fn initial_surface(&self) -> Result<InitialSurface, RunError> {
         let mut surface = match self.start {
             Start::Steady => InitialSurface::steady(&self.model, self.start_position),
@@ -241,7 +242,7 @@ impl Scenario {
         (self.start_position - NOISE_BEYOND, last + NOISE_BEYOND)
     }
 
-    /// Where the support goes at the farthest.
+    /// The largest position of the support.
     fn farthest(&self) -> f64 {
         match self.support() {
             Support::Moving(r) => r * self.until,
@@ -254,7 +255,7 @@ impl Scenario {
         }
     }
 
-    /// What the wider law asks of a start.
+    /// Checks the start against the extended model.
     fn validate_wider(&self) -> Result<(), RunError> {
         let wider = self.model.wider();
         if let Some(path) = &self.path {

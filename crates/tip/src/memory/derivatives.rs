@@ -1,38 +1,40 @@
-//! The groove at the tip as a power series of the place.
+//! The groove near the tip as a power series of the position.
 
-/// Derivatives that are told of at most.
+/// Largest number of derivatives.
 pub const ROOM: usize = 32;
 
-/// All of the groove near the tip, n = 0, 1, …: what [`Memory::derivatives`](super::Memory::derivatives) tells.
+/// Derivatives of the groove at the tip, n = 0, 1, …: the result of
+/// [`Memory::derivatives`](super::Memory::derivatives).
 #[derive(Debug, Clone)]
 pub struct Derivatives {
-    /// Derivatives of f at 0, on the side of the past: what a visit of the time 1 just now adds to `past`.
+    /// Derivatives of f at 0, on the side of the past: the contribution to `past` of a unit of time just spent at the
+    /// tip.
     pub of_tip: [f64; ROOM],
     /// ∫ f⁽ⁿ⁾(tip - x0(t'))dt' over the past.
     pub past: [f64; ROOM],
-    /// The farthest point that the tip has been to, as a displacement from it; -∞ if it has not been anywhere.
+    /// The farthest-forward point of the past, as a displacement from the tip; -∞ without a past.
     pub farthest: f64,
-    /// How far behind its farthest point it may retreat.
+    /// Allowed distance of the tip behind this point.
     pub retreat: f64,
-    /// Room for those who tell.
+    /// Scratch space for the memories.
     pub(super) room: Vec<f64>,
 }
 
-/// The past of a tip that moved steadily for ever, until it was somewhere.
+/// The infinite past of a tip in steady motion up to a given point.
 #[derive(Debug, Clone, Copy)]
 pub struct SteadyPast {
-    /// How far the tip has moved on from there.
+    /// Distance that the tip has moved since then.
     pub distance: f64,
-    /// The velocity that it had.
+    /// Velocity of the steady motion.
     pub velocity: f64,
-    /// 1/T, 0 where nothing heals.
+    /// 1/T; 0 without healing.
     pub healing: f64,
-    /// w0, times what is left of it.
+    /// w0, multiplied by its undecayed part.
     pub weight: f64,
 }
 
 impl Derivatives {
-    /// Nothing known yet.
+    /// No past.
     #[must_use]
     pub fn nothing() -> Self {
         let (of_tip, past, farthest) = ([0.0; ROOM], [0.0; ROOM], f64::NEG_INFINITY);

@@ -1,12 +1,12 @@
-//! All that the past does to the tip: the groove that it left.
+//! Memories: algorithms for the groove, the history integral of the footprint.
 //!
-//! A memory has two verbs: it is told of visits, where the tip was and for how long, and tells the groove
-//! about a place: height, slope and curvature of ∫ f(x - x0(t'))dt'. (Where the surface heals, a third lets
-//! all of it fade.) It is indifferent to time: what the tip
-//! left at a distance beyond the reach of f is out of sight, what it left nearby is never forgotten.
+//! A `Memory` has two main operations. `remember` adds positions of the tip with the time spent at each. `groove`
+//! evaluates height, slope and curvature of ∫ f(x - x0(t'))dt' at points near the tip. If the surface heals, `fade`
+//! multiplies all weights by a factor. The groove depends on distances, not on ages: positions beyond the reach of f
+//! have no effect, and positions within it count at any age.
 //!
-//! Three sums give the groove: `direct`, the definition; `fft`, a convolution; `modes`, a few exponentials.
-//! [`Policy`] decides between them, and holds the one record of the past that each of them is made from.
+//! Three algorithms compute the groove: `direct`, the definition; `fft`, a convolution; `modes`, a sum of a few
+//! exponentials. [`Policy`] chooses one of them and owns the history buffer from which each of them is built.
 
 mod choice;
 mod derivatives;

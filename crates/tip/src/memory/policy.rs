@@ -1,4 +1,4 @@
-//! Which sum over the past is in use: the one place that decides between `direct`, `fft` and `modes`.
+//! Choice between `direct`, `fft` and `modes`, in this file only.
 
 mod fading;
 mod retreats;
@@ -17,27 +17,27 @@ use fading::Fading;
 use retreats::Retreats;
 use std::sync::Arc;
 
-/// The memory of a run: one record of the past, and the sum over it that was chosen.
+/// The memory of a run: one history buffer, and the algorithm chosen for it.
 ///
-/// `direct` sums over the record itself. `modes` needs it when the tip retreats: then [`Fft`](Sum::Fft) takes
-/// over from the record, and when the tip has regained its farthest point the modes are summed afresh from
-/// it. That record spans 2048 bins, 1,024 widths of a Gaussian. `fft` for a footprint without reach plans its
-/// lattice anew from the record; for one with reach the lattice is all that is needed, and there is no
-/// record.
+/// `direct` sums over the buffer itself. `modes` needs the buffer when the tip retreats: then [`Fft`](Sum::Fft) is
+/// built from the buffer and replaces the modes. When the tip is at its farthest point again, the modes are computed
+/// anew from the buffer, which spans 2048 bins, 1,024 widths of a Gaussian. `fft` for a footprint without reach
+/// builds longer lattices from the buffer; for a footprint with reach the lattice is sufficient, and there is no
+/// buffer.
 pub struct Policy {
     tip: TipFunction,
     choice: MemoryChoice,
-    /// Largest error of f' that modes may have.
+    /// Allowed error of f' for `modes`.
     accuracy: f64,
     back: Retreat,
     record: Option<Record>,
     now: Now,
     fading: Fading,
-    /// Room for weights in the measure of the sums.
+    /// Scratch space for the scaled weights.
     measured: Vec<f64>,
 }
 
-/// The sum in use.
+/// The algorithm in use.
 enum Now {
     Direct,
     Fft(Box<Fft>, Option<FitError>),
@@ -45,11 +45,11 @@ enum Now {
 }
 
 impl Policy {
-    /// Nothing remembered yet; modes, if it comes to them, fit f' to an error of at most `accuracy`, for a tip that comes
-    /// back so far.
+    /// An empty memory. `modes`, if chosen, fit f' with an error of at most `accuracy`, for a tip that retreats as
+    /// far as `back` states.
     ///
     /// # Errors
-    /// `modes` was asked for, and the footprint is one that they cannot represent so well.
+    /// `modes` is requested, but exponentials cannot represent the footprint to this accuracy.
     pub fn new(
         choice: MemoryChoice,
         tip: TipFunction,
@@ -65,24 +65,24 @@ impl Policy {
         Ok(Self { accuracy, back, ..Self::of(choice, tip, (record, now)) })
     }
 
-    /// The definition.
+    /// The definition, `direct`.
     #[must_use]
     pub fn direct(tip: TipFunction) -> Self {
         let record = Some(Record::whole(&tip));
         Self::of(MemoryChoice::Direct, tip, (record, Now::Direct))
     }
 
-    /// The convolution.
+    /// The convolution, `fft`.
     #[must_use]
     pub fn fft(tip: TipFunction) -> Self {
         let sum = with_fft(&tip, std::iter::empty(), None);
         Self::of(MemoryChoice::Fft, tip, sum)
     }
 
-    /// The sum of these exponentials, however good it is.
+    /// The sum of these exponentials, whatever its accuracy.
     ///
     /// # Errors
-    /// A footprint that never fades.
+    /// A footprint that does not decay.
     pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
         tip.reach().ok_or(FitError::NeverFades)?;
         let accuracy = fit.wanted();
@@ -95,7 +95,7 @@ impl Policy {
         Self { tip, choice, accuracy: 0.0, back: Retreat::Small, record, now, fading, measured }
     }
 
-    /// Which sum is in use, and why.
+    /// The memory in use, and the reason for it.
     #[must_use]
     pub fn report(&self) -> MemoryReport {
         let sum = match &self.now {
@@ -110,8 +110,8 @@ impl Policy {
         MemoryReport { choice: self.choice, accuracy: self.accuracy, sum }
     }
 
-    /// Whether the tip has come back to what was dropped as too far behind to matter, and how far the
-    /// past is kept: the motion since then is not to be trusted.
+    /// Distance behind the farthest point within which the past is kept, if the tip has returned to positions beyond
+    /// it: the motion since then is not reliable. `None` otherwise.
     #[must_use]
     pub fn forgotten(&self) -> Option<f64> {
         match &self.now {
@@ -122,7 +122,7 @@ impl Policy {
         }
     }
 
-    /// Changes the sum where another one serves better after the visits just remembered.
+    /// Changes to another algorithm if it is cheaper after the nodes just added.
     fn decide(&mut self) {
         let Some(record) = &self.record else { return };
         match &mut self.now {
@@ -165,7 +165,7 @@ impl Policy {
 }
 
 impl Policy {
-    /// Visits of these weights in the measure of the sums.
+    /// Adds nodes with weights in the scale of the algorithm in use.
     fn remember_scaled(&mut self, position: &[f64], weight: &[f64]) {
         if let Some(record) = &mut self.record {
             record.remember(position, weight);
@@ -188,7 +188,7 @@ impl Policy {
         self.decide();
     }
 
-    /// The groove in the measure of the sums.
+    /// The groove in the scale of the algorithm in use.
     fn groove_scaled(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         match (&mut self.now, &self.record) {
             (Now::Fft(fft, _), _) => fft.groove(at, groove),

@@ -1,42 +1,42 @@
-//! What is worth knowing of a memory, as data and in a sentence.
+//! Reports of a memory, as data and in a sentence.
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 use super::modes::{FitCertificate, FitError};
 
-/// Which sum over the past was in use, and why.
+/// The memory in use, and the reason for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryReport {
-    /// What was asked for.
+    /// Requested memory.
     pub choice: MemoryChoice,
-    /// The error of f' that modes may have.
+    /// Allowed error of f' for `modes`.
     pub accuracy: f64,
-    /// What was used.
+    /// Memory in use.
     pub sum: Sum,
 }
 
-/// A sum over the past.
+/// An algorithm for the history integral.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Sum {
     /// The definition.
     Direct,
     /// The convolution.
     Fft {
-        /// Why not modes, where they were to be tried.
+        /// Reason for not using `modes`, if they were considered.
         instead_of_modes: Option<FitError>,
     },
     /// Exponentials.
     Modes {
-        /// How many, a conjugate pair being one.
+        /// Number of terms; a conjugate pair is one term.
         terms: usize,
-        /// Largest errors of their sum.
+        /// Largest errors of the sum.
         certificate: FitCertificate,
-        /// How often the tip retreated beyond them.
+        /// Number of retreats of the tip beyond the range of validity.
         retreats: u64,
     },
 }
 
 impl MemoryReport {
-    /// Name of the sum on the command line and in documents.
+    /// Name of the memory on the command line and in documents.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self.sum {
@@ -46,7 +46,7 @@ impl MemoryReport {
         }
     }
 
-    /// Why the choice came to that sum, and how it fared.
+    /// Reason for the memory, and its errors.
     #[must_use]
     pub fn reason(&self) -> String {
         let why = if self.choice == MemoryChoice::Auto {
@@ -57,7 +57,7 @@ impl MemoryReport {
         why.into_iter().chain(self.fared()).collect::<Vec<_>>().join("; ")
     }
 
-    /// Why `auto` came to it.
+    /// Reason for the choice of `auto`.
     fn crossover(&self) -> Option<String> {
         let many = format!(
             "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"

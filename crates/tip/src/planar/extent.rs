@@ -1,12 +1,12 @@
-//! The range across the scan of all visits that can still be felt.
+//! The range across the scan of all past positions within reach.
 
 use crate::state::{Damaged, Reader, State};
 use std::collections::VecDeque;
 
-/// Visits are taken together within this part of the reach.
+/// Number of bins per reach that combine positions.
 const BINS: f64 = 16.0;
 
-/// Lowest and highest y of visits, by where they lie along the scan.
+/// Lowest and highest y of past positions, by their x.
 #[derive(Debug, Clone)]
 pub(super) struct Extent {
     reach: f64,
@@ -15,7 +15,7 @@ pub(super) struct Extent {
 
 #[derive(Debug, Clone, Copy)]
 struct Bin {
-    /// Where the first visit lies, and the farthest-forward one.
+    /// x of the first and of the farthest-forward position.
     first: f64,
     last: f64,
     low: f64,
@@ -23,7 +23,7 @@ struct Bin {
 }
 
 impl Extent {
-    /// Of a footprint of this reach.
+    /// An empty range for a footprint of this reach.
     pub(super) fn new(reach: f64) -> Self {
         Self { reach, bins: VecDeque::new() }
     }
@@ -54,12 +54,12 @@ impl Extent {
         Ok(())
     }
 
-    /// How many are kept.
+    /// Number of bins kept.
     pub(super) fn bins(&self) -> usize {
         self.bins.len()
     }
 
-    /// Visits up to x, between these y.
+    /// Adds positions up to x with y in this range.
     pub(super) fn add(&mut self, x: f64, (low, high): (f64, f64)) {
         let length = self.reach / BINS;
         match self.bins.back_mut() {
@@ -71,7 +71,7 @@ impl Extent {
         }
     }
 
-    /// Of all visits within the reach of a tip at x, if there are any; the others are forgotten.
+    /// Range of all positions within the reach of a tip at x, if there are any; other positions are removed.
     pub(super) fn about(&mut self, x: f64) -> Option<(f64, f64)> {
         while self.bins.front().is_some_and(|bin| bin.last < x - self.reach) {
             self.bins.pop_front();

@@ -1,4 +1,4 @@
-//! Which layers are in use: their center, and how many there are.
+//! Layers in use: their center and number.
 
 use super::extent::Extent;
 use super::layers::{self, LANES, Radii};
@@ -7,19 +7,19 @@ use super::scenario::PlanarError;
 use crate::state::{Damaged, Reader, State};
 use std::collections::VecDeque;
 
-/// How many layers a run used, and what they left out.
+/// Number of layers in a run, and their error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layers {
-    /// The most that were in use.
+    /// Largest number in use.
     pub most: usize,
-    /// How often center or number were changed.
+    /// Number of changes of the center or the number of layers.
     pub changes: u64,
-    /// Bound of the error of f and of v `f_y` that their finite number brings about, for every visit within reach.
+    /// Bound on the error of f and of v `f_y` due to the finite number of layers, for every position within reach.
     pub error: f64,
 }
 
-/// The center follows the middle of all that can be felt, visits and tip; layers are as many as hold for them. A step that
-/// leads beyond is cut short.
+/// Center and number of the layers. The center follows the middle of the tip and of all positions within reach, and
+/// the number of layers is sufficient for them. A step that leads beyond is shortened.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
     width: f64,
@@ -27,30 +27,30 @@ pub(super) struct Frame {
     allowed: f64,
     center: f64,
     radii: Radii,
-    /// Of one group of layers, of two, as many as have been asked for.
+    /// Radii for one group of layers, for two groups and so on, as far as they have been needed.
     known: Vec<Radii>,
     extent: Extent,
-    /// Of those before, as long as there are visits left of them.
+    /// Changes whose effect is still within reach.
     cuts: VecDeque<Cut>,
     layers: Layers,
 }
 
-/// A change of center or number: layers of what was there before were cut off.
+/// A change of the center or number, which truncates the layers of the past.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
-    /// Where the tip was.
+    /// Position of the tip.
     x: f64,
-    /// What was cut off, wherever the tip goes.
+    /// Error due to the truncation, for any later position of the tip.
     error: f64,
 }
 
-/// Beyond visits and tip there is to be this room for a step, in widths, and this part of their distance.
+/// Least room for a step beyond past positions and tip: in widths, and as a fraction of their distance.
 const LEAST_ROOM: (f64, f64) = (0.15, 0.35);
-/// So much more of it, where layers are chosen anew; twice that, where they are given up.
+/// Additional room for newly chosen layers, in the same units; twice this room before layers are removed.
 const SPARE_ROOM: (f64, f64) = (0.1, 0.1);
 
 impl Frame {
-    /// For a Gaussian of this width across, and a footprint of this reach along.
+    /// A frame for a Gaussian of this width across, and a footprint of this reach along.
     pub(super) fn new(width: f64, reach: f64, allowed: f64) -> Self {
         Self {
             width,
@@ -69,12 +69,12 @@ impl Frame {
         self.width
     }
 
-    /// η of a place.
+    /// η of a position y.
     pub(super) fn eta(&self, y: f64) -> f64 {
         (y - self.center) / self.width
     }
 
-    /// How far the tip may be from the center, in widths.
+    /// Largest distance of the tip from the center, in widths.
     pub(super) fn radius(&self) -> f64 {
         self.radii.tip
     }
@@ -93,7 +93,7 @@ impl Frame {
         state.number(self.layers.error);
     }
 
-    /// That of so many groups of layers.
+    /// Reads a frame of this number of groups of layers.
     pub(super) fn restore(&mut self, state: &mut Reader, groups: usize) -> Result<(), Damaged> {
         self.center = state.finite()?;
         self.extent.restore(state)?;
@@ -111,13 +111,14 @@ impl Frame {
         Ok(())
     }
 
-    /// Numbers that range and cuts consist of.
+    /// Number of real numbers in the range and the changes.
     pub(super) fn size(&self) -> usize {
         4 * self.extent.bins() + 2 * self.cuts.len()
     }
 
-    /// Chooses the layers for visits up to `x.0` and between `low` and `high`, and for a tip that goes on from `x.1` within them,
-    /// if those in use do not suit them or are too many. To be told before the visits are remembered.
+    /// Chooses the layers for past positions up to `x.0`, between `low` and `high`, and for a tip that continues from
+    /// `x.1` within them. It keeps the present layers if they are sufficient and not too many. Must be called before
+    /// the positions are added to the past.
     pub(super) fn visit(
         &mut self,
         past: &mut Past,
@@ -152,7 +153,7 @@ impl Frame {
         Ok(())
     }
 
-    /// The fewest groups of layers that suit visits and a tip at this distance.
+    /// The smallest sufficient number of groups of layers for past positions and a tip at this distance.
     fn groups(&mut self, distance: f64) -> Option<usize> {
         while self.known.last().is_none_or(|last| !suits(last, distance)) {
             let count = LANES * (self.known.len() + 1);
@@ -161,7 +162,7 @@ impl Frame {
         Some(1 + self.known.partition_point(|radii| !suits(radii, distance)))
     }
 
-    /// Layers are cut off; cuts of which there are no visits left are forgotten.
+    /// Records a truncation of layers; removes those whose positions are all out of reach.
     fn cut(&mut self, x: f64, error: f64) {
         let reach = self.extent.reach();
         while self.cuts.front().is_some_and(|cut| cut.x < x - reach) {
@@ -174,7 +175,8 @@ impl Frame {
     }
 }
 
-/// Whether layers of these radii hold for visits at this distance, and for a tip that moves on from there.
+/// Whether layers of these radii are sufficient for past positions at this distance, and for a tip that moves on from
+/// there.
 fn suits(radii: &Radii, distance: f64) -> bool {
     distance <= radii.visits && distance + LEAST_ROOM.0 + LEAST_ROOM.1 * distance <= radii.tip
 }

@@ -10,22 +10,22 @@ use std::sync::LazyLock;
 /// One accepted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Its duration, and the motion along the scan.
+    /// Duration of the step, and the motion along the scan.
     pub along: crate::Step,
-    /// y0 at its start.
+    /// y0 at the start of the step.
     pub y: f64,
-    /// y0 less its value at the start, at the collocation nodes; the last is the end of the step.
+    /// y0 minus its value at the start, at the collocation nodes; the last node is the end of the step.
     pub across: Stages,
 }
 
 impl Step {
-    /// Time at its end.
+    /// Time at the end of the step.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.along.end()
     }
 
-    /// y0 at its end.
+    /// y0 at the end of the step.
     #[must_use]
     pub fn y_at_end(&self) -> f64 {
         self.y + self.across[STAGES - 1]
@@ -49,7 +49,7 @@ impl Step {
     }
 }
 
-/// The dense history of a run: x0(t) and y0(t) at every t of it.
+/// The dense output of a run: x0(t) and y0(t) at every t of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     support: Support,
@@ -57,14 +57,14 @@ pub struct Trajectory {
     steps: Vec<Step>,
 }
 
-/// What the tip left while it was there: a node of the history.
+/// A node of the history: a position with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Visit {
     /// x0
     pub x: f64,
     /// y0
     pub y: f64,
-    /// Time spent there, times what is left of it.
+    /// Time spent there, multiplied by its undecayed part.
     pub weight: f64,
 }
 
@@ -73,18 +73,18 @@ static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(16).unwrap() }));
 
 impl Trajectory {
-    /// From steps that follow each other without a gap.
+    /// A trajectory of consecutive steps without gaps.
     ///
     /// # Panics
-    /// Without any step.
+    /// If there are no steps.
     #[must_use]
     pub fn new(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
         Self { support, wider, steps }
     }
 
-    /// Where the tip was until t, and for how long: `∫_{start}^t e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight q(x, y). The
-    /// surface is its initial state less α times the sum for q = f(x - x0, y - y0).
+    /// Positions of the tip until t with their weights: `∫_{start}^t e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight
+    /// q(x, y). The surface is its initial state minus α times the sum for q = f(x - x0, y - y0).
     #[must_use]
     pub fn residence(&self, t: f64) -> Vec<Visit> {
         let mut visits = vec![];
@@ -124,19 +124,19 @@ impl Trajectory {
         &self.steps
     }
 
-    /// Time at which it starts.
+    /// Start time.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.steps[0].along.t
     }
 
-    /// Time at which it ends.
+    /// End time.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.steps[self.steps.len() - 1].end()
     }
 
-    /// x0(t). Outside of the run, the polynomials of its first and last step.
+    /// x0(t). Outside of the run, the polynomial of the first or last step.
     #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
         self.step_at(t).along.position(&self.support, t)
@@ -160,13 +160,13 @@ impl Trajectory {
         self.step_at(t).velocity(t)
     }
 
-    /// How the support moves.
+    /// The motion of the support.
     #[must_use]
     pub fn support(&self) -> &Support {
         &self.support
     }
 
-    /// The step that holds t.
+    /// The step that contains t.
     #[must_use]
     pub fn step_at(&self, t: f64) -> &Step {
         let after = self.steps.partition_point(|step| step.along.t <= t);

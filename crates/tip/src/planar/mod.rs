@@ -1,17 +1,18 @@
-//! Two coordinates: a tip that gives way across the scan.
+//! Motion in two coordinates: a tip that also moves across the scan.
 //!
-//! Levers are about as soft across the scan as along it. With a spring κ_y across, and the line y = 0,
+//! Cantilevers are about as soft across the scan as along it. With a spring κ_y across, and the line y = 0,
 //!
 //! ```text
 //!     M x0'' + x0' = α ∫ f_x(x0 - x', y0 - y') e^{-(t-t')/T} dt' + R(t) - x0 + F_x(t)
 //!             y0' = α ∫ f_y(x0 - x', y0 - y') e^{-(t-t')/T} dt' - κ_y y0 + F_y(t)
 //! ```
 //!
-//! where primed coordinates are those of the tip at t'. For f(x,y) = g(x) h(y) with a Gaussian h the surface is a few grooves
-//! in one dimension, carved by the same visits with other weights (`layers`): with exponentials for g the past is one
-//! complex number for each of them and each layer (`modes`), and all is a polynomial system (`chain`). A tip that goes back
-//! farther than exponentials hold, as heavy ones do after a slip, or where its support turns, asks Gaussians on a lattice
-//! (`lattice`). As κ_y → ∞ the motion becomes that of [`run`](crate::run()).
+//! where primed coordinates are those of the tip at t'. For f(x,y) = g(x) h(y) with a Gaussian h the surface consists
+//! of a few one-dimensional grooves, which the same positions carve with different weights (`layers`). With
+//! exponentials for g the past is one complex number for each exponential and each layer (`modes`), and the equations
+//! are a polynomial system (`chain`). If the tip retreats beyond the range of validity of the exponentials, Gaussians
+//! on a lattice replace them (`lattice`): this occurs after slips of heavy tips, and where the support turns. As κ_y
+//! → ∞ the motion becomes that of [`run`](crate::run()).
 
 mod chain;
 mod extent;

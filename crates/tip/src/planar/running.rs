@@ -14,31 +14,32 @@ use crate::stop;
 pub struct PlanarRun {
     /// x0(t) and y0(t) at every t of the run.
     pub trajectory: Trajectory,
-    /// Counts.
+    /// Numbers of steps, iterations and series.
     pub work: Work,
-    /// How many layers there were across, and what they left out.
+    /// Number of layers across, and their error.
     pub layers: Layers,
-    /// Whether it was [stopped](stop) before its end.
+    /// Whether the run was [stopped](stop) before its end.
     pub interrupted: bool,
 }
 
-/// A tip on its way through a scenario: its memory is bounded.
+/// A tip in motion through a scenario, with bounded memory.
 pub struct PlanarRunning<'a> {
     until: f64,
     integrator: Integrator<'a>,
 }
 
 impl<'a> PlanarRunning<'a> {
-    /// At the start of a scenario.
+    /// Begins a scenario.
     ///
     /// # Errors
-    /// A parameter out of range, or what is not available in two coordinates.
+    /// A parameter out of range, or an option that is not available in two coordinates.
     pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         scenario.validate()?;
         Ok(Self { until: scenario.along.until, integrator: Integrator::new(scenario)? })
     }
 
-    /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as without the interruption.
+    /// Resumes a run from a state written by [`save`](Self::save). Every later step equals that of the uninterrupted
+    /// run, bit for bit.
     ///
     /// # Errors
     /// As [`new`](Self::new); a state that is not one of this scenario.
@@ -51,7 +52,7 @@ impl<'a> PlanarRunning<'a> {
         Ok(running)
     }
 
-    /// All that the rest of the run depends on, beside the scenario.
+    /// Writes all data, except the scenario, that determine the rest of the run.
     pub fn save(&self, state: &mut State) {
         self.integrator.save(state);
     }
@@ -62,7 +63,7 @@ impl<'a> PlanarRunning<'a> {
         self.integrator.t()
     }
 
-    /// Steps of this length only, by collocation and without error control: for observing the order of convergence.
+    /// The run with a fixed step, by collocation and without error control: for observing the order of convergence.
     #[must_use]
     pub fn with_fixed_step(mut self, h: f64) -> Self {
         self.integrator.fix_step(h);
@@ -72,7 +73,7 @@ impl<'a> PlanarRunning<'a> {
     /// Makes the next step; `None` once the end of the scenario is reached.
     ///
     /// # Errors
-    /// The tolerance cannot be met, or the tip goes where no memory follows it.
+    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
     pub fn step(&mut self) -> Result<Option<Step>, PlanarError> {
         self.integrator.step(self.until)
     }
@@ -83,21 +84,21 @@ impl<'a> PlanarRunning<'a> {
         self.integrator.work()
     }
 
-    /// How many layers there were so far, and what they left out.
+    /// Number of layers so far, and their error.
     #[must_use]
     pub fn layers(&self) -> Layers {
         self.integrator.layers()
     }
 
-    /// Numbers that the memory consists of.
+    /// Number of real numbers in the memory.
     #[must_use]
     pub fn memory_size(&self) -> usize {
         self.integrator.memory_size()
     }
 }
 
-/// Integrates the motion to the end of the scenario, and keeps the whole history; for more than [`MOST_STEPS`] of it take
-/// the steps one by one from [`PlanarRunning`].
+/// Integrates the motion to the end of the scenario, and keeps the whole history. A history of more than
+/// [`MOST_STEPS`] steps is an error; for longer runs take the steps one by one from [`PlanarRunning`].
 ///
 /// # Errors
 /// As [`PlanarRunning`]; too long a history.

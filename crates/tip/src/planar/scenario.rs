@@ -1,4 +1,4 @@
-//! Everything that defines a run in two coordinates, and what no such run can be made of.
+//! Scenarios in two coordinates: all parameters of a run, and errors in them.
 
 use crate::footprint::Across;
 use crate::memory::{FitError, MemoryChoice};
@@ -6,20 +6,20 @@ use crate::run::{RunError, Scenario};
 use crate::{Force, IntegrationError, TipFunction};
 use thiserror::Error;
 
-/// A line scanned by a tip that gives way across it. The line is y = 0.
+/// A line y = 0, scanned by a tip that also moves across it.
 #[derive(Debug, Clone)]
 pub struct PlanarScenario {
-    /// All that there is along the scan; its footprint is one of [`TipFunction::of_footprint`].
+    /// Parameters of the motion along the scan; the footprint is one of [`TipFunction::of_footprint`].
     pub along: Scenario,
-    /// κ_y, the spring across the scan in units of that along it.
+    /// Stiffness κ_y of the spring across the scan, in units of that along it.
     pub stiffness_across: f64,
-    /// The tip starts so far off its line, in σ.
+    /// Initial displacement of the tip from its line, in σ.
     pub kick_across: f64,
     /// External force across the scan, in kσ.
     pub force_across: Force,
 }
 
-/// Why a run in two coordinates was refused or could not be finished.
+/// Errors of a run in two coordinates: an invalid scenario, or an integration that cannot be completed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanarError {
     /// κ_y is not a finite number above 0.
@@ -28,49 +28,49 @@ pub enum PlanarError {
     /// The kick across is not finite.
     #[error("the kick across the scan must be a finite number, not {0:?}")]
     Kick(f64),
-    /// f(x) alone does not say how the surface pushes across.
+    /// The footprint is f(x) alone, which does not determine the force across.
     #[error("two coordinates need a footprint f(x,y): give its width across the scan")]
     NoFootprint,
-    /// A footprint of several layers, or with lobes across.
+    /// The footprint has several layers, or lobes across.
     #[error(
         "in two coordinates f(x,y) must be a function of x times one Gaussian of y about 0; this one has {layers} such terms{}",
         if *.lobes { ", with lobes across the scan" } else { "" }
     )]
     Footprint {
-        /// How many products it is a sum of.
+        /// Number of products in the footprint.
         layers: usize,
         /// Whether some of them have their centers off y = 0.
         lobes: bool,
     },
-    /// What works in one coordinate only.
+    /// An option that is available in one coordinate only.
     #[error("{0} is not available in two coordinates")]
     Unavailable(&'static str),
-    /// The tip came back farther than the memory reaches.
+    /// The tip retreated beyond the range of the memory.
     #[error(
         "at t = {t}: the tip is {behind} behind the farthest point that it has been to, and the memory reaches back {allowed}"
     )]
     Retreat {
         /// Time reached.
         t: f64,
-        /// How far behind, in σ.
+        /// Distance behind the farthest point, in σ.
         behind: f64,
-        /// Farthest, in σ.
+        /// Largest allowed distance, in σ.
         allowed: f64,
     },
-    /// The tip wanders too far within the reach of its past.
+    /// The tip and its past span too wide a range across the scan.
     #[error(
         "at t = {t}: the tip and the groove that it feels span {range} widths across the scan, more than layers can be had for"
     )]
     Range {
         /// Time reached.
         t: f64,
-        /// Range in widths v.
+        /// Range, in widths v.
         range: f64,
     },
-    /// f' is not fitted by exponentials.
+    /// Exponentials do not fit f'.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// What is refused in one coordinate too.
+    /// An error that also applies to one coordinate.
     #[error(transparent)]
     Along(#[from] RunError),
 }
@@ -82,13 +82,13 @@ impl From<IntegrationError> for PlanarError {
 }
 
 impl PlanarScenario {
-    /// Without a kick or force across.
+    /// A scenario without a kick or force across.
     #[must_use]
     pub fn new(along: Scenario, stiffness_across: f64) -> Self {
         Self { along, stiffness_across, kick_across: 0.0, force_across: Force::default() }
     }
 
-    /// f(x,y) = g(x) h(y).
+    /// The footprint as f(x,y) = g(x) h(y).
     ///
     /// # Errors
     /// A footprint of another form.
@@ -104,7 +104,7 @@ impl PlanarScenario {
     }
 
     /// # Errors
-    /// The first parameter out of range, and what is not available.
+    /// The first parameter out of range, or an option that is not available.
     pub fn validate(&self) -> Result<(), PlanarError> {
         if !(self.stiffness_across.is_finite() && self.stiffness_across > 0.0) {
             return Err(PlanarError::Stiffness(self.stiffness_across));

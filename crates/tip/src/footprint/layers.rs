@@ -1,4 +1,4 @@
-//! Terms sorted into layers, and layers added up along the path.
+//! Terms sorted into layers, and sums of layers along the path.
 
 use super::{Across, Gaussian2d, Layer};
 use crate::{Gaussian, TipFunction, TipFunctionError};
@@ -63,7 +63,7 @@ fn same(a: &Across, b: &Across) -> bool {
     close(a.width, b.width, a.width) && close(a.center, b.center, a.width)
 }
 
-/// Whether the image of `term` in the line y = 0 is among `terms` as often as it is itself, to round-off.
+/// Whether the mirror image of `term` at y = 0 is among `terms` as often as `term` itself, to round-off.
 fn has_twin_across(terms: &[Gaussian2d], term: &Gaussian2d) -> bool {
     let total = |center_y: f64| -> f64 {
         terms
@@ -80,8 +80,8 @@ fn has_twin_across(terms: &[Gaussian2d], term: &Gaussian2d) -> bool {
     close(total(term.center_y), total(-term.center_y), term.amplitude.abs().max(1e-300))
 }
 
-/// The terms of Σ_k g_k(x) `factor`(h_k), those of one center and width put together: f(x,0) for the
-/// factor h(0). Layers that are no Gaussians are left out.
+/// The terms of Σ_k g_k(x) `factor`(h_k), those of equal center and width combined: f(x,0) for the factor h(0).
+/// Layers that are not Gaussian are omitted.
 pub(super) fn combined(layers: &[Layer], factor: impl Fn(&Across) -> f64) -> Vec<Gaussian> {
     let scaled = |layer: &Layer| {
         let TipFunction::Gaussians(sum) = &layer.along else { return vec![] };

@@ -1,16 +1,15 @@
-//! The footprint f(x,y) of the tip in three dimensions, (56), of which the motion needs f(x,0) alone.
+//! The footprint f(x,y) of the tip in three dimensions, (56). The motion depends on f(x,0) only.
 //!
-//! Every f(x,y) that is even in x and in y is held as a sum of layers, products of an even g(x) and an
-//! even h(y):
+//! Every f(x,y) that is even in x and in y is represented by a sum of layers, products of an even g(x) and an even
+//! h(y):
 //!
 //! ```text
 //!     f(x,y) = Σ_k g_k(x) h_k(y)
 //! ```
 //!
-//! A separable tip (58) is one layer; a sum of two-dimensional Gaussians has one for every distinct
-//! center and width in y; a table has one for every row of the lattice that it is put on. The surface
-//! of a layer is that of the plane problem with the tip g times h(y), so that an image costs one plane
-//! surface for each layer, and not one for each row of pixels.
+//! A separable tip (58) is one layer. A sum of two-dimensional Gaussians has one layer for every distinct center and
+//! width in y. A table has one layer for every row of its lattice. The surface of a layer is h(y) times that of the
+//! plane problem with the tip g, so that an image requires one plane surface per layer, not one per row of pixels.
 
 mod layers;
 mod table;
@@ -52,7 +51,7 @@ pub struct Layer {
     pub across: Across,
 }
 
-/// An f(x,y) that is even in both, with the f(x,0) that moves the tip.
+/// A footprint f(x,y) that is even in x and in y, with the section f(x,0) that determines the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footprint {
     layers: Vec<Layer>,
@@ -115,25 +114,25 @@ impl Footprint {
     /// Any sum of two-dimensional Gaussians that is even in x and in y.
     ///
     /// # Errors
-    /// Not finite, a width ≤ 0, zero along the path, not even in x or not even in y.
+    /// A term that is not finite, a width ≤ 0, zero along the path, not even in x or not even in y.
     pub fn gaussian_sum(terms: &[Gaussian2d]) -> Result<Self, TipFunctionError> {
         Self::from_layers(layers::of(terms)?)
     }
 
-    /// The smooth even function through f at the points (x, y), sampled on a rectangular grid of x ≥ 0
-    /// and y ≥ 0 whose rows may come in any order; 0 beyond the last of them. Between the points as
-    /// accurate as [`TipFunction::table`].
+    /// The smooth even function through f at the points (x, y). They form a rectangular grid of x ≥ 0 and y ≥ 0, with
+    /// its rows in any order; beyond the last points f is 0. Between the points the accuracy is that of
+    /// [`TipFunction::table`].
     ///
     /// # Errors
-    /// No full grid, too few or too many rows, not finite, not from 0, or not decaying.
+    /// Not a full grid, too few or too many rows, not finite, not from 0, or not decaying.
     pub fn table(x: &[f64], y: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
         Self::from_layers(table::layers_through(x, y, f)?)
     }
 
-    /// A sum of layers. f(x,0) is the sum of their g, each times its h(0).
+    /// A sum of layers. f(x,0) is the sum of their g, each multiplied by its h(0).
     ///
     /// # Errors
-    /// No layer of Gaussians, an `across` that is not finite or of no width, or zero along the path.
+    /// No layer of Gaussians, an `across` that is not finite or has no positive width, or zero along the path.
     pub fn from_layers(layers: Vec<Layer>) -> Result<Self, TipFunctionError> {
         if let Some(i) = layers.iter().position(|layer| !layer.across.is_valid()) {
             let width = layers[i].across.width;
@@ -150,7 +149,7 @@ impl Footprint {
         &self.layers
     }
 
-    /// f(x,0), which is all that the motion depends on.
+    /// The section f(x,0), on which alone the motion depends.
     #[must_use]
     pub fn path(&self) -> &TipFunction {
         &self.path
@@ -162,20 +161,21 @@ impl Footprint {
         self.layers.iter().map(|layer| layer.along.value(x) * layer.across.value(y)).sum()
     }
 
-    /// ∫∫ f dx dy: the volume of the surface that indentation takes away, per α and time.
+    /// ∫∫ f dx dy: the rate of volume loss of the surface, per α.
     #[must_use]
     pub fn integral(&self) -> f64 {
         self.layers.iter().map(|layer| layer.along.integral() * layer.across.integral()).sum()
     }
 
-    /// `f_yy(x,0)`: where it is positive, the groove may push the tip off its line.
+    /// `f_yy(x,0)`: if it is positive, the groove may push the tip off its line.
     #[must_use]
     pub fn curvature_across(&self, x: f64) -> f64 {
         let layer = |layer: &Layer| layer.along.value(x) * layer.across.curvature_at_0();
         self.layers.iter().map(layer).sum()
     }
 
-    /// `f_yy(x,0)` as a function of x, of Gaussian layers; `None` where it is 0 for all x, and where a layer is no Gaussian.
+    /// `f_yy(x,0)` as a function of x, for Gaussian layers; `None` if it is 0 for all x, or if a layer is not
+    /// Gaussian.
     #[must_use]
     pub fn curvature_across_path(&self) -> Option<TipFunction> {
         let is_gaussian = |layer: &Layer| matches!(layer.along, TipFunction::Gaussians(_));
@@ -186,14 +186,13 @@ impl Footprint {
         TipFunction::gaussian_sum(layers::combined(&self.layers, Across::curvature_at_0)).ok()
     }
 
-    /// The k'/k above which motion along y = 0 is certainly stable while it is steady, for a transverse
-    /// spring k' (52); 0 where `f_yy(x,0)` ≤ 0 for all x, infinite where no k' is certain to do.
+    /// A bound on the transverse stiffness k'/k (52), above which steady motion along y = 0 is stable; 0 if
+    /// `f_yy(x,0)` ≤ 0 for all x, infinite if the argument yields no bound.
     ///
-    /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of
-    /// `f_yy(x,0)` over x > 0. The real part of the right side less μ is harmonic for Re μ > 0, hence
-    /// largest on the imaginary axis, where Re S is half the Fourier transform of the even `f_yy`. So no
-    /// μ with Re μ ≥ 0 is left once k'/k is above (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], taken over all q, the
-    /// infinite one among them. `depth` is α/r.
+    /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of `f_yy(x,0)` over x >
+    /// 0. The real part of the right side minus μ is harmonic for Re μ > 0, hence largest on the imaginary axis,
+    /// where Re S is half the Fourier transform of the even `f_yy`. So no μ with Re μ ≥ 0 exists if k'/k is above
+    /// (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], the maximum over all q including infinity. `depth` is α/r.
     #[must_use]
     pub fn transverse_stiffness_needed(&self, depth: f64) -> f64 {
         let gaussians = self.curvature_across_path();
@@ -215,5 +214,5 @@ impl Footprint {
     }
 }
 
-/// Wave numbers scanned up to the band limit: the curve turns over no faster than one in a hundred.
+/// Number of wave numbers scanned up to the band limit: the curve turns over at most once in a hundred of them.
 const WAVE_NUMBERS: u32 = 4000;

@@ -1,12 +1,12 @@
-//! A table (x, y, f) turned into layers: Gaussians on a lattice, first along x, then along y.
+//! Conversion of a table (x, y, f) to layers: Gaussians on a lattice, first along x, then along y.
 
 use super::{Across, Layer};
 use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
-/// A row of the lattice is a layer, and an image costs one plane surface for each.
+/// Largest number of rows of the lattice: each is a layer, and an image requires one plane surface per layer.
 const MOST_ROWS_ACROSS: usize = 200;
-/// Rows below this part of the largest value are round-off of the interpolation.
+/// Rows below this fraction of the largest value are round-off of the interpolation.
 const NOTHING: f64 = 1e-17;
 
 pub(super) fn layers_through(
@@ -37,7 +37,7 @@ pub(super) fn layers_through(
     Ok((0..across[0].1.len()).filter_map(layer).collect())
 }
 
-/// f on a full rectangular grid, a row for every y.
+/// Values of f on a full rectangular grid, one row for every y.
 struct Grid {
     x: Vec<f64>,
     y: Vec<f64>,
@@ -75,7 +75,7 @@ impl Grid {
         Ok(grid)
     }
 
-    /// Both axes as for a table of f(x), and little left at either end.
+    /// Checks both axes as for a table of f(x), and the decay at both ends.
     fn validate(&self) -> Result<(), TipFunctionError> {
         table::validate_axis(&self.x)?;
         table::validate_axis(&self.y)?;
@@ -98,7 +98,7 @@ impl Grid {
     }
 }
 
-/// The values that occur, in order.
+/// The distinct values, in increasing order.
 fn distinct(values: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

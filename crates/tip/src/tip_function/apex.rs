@@ -1,10 +1,10 @@
-//! f and f' near the apex, as the polynomials that their Taylor series are there.
+//! f and f' near the apex, as polynomials from their Taylor series.
 
 use super::TipFunction;
 use crate::elementary::{exp, ln, pow};
 
-/// `f'(d) ≈ Σ_k c_k d^{2k+1}` for |d| up to a length that depends on the number of terms: what a step
-/// carves for itself is made of such short displacements.
+/// `f'(d) ≈ Σ_k c_k d^{2k+1}` for |d| up to a length that depends on the number of terms. The contribution of a step
+/// to its own groove involves such short displacements only.
 #[derive(Debug, Clone)]
 pub(crate) struct Apex {
     /// `c_k`, and `(2k+1) c_k` for f''.
@@ -13,12 +13,12 @@ pub(crate) struct Apex {
     /// f(0), and `c_k/(2k+2)` for f.
     top: f64,
     value: [f64; MOST_TERMS],
-    /// `lengths[n]` is how far n + 1 terms reach.
+    /// `lengths[n]` is the largest |d| for n + 1 terms.
     lengths: [f64; MOST_TERMS],
 }
 
 const MOST_TERMS: usize = 24;
-/// Terms of the series may exceed its sum by so much: a hundred times the round-off.
+/// Largest ratio of a term of the series to the largest |f'|: cancellation multiplies round-off by a hundred at most.
 const CANCELLATION: f64 = 100.0;
 
 impl Apex {
@@ -57,7 +57,7 @@ impl Apex {
         apex
     }
 
-    /// f' and f'' at all of `d`; false where one is too far out.
+    /// f' and f'' at all of `d`; false if one of them is too far from the apex.
     pub(crate) fn slopes_and_curvatures<const N: usize>(
         &self,
         d: &[f64; N],
@@ -77,7 +77,7 @@ impl Apex {
         true
     }
 
-    /// f at all of `d`; false where one is too far out.
+    /// f at all of `d`; false if one of them is too far from the apex.
     pub(crate) fn values<const N: usize>(&self, d: &[f64; N], value: &mut [f64; N]) -> bool {
         let Some(terms) = self.terms(d) else { return false };
         let y = d.map(|d| d * d);
@@ -89,7 +89,7 @@ impl Apex {
         true
     }
 
-    /// Terms that reach the farthest of them.
+    /// Number of terms needed for the farthest of these displacements.
     fn terms(&self, d: &[f64]) -> Option<usize> {
         let farthest = d.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
         // Lengths grow with the number of terms until round-off ends them.

@@ -12,7 +12,7 @@ pub(super) fn fourier(q: f64) -> f64 {
     if q.abs() < 1.0 { 2.0 / (1.0 - q * q).sqrt() } else { 0.0 }
 }
 
-/// Above this the divergent series for the tail falls below round-off before it grows.
+/// For x above this the terms of the divergent series for the tail fall below round-off before they grow.
 const SERIES_FROM: f64 = 40.0;
 
 /// ∫_x^∞ J0; ∫_0^∞ J0 = 1, so a negative x gives 2 - ∫_{|x|}^∞ J0.

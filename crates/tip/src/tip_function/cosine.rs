@@ -1,4 +1,4 @@
-//! cos x with its derivatives and integrals. Out of line: the sums over other tips are not to make room for it.
+//! cos x with its derivatives and integrals, in a file of its own so that sums over other tips are not slowed down.
 
 #[cold]
 pub(super) fn value(x: f64) -> f64 {
@@ -10,7 +10,7 @@ pub(super) fn slope_and_curvature(x: f64) -> (f64, f64) {
     (-libm::sin(x), -libm::cos(x))
 }
 
-/// ∫_x^∞ cos in the mean, as if it faded slowly.
+/// ∫_x^∞ cos in the mean: the limit of a slowly decaying cosine.
 pub(super) fn tail(x: f64) -> f64 {
     -libm::sin(x)
 }

@@ -1,9 +1,9 @@
-//! Why there is no such footprint.
+//! Errors in a footprint.
 
 use super::LARGEST;
 use thiserror::Error;
 
-/// Why a footprint was refused.
+/// Errors in a footprint.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TipFunctionError {
     /// No Gaussian, or none with an amplitude other than 0.
@@ -14,24 +14,24 @@ pub enum TipFunctionError {
     /// A Gaussian with a parameter that is not finite.
     #[error("Gaussian number {index}: amplitude, center and width must be finite numbers")]
     NotFinite {
-        /// Counted from 1.
+        /// Number of the Gaussian, from 1.
         index: usize,
     },
     /// A Gaussian whose width is not positive.
     #[error("Gaussian number {index} has width {width}: a width must be above 0")]
     Width {
-        /// Counted from 1.
+        /// Number of the Gaussian, from 1.
         index: usize,
-        /// As given.
+        /// Width of the Gaussian.
         width: f64,
     },
-    /// A Gaussian whose numbers, multiplied with each other, leave floating point.
+    /// A Gaussian with parameters whose products are out of the range of f64.
     #[error(
         "Gaussian number {index}: amplitude and center may be at most {largest:e} in size, the width between {smallest:e} and {largest:e}",
         smallest = 1.0 / LARGEST, largest = LARGEST
     )]
     OutOfRange {
-        /// Counted from 1.
+        /// Number of the Gaussian, from 1.
         index: usize,
     },
     /// A Gaussian off the origin without its mirror image.
@@ -40,7 +40,7 @@ pub enum TipFunctionError {
         mirror = -center
     )]
     NotEven {
-        /// Center of the Gaussian that stands alone.
+        /// Center of the Gaussian without a mirror image.
         center: f64,
     },
     /// A two-dimensional Gaussian off the line y = 0 without its mirror image.
@@ -48,50 +48,50 @@ pub enum TipFunctionError {
         "the tip function is not even in y: the Gaussian at center {center}, center_y {center_y} lacks a twin of the same amplitude and widths at center_y {mirror}"
     )]
     NotEvenAcross {
-        /// Center in x of the Gaussian that stands alone.
+        /// x of the center of the Gaussian without a mirror image.
         center: f64,
-        /// Its center in y.
+        /// y of its center.
         center_y: f64,
-        /// Where its twin should be.
+        /// y of the missing mirror image.
         mirror: f64,
     },
-    /// A table of f(x,y) that is no full grid.
+    /// A table of f(x,y) that is not a full rectangular grid.
     #[error(
         "the table has {points} rows, no full grid of its {x} values of x and {y} values of y: give every x for every y, each once"
     )]
     TableGrid {
-        /// Rows given.
+        /// Number of rows.
         points: usize,
-        /// Distinct x.
+        /// Number of distinct x.
         x: usize,
-        /// Distinct y.
+        /// Number of distinct y.
         y: usize,
     },
-    /// Side lobes that are not finite.
+    /// The weight of the side lobes is not finite.
     #[error("beta is {0:?}: it must be a finite number")]
     Beta(f64),
     /// A table with too few or too many rows.
     #[error("the table has {found} rows: between {min} and {max} are needed")]
     TableLength {
-        /// Rows given.
+        /// Number of rows.
         found: usize,
-        /// Fewest that define a shape.
+        /// Smallest number of rows.
         min: usize,
-        /// Most that are taken; thin the table above that.
+        /// Largest number of rows; reduce longer tables.
         max: usize,
     },
     /// A table entry that is not finite.
     #[error("row {row} of the table is not a pair of finite numbers")]
     TableNotFinite {
-        /// Counted from 1.
+        /// Number of the row, from 1.
         row: usize,
     },
     /// A table whose x do not increase.
     #[error("row {row} of the table has x = {x}: x must increase from row to row")]
     TableUnsorted {
-        /// Counted from 1.
+        /// Number of the row, from 1.
         row: usize,
-        /// As given.
+        /// Value of x in this row.
         x: f64,
     },
     /// A table that does not begin at x = 0.
@@ -104,7 +104,7 @@ pub enum TipFunctionError {
     TableDecay {
         /// |f at the last x| / max |f|.
         ratio: f64,
-        /// Largest ratio accepted.
+        /// Largest allowed ratio.
         most: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! ∫_0^∞ f(x+y) e^{-sy}dy for s > 0: what a tip in steady motion left, fading with the distance.
+//! ∫_0^∞ f(x+y) e^{-sy}dy for s > 0: the groove of steady motion over a surface that heals.
 
 use super::Gaussian;
 use crate::elementary::{cos, exp, sin};
@@ -20,9 +20,9 @@ pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     }
 }
 
-/// Above this the integrand of the mean over wave numbers is smooth on a few hundred points.
+/// For s above this the integrand of the mean over wave numbers is smooth on a few hundred points.
 const FAST: f64 = 0.1;
-/// Where e^{sx} has lost this many digits' worth of the difference that it multiplies.
+/// Largest exponent s x of the factor e^{sx}, which amplifies the error of the difference that it multiplies.
 const MOST_GROWTH: f64 = 2.0;
 
 /// J0 is the mean of cos(x sin θ) over θ, so this is the mean of Re e^{ikx}/(s - ik), k = sin θ; the

@@ -13,15 +13,15 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
-    /// Where the terms are those of a table.
+    /// The lattice of the terms, if they are those of a table.
     lattice: Option<Lattice>,
-    /// The f(x,y) that this is f(x,0) of.
+    /// The f(x,y) of which this is the section f(x,0).
     footprint: Option<Arc<Footprint>>,
 }
 
 impl GaussianSum {
     /// # Errors
-    /// Not finite or far out of range, a width ≤ 0, zero everywhere, or not even.
+    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not even.
     pub(super) fn new(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         for (i, term) in terms.iter().enumerate() {
             let index = i + 1;
@@ -65,7 +65,7 @@ impl GaussianSum {
         sum
     }
 
-    /// The bits of either alone, from the same exponentials.
+    /// Value and slope from the same exponentials, equal to those of single evaluations bit for bit.
     pub(super) fn value_and_slope(&self, x: f64) -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
         self.near(x, |width, z, value| {
@@ -85,7 +85,7 @@ impl GaussianSum {
         (slope, curvature)
     }
 
-    /// The slopes and curvatures of many x side by side in the lanes of the machine, the same to the last bit.
+    /// Slopes and curvatures at many x in SIMD lanes, equal to those of single evaluations bit for bit.
     #[inline(always)]
     pub(super) fn slopes_and_curvatures<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; 2] {
         let mut sums = [[0.0; N]; 2];
@@ -181,7 +181,8 @@ impl GaussianSum {
         self.terms.iter().map(|g| BAND_OF_A_GAUSSIAN / g.width).fold(0.0, f64::max)
     }
 
-    /// Width, z = (x-c)/w and value of the terms that matter at x: a table's many narrow ones are mostly far.
+    /// Width, z = (x-c)/w and value of the terms that are not negligible at x: most of the narrow terms of a table
+    /// are.
     fn near(&self, x: f64, mut take: impl FnMut(f64, f64, f64)) {
         if let Some(lattice) = &self.lattice {
             return lattice.near(&self.terms, x, take);
@@ -195,7 +196,7 @@ impl GaussianSum {
     }
 }
 
-/// Whether the mirror image of `term` is among `terms` as often as it is itself, to round-off.
+/// Whether the mirror image of `term` is among `terms` as often as `term` itself, to round-off.
 fn has_twin(terms: &[Gaussian], term: &Gaussian) -> bool {
     let close = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
     let total = |center: f64| -> f64 {

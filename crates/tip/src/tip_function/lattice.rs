@@ -1,24 +1,24 @@
-//! Sums over the Gaussians of a table: of one width, on an even lattice.
+//! Sums over the Gaussians of a table, which have one width and lie on an evenly spaced lattice.
 
 use super::term::{Gaussian, WIDTHS_OF_REACH};
 use crate::elementary::exp;
 
-/// Fewer terms are looked at as soon as chosen.
+/// Smallest number of terms for which a lattice saves time.
 const MANY: usize = 32;
 
-/// A lattice that terms are on, in the order 0, -1, 1, -2, 2 and so on.
+/// A lattice that contains all terms, in the order 0, -1, 1, -2, 2 and so on.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lattice {
-    /// Δ, the distance of the terms.
+    /// Distance Δ of the terms.
     spacing: f64,
-    /// w of all of them.
+    /// Width w of all terms.
     width: f64,
-    /// exp(-(jΔ/w)²/2) of j = 0, 1, 2 and so on, as far as they matter.
+    /// exp(-(jΔ/w)²/2) for j = 0, 1, 2 and so on, as far as it is not negligible.
     fading: Vec<f64>,
 }
 
 impl Lattice {
-    /// `None` where the terms are on none.
+    /// The lattice of these terms; `None` if there is none.
     pub(super) fn of(terms: &[Gaussian]) -> Option<Self> {
         let (width, spacing) = (terms.first()?.width, terms.get(2)?.center);
         let same = |a: f64, b: f64| (a - b).abs() <= 0.0;
@@ -40,15 +40,16 @@ impl Lattice {
         Some(Self { spacing, width, fading })
     }
 
-    /// Width, z = (x-c)/w and value of the terms that matter at x.
+    /// Width, z = (x-c)/w and value of the terms that are not negligible at x.
     ///
-    /// With u that of the nearest term, those of its neighbours are u - jΔ/w and
+    /// If u belongs to the nearest term, then u - jΔ/w belong to its neighbours, and
     ///
     /// ```text
     ///     exp(-(u - jΔ/w)²/2) = exp(-u²/2) exp(uΔ/w)^j exp(-(jΔ/w)²/2)
     /// ```
     ///
-    /// so that two exponentials serve for all. Each power is rounded once more, of terms that fade much sooner.
+    /// so that two exponentials suffice for all terms. Each power adds one rounding error, to terms that decay much
+    /// faster.
     #[inline]
     pub(super) fn near(&self, terms: &[Gaussian], x: f64, mut take: impl FnMut(f64, f64, f64)) {
         let nearest = (x / self.spacing).round();

@@ -1,4 +1,4 @@
-//! The footprint f(x) of the tip: how fast it indents the surface at distance x from its apex.
+//! The footprint f(x) of the tip: its indentation rate at distance x from its apex.
 
 mod apex;
 mod bessel;
@@ -23,15 +23,16 @@ use num_complex::Complex;
 /// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TipFunction {
-    /// A sum of Gaussians, (48) among them; tabulated tips become one too.
+    /// A sum of Gaussians, for example (48); tabulated tips are converted to such sums.
     Gaussians(GaussianSum),
     /// J0(x), the analytically tractable example of section IV.C.
     Bessel,
-    /// cos x: a tip whose surface keeps one wave. Without a spring, and with α < 0, it is the Lorenz system.
+    /// cos x: a tip whose surface contains a single wave. Without a spring, and with α < 0, its equation is the
+    /// Lorenz system.
     Cosine,
 }
 
-/// Products of three numbers within this and their inverses are finite.
+/// Largest parameter: products of three numbers up to this size, and their inverses, are finite.
 const LARGEST: f64 = 1e100;
 
 impl Default for TipFunction {
@@ -69,15 +70,15 @@ impl TipFunction {
     /// Any even sum of Gaussians.
     ///
     /// # Errors
-    /// Not finite or far out of range, a width ≤ 0, zero everywhere, or not even.
+    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not even.
     pub fn gaussian_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         GaussianSum::new(terms).map(Self::Gaussians)
     }
 
-    /// The smooth even function through the points (x, f) sampled on x ≥ 0, 0 beyond the last of them.
+    /// The smooth even function through the points (x, f), sampled on x ≥ 0, and 0 beyond the last point.
     ///
-    /// It is the sum of Gaussians on an even lattice that takes the tabulated values there: analytic,
-    /// so that the orders of convergence hold, and within the error of a cubic spline between rows.
+    /// It is a sum of Gaussians on an evenly spaced lattice, with the tabulated values at the lattice points. The sum
+    /// is analytic, so that the orders of convergence hold. Between rows its error is at most that of a cubic spline.
     ///
     /// # Errors
     /// Too short or long, not finite, unsorted, not from x = 0, or not decaying.
@@ -85,7 +86,7 @@ impl TipFunction {
         Self::gaussian_sum(table::gaussians_through(x, f)?)
     }
 
-    /// f(x,0) of a footprint in three dimensions, which goes along with it.
+    /// The section f(x,0) of a footprint in three dimensions, which is kept with it.
     #[must_use]
     pub fn of_footprint(footprint: Footprint) -> Self {
         match footprint.path().clone() {
@@ -94,7 +95,7 @@ impl TipFunction {
         }
     }
 
-    /// The f(x,y) that this is the section y = 0 of, where it was made from one.
+    /// The f(x,y) of which this is the section y = 0, if it was made from one.
     #[must_use]
     pub fn footprint(&self) -> Option<&Footprint> {
         match self {
@@ -119,7 +120,7 @@ impl TipFunction {
         self.slope_and_curvature(x).0
     }
 
-    /// f(x) and f'(x), which share their costly part.
+    /// f(x) and f'(x), which share the expensive part of their evaluation.
     pub(crate) fn value_and_slope(&self, x: f64) -> (f64, f64) {
         match self {
             Self::Gaussians(sum) => sum.value_and_slope(x),
@@ -127,7 +128,7 @@ impl TipFunction {
         }
     }
 
-    /// f'(x) and f''(x), which share theirs.
+    /// f'(x) and f''(x), which share the expensive part of their evaluation.
     #[must_use]
     #[inline]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
@@ -138,7 +139,8 @@ impl TipFunction {
         }
     }
 
-    /// f' of each x and f'' of each, the same to the last bit as one by one: for callers compiled for wider vectors.
+    /// f' and f'' at each x, equal to those of single evaluations bit for bit: for callers compiled for wider
+    /// vectors.
     #[inline(always)]
     pub(crate) fn slopes_and_curvatures<const N: usize>(&self, x: &[f64; N]) -> [[f64; N]; 2] {
         if let Self::Gaussians(sum) = self {
@@ -160,7 +162,7 @@ impl TipFunction {
         }
     }
 
-    /// A bound of |f^{(n)}| everywhere.
+    /// A bound on |f^{(n)}| for all x.
     fn derivative_bound(&self, n: usize) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.derivative_bound(n),
@@ -193,7 +195,7 @@ impl TipFunction {
         }
     }
 
-    /// ∫_{-∞}^∞ f(ξ)dξ: the depth left far behind, (25).
+    /// ∫_{-∞}^∞ f(ξ)dξ: the depth far behind the tip, (25).
     #[must_use]
     pub fn integral(&self) -> f64 {
         self.fourier(0.0)
@@ -210,7 +212,8 @@ impl TipFunction {
         }
     }
 
-    /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and fading κ; `None` for a footprint that never fades.
+    /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and decay rate κ; `None` for a footprint that does not
+    /// decay.
     #[must_use]
     pub fn fourier_fading(&self, q: f64, fading: f64) -> Option<Complex<f64>> {
         match self {
@@ -219,8 +222,8 @@ impl TipFunction {
         }
     }
 
-    /// Distance beyond which f and its derivatives are below the round-off of their largest values;
-    /// `None` for a footprint that never fades (J0 falls only like 1/√x).
+    /// Distance beyond which f and its derivatives are below the round-off of their largest values; `None` for a
+    /// footprint without such a distance (J0 decays only like 1/√x).
     #[must_use]
     pub fn reach(&self) -> Option<f64> {
         match self {

@@ -1,8 +1,8 @@
-//! A table (x, f) turned into a sum of Gaussians.
+//! Conversion of a table (x, f) to a sum of Gaussians.
 //!
-//! On a lattice of spacing Δ, Gaussians of width 1.2 Δ reproduce what the lattice resolves: the
-//! saturation error of such a quasi-interpolation is 2 exp(-2π²·1.2²) ≈ 1e-12, and its matrix has a
-//! condition number below 1e3.
+//! On a lattice of spacing Δ, Gaussians of width 1.2 Δ reproduce every function that the lattice resolves: the
+//! saturation error of such a quasi-interpolation is 2 exp(-2π²·1.2²) ≈ 1e-12, and its matrix has a condition number
+//! below 1e3.
 
 use super::{Gaussian, TipFunctionError};
 use crate::elementary::exp;
@@ -10,12 +10,13 @@ use crate::spline::CubicSpline;
 
 pub(crate) const MIN_ROWS: usize = 8;
 const MAX_ROWS: usize = 2000;
-/// A last value above this fraction of the largest would leave a visible step at the table's end.
+/// Largest allowed ratio of the last value to the largest: a larger one would leave a visible step at the end of the
+/// table.
 pub(crate) const MAX_LAST_RATIO: f64 = 1e-3;
 pub(crate) const WIDTH_PER_SPACING: f64 = 1.2;
-/// Lattice points of value 0 put beyond the table, so that the sum falls to zero and stays there.
+/// Number of lattice points of value 0 added beyond the table, so that the sum decays to zero and stays there.
 const ZEROS_BEYOND: usize = 12;
-/// exp(-(11/1.2)²/2) is below round-off: further lattice points do not see each other.
+/// Half-width of the matrix in lattice points: exp(-(11/1.2)²/2) is below round-off.
 const NEIGHBOURS: usize = 11;
 
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
@@ -24,8 +25,8 @@ pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, T
     Ok(gaussians_of(spacing, &coefficients))
 }
 
-/// Spacing of the lattice, and the coefficients on its points ≥ 0 of the even sum of Gaussians that takes the
-/// values f at x, valid columns of a table.
+/// Spacing of the lattice, and coefficients on its points ≥ 0 of the even sum of Gaussians through the points (x, f)
+/// of a valid table.
 pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     let (spacing, mut samples) = on_a_lattice(x, f);
     samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
@@ -34,7 +35,7 @@ pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     (spacing, coefficients.split_off(origin))
 }
 
-/// The Gaussians on the whole lattice, the coefficients given for its points ≥ 0.
+/// The Gaussians on the whole lattice, from the coefficients on its points ≥ 0.
 pub(crate) fn gaussians_of(spacing: f64, coefficients: &[f64]) -> Vec<Gaussian> {
     let width = WIDTH_PER_SPACING * spacing;
     let term = |i: usize, sign: f64| {
@@ -69,7 +70,7 @@ fn validate(x: &[f64], f: &[f64]) -> Result<(), TipFunctionError> {
     Ok(())
 }
 
-/// Finite x must be neither few nor many, increase, and start at 0.
+/// Checks that the number of x is within limits, and that they are finite, increase and start at 0.
 pub(crate) fn validate_axis(x: &[f64]) -> Result<(), TipFunctionError> {
     let found = x.len();
     if !(MIN_ROWS..=MAX_ROWS).contains(&found) {
@@ -84,8 +85,8 @@ pub(crate) fn validate_axis(x: &[f64]) -> Result<(), TipFunctionError> {
     Ok(())
 }
 
-/// Spacing and values on an even lattice from 0: the table itself where its rows are evenly spaced,
-/// else a cubic spline through it (flat at 0, as an even function is) at its mean spacing.
+/// Spacing and values on an evenly spaced lattice from 0: the table itself if its rows are evenly spaced, otherwise a
+/// cubic spline through it (with slope 0 at 0, as for an even function) at its mean spacing.
 fn on_a_lattice(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
     let last = x[x.len() - 1];
     #[expect(clippy::cast_precision_loss, reason = "at most MAX_ROWS")]

@@ -1,4 +1,4 @@
-//! What a step is expected to be: where it leads, and how long it may be.
+//! Prediction of a step: its displacements, and limits on its length.
 
 use super::Integrator;
 use super::stage_equations::Unknowns;
@@ -7,7 +7,7 @@ use crate::memory::Memory;
 use crate::step;
 
 impl<M: Memory> Integrator<'_, M> {
-    /// The last polynomials continued, where they can be trusted to; else straight lines.
+    /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
     pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
         Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }
     }
@@ -22,7 +22,7 @@ impl<M: Memory> Integrator<'_, M> {
         RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
     }
 
-    /// Longest step to try: not over a pulse, not too far, and not far beyond the stretch.
+    /// Longest step to try: it does not skip a pulse, move the tip too far, or lead far beyond the stretch.
     pub(super) fn length_limit(&self) -> f64 {
         let stretch = &self.stretch;
         let speed = self.velocity.abs().max(1e-300);

@@ -1,21 +1,21 @@
-//! Step lengths from error estimates, and the constants that tune the integrator.
+//! Step-size control from error estimates, and the constants of the integrator.
 
 use crate::collocation::{RADAU, STAGES};
 use crate::elementary::{exp, ln};
 use crate::state::{Damaged, Reader, State};
 
-/// The largest error allowed within one step, as a fraction of the tolerance. The rest is for what
-/// steps add up to and for what the motion amplifies; tests/science/tolerance_ladder.rs holds the balance.
+/// Largest error allowed within one step, as a fraction of the tolerance. The rest allows for the sum over steps and
+/// for amplification by the motion; tests/science/tolerance_ladder.rs tests this choice.
 const SHARE_OF_A_STEP: f64 = 0.05;
 
-/// A displacement larger than planned by this factor is still accepted.
+/// Largest accepted ratio of a displacement to the planned one.
 pub(crate) const OVERSHOOT: f64 = 1.5;
 
-/// Weight of the change of the defect from step to step in the error estimate: where the leading
-/// derivative passes through zero, the defect alone says nothing.
+/// Weight, in the error estimate, of the change of the defect from step to step: near a zero of the leading
+/// derivative the defect alone is too small.
 const WEIGHT_OF_CHANGE: f64 = 0.5;
 
-/// First step tried, in units of Γ/k.
+/// Length of the first step, in units of Γ/k.
 const FIRST_STEP: f64 = 0.01;
 const SAFETY: f64 = 0.9;
 const LARGEST_GROWTH: f64 = 2.5;
@@ -24,14 +24,14 @@ const LARGEST_SHRINKAGE: f64 = 0.2;
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a small count")]
 const ORDER_WITHIN_A_STEP: i32 = STAGES as i32 + 1;
 
-/// Chooses step lengths.
+/// The step-size control.
 #[derive(Debug, Clone)]
 pub(crate) struct Control {
     tolerance: f64,
     next: f64,
     fixed: bool,
     just_rejected: bool,
-    /// h times the defect, and h, of the last accepted step.
+    /// h times the defect, and h, for the last accepted step.
     last: Option<(f64, f64)>,
 }
 
@@ -48,7 +48,7 @@ impl Control {
         self.fixed
     }
 
-    /// Steps of about this length have been made otherwise.
+    /// Continues after steps of about this length by another method.
     pub(crate) fn resume(&mut self, h: f64) {
         (self.next, self.just_rejected, self.last) = (h, false, None);
     }
@@ -57,7 +57,7 @@ impl Control {
         self.tolerance
     }
 
-    /// What the next lengths depend on, beside the tolerance.
+    /// Writes all data, except the tolerance, that determine the next lengths.
     pub(crate) fn save(&self, state: &mut State) {
         state.number(self.next);
         state.flag(self.just_rejected);
@@ -75,8 +75,8 @@ impl Control {
         SHARE_OF_A_STEP * self.tolerance
     }
 
-    /// The length to try next: below `limit`, and either reaching the end in `distance` or leaving
-    /// room for a step of the same length before it.
+    /// The length of the next step: below `limit`, and either equal to `distance`, at which steps must end, or short
+    /// enough for a second step of the same length.
     pub(crate) fn proposal(&self, limit: f64, distance: f64) -> f64 {
         let h = if self.fixed { self.next } else { self.next.min(limit) };
         if h >= distance * (1.0 - 1e-9) {
@@ -88,13 +88,13 @@ impl Control {
         }
     }
 
-    /// Accepts a step of length h, or says what length to try instead, from two signs of its error: the
-    /// defect with which its stage polynomial starts (its velocity less the true one), and its error as
-    /// an interpolant; and from an error `beside` of anything else that a step determines.
+    /// Accepts a step of length h or returns the length to try instead. There are two measures of its error. One is
+    /// the defect of its stage polynomial at the start (its velocity minus the exact one), the other its error as an
+    /// interpolant. `beside` is the error of any other quantity that the step determines.
     ///
-    /// As long as the groove's `stiffness` is small against 1/h, the error follows from the defect, which
-    /// is δ N(τ)/N(0), N vanishing at the nodes. Where it is large, the stages are exact, velocities are
-    /// not, and the stage polynomial errs by interpolation.
+    /// As long as the `stiffness` of the groove is small compared with 1/h, the error follows from the defect, which
+    /// is δ N(τ)/N(0), where N vanishes at the nodes. If the stiffness is large, the stages are exact but velocities
+    /// are not, and the error of the stage polynomial is that of interpolation.
     #[inline]
     pub(crate) fn judge(
         &mut self,

@@ -1,4 +1,4 @@
-//! The corner of |h| in a depth limit: a step keeps to one side of it, and ends where h = 0.
+//! The kink of |h| with a depth limit: a step stays on one side of it, and ends where h = 0.
 
 use super::{Integrator, Retry, Solution};
 use crate::Model;
@@ -8,35 +8,36 @@ use crate::roots::zero_to;
 use crate::state::{Damaged, Reader, State};
 use crate::step;
 
-/// The height under the tip, and on which side of the corner the next step is.
+/// The height under the tip, and the side of the kink on which the next step lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub(super) height: f64,
     /// 1 above, -1 below.
     pub(super) side: f64,
-    /// Whether the step before ended at the corner: polynomials do not continue beyond.
+    /// Whether the last step ended at the kink: polynomials are not extrapolated across it.
     pub(super) turned: bool,
-    /// A step may be so far on the wrong side.
+    /// Largest distance of a step beyond the kink.
     slack: f64,
     /// Round-off of a height.
     round_off: f64,
-    /// An error of h amounts to so much of one of the displacement, in the step.
+    /// Error of the displacement per error of h in the step.
     weight: f64,
 }
 
-/// The end of a step is known to so many roundings of t.
+/// Accuracy of the end time of a step, in roundings of t.
 const ROUNDINGS_OF_TIME: f64 = 8.0;
-/// Heights as polynomials are wanted to the tolerance itself, of which an error of a step is allowed a small part.
+/// Weight of the error of heights as polynomials: it may reach the tolerance itself, the error of a step only a small
+/// part of it.
 const SHARE_OF_DENSE: f64 = 0.1;
-/// Heights are sums of terms of the size of α, at positions rounded by up to 3e-14: not better known than this part of it.
+/// Accuracy of heights, in units of α: they are sums of terms of this size, at positions rounded by up to 3e-14.
 const ROUND_OFF: f64 = 4e-13;
-/// A step on the wrong side indents by 2|h|/b too much or little: this share of what it may err.
+/// Share of the allowed error for a step on the wrong side, which indents by 2|h|/b too much or too little.
 const SHARE: f64 = 0.1;
-/// The zero of a height is found to this part of the slack.
+/// Accuracy of the zero of a height, in units of the slack.
 const SHARE_OF_SLACK: f64 = 0.1;
 
 impl Corner {
-    /// Of a tip that starts at this height; `None` without a depth limit.
+    /// The kink for a tip that starts at this height; `None` without a depth limit.
     pub(super) fn of(model: &Model, height: f64, target: f64) -> Option<Self> {
         let limit = model.wider().depth_limit?;
         let size = model.alpha().abs().max(1.0);
@@ -47,18 +48,18 @@ impl Corner {
         Some(Self { height, side, turned: false, slack, round_off, weight })
     }
 
-    /// So near to 0 a height of a step (t, h) is 0: t is rounded too.
+    /// Largest height that counts as 0 in a step (t, h), because t is rounded too.
     fn slack(&self, heights: &Heights, (t, h): (f64, f64)) -> f64 {
         let rise = heights.rise().iter().fold(0.0, |m: f64, rise| m.max(rise.abs()));
         self.slack.max(ROUNDINGS_OF_TIME * f64::EPSILON * t.abs() * rise / h)
     }
 
-    /// Whether all these heights are well on its side, as those of most steps.
+    /// Whether all these heights are well on the side of the step, as in most steps.
     pub(super) fn keeps(&self, heights: &[f64]) -> bool {
         heights.iter().all(|height| self.side * height >= 0.0)
     }
 
-    /// Whether a step of length h from t is right to be where it is.
+    /// Checks that a step of length h from t stays on its side.
     pub(super) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
         if self.keeps(&heights.nodes) {
             return Ok(());
@@ -78,13 +79,13 @@ impl Corner {
         Err(Retry::ToKnot(tau * h))
     }
 
-    /// Where in a step the height passes 0, if it is beyond at this node and at none before.
+    /// Bracket of the zero of the height within a step, if this node is the first beyond the kink.
     fn bracket(&self, heights: &Heights, after: usize) -> (f64, f64) {
         let before = after.checked_sub(1).filter(|i| self.side * heights.nodes[*i] > 0.0);
         (before.map_or(0.0, |i| RADAU.c[i]), RADAU.c[after])
     }
 
-    /// The tip stands at this height, as its memory tells.
+    /// Sets the height under the tip, as evaluated by its memory.
     pub(super) fn stand_at(&mut self, height: f64) {
         self.height = height;
         if self.side * height < -self.slack {
@@ -104,7 +105,7 @@ impl Corner {
         if self.side.abs() < 1.0 { Err(Damaged::OutOfRange) } else { Ok(()) }
     }
 
-    /// The step of length h from t has been accepted.
+    /// Updates the side after a step of length h from t has been accepted.
     pub(super) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
         self.height = heights.nodes[STAGES - 1];
         let slack = self.slack(heights, (t, h));
@@ -117,7 +118,7 @@ impl Corner {
 }
 
 impl<M: crate::memory::Memory> Integrator<'_, M> {
-    /// The next attempt is on the other side of the corner; false if that has been tried.
+    /// Changes the side for the next attempt; false if the other side has been tried.
     pub(super) fn turn(&mut self) -> bool {
         let Some(corner) = &mut self.corner else { return false };
         corner.side = -corner.side;
@@ -129,7 +130,7 @@ impl<M: crate::memory::Memory> Integrator<'_, M> {
         Some(Heights { start: corner.height, nodes })
     }
 
-    /// The heights of the step before, continued over a step of length h.
+    /// The heights of the last step, extrapolated over a step of length h.
     pub(super) fn heights_ahead(&self, h: f64) -> Stages {
         let Some(corner) = &self.corner else { return [0.0; STAGES] };
         let before = self.last.filter(|last| h <= 1.5 * last.h).zip(self.last_heights());
@@ -137,14 +138,14 @@ impl<M: crate::memory::Memory> Integrator<'_, M> {
         RADAU.continued(&heights.rise(), h / last.h).map(|rise| corner.height + rise)
     }
 
-    /// Those of the step before, on the same side of the corner.
+    /// The heights of the last step, if it is on the same side of the kink.
     fn last_heights(&self) -> Option<Heights> {
         let same_side = |corner: &Corner| !corner.turned;
         self.corner.as_ref().filter(|corner| same_side(corner))?;
         self.last?.height
     }
 
-    /// Error of the heights as a polynomial of time, against the step before, as one of the displacement.
+    /// Error of the heights as a polynomial of time, from the last step, converted to an error of the displacement.
     pub(super) fn error_of_heights(&self, heights: Option<&Heights>, h: f64) -> f64 {
         let Some(((heights, before), last)) = heights.zip(self.last_heights()).zip(self.last)
         else {

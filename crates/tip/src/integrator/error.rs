@@ -1,8 +1,8 @@
-//! Why an integration ends early.
+//! Errors that end an integration.
 
 use thiserror::Error;
 
-/// Why a run could not go on.
+/// Errors that end a run.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum IntegrationError {
     /// The step length fell to the round-off of t.
@@ -12,12 +12,12 @@ pub enum IntegrationError {
     StepTooSmall {
         /// Time reached.
         t: f64,
-        /// Last step length tried.
+        /// Last step length.
         h: f64,
-        /// Tolerance asked for.
+        /// Requested tolerance.
         tolerance: f64,
     },
-    /// The tip came back to where it had been so long ago that the memory no longer knows it.
+    /// The tip returned to positions so far back that the memory no longer contains them.
     #[error(
         "at t = {t}: the tip retreated further than the {kept} that the memory keeps behind it; use the memory direct, which keeps all"
     )]

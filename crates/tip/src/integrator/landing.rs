@@ -1,14 +1,14 @@
-//! Where a step ends: at a time that is a number, not short of one where it has to, and where the tip leaves the stretch.
+//! The end of a step: at a representable time, exactly at a required end, and where the tip leaves the stretch.
 
 use super::Integrator;
 use crate::memory::Memory;
 use crate::roots::zero_between;
 
-/// By which a step may be longer to end where it is to.
+/// Largest extension of a step, in roundings of t, that lets it end at a required time.
 const MOST_ROUNDINGS: usize = 64;
 
-/// The length of a step from t of about the length h that ends at a representable time, and at `end` if it is near; `None`
-/// for one too short.
+/// The length of a step from t, of about the length h, that ends at a representable time, and at `end` if that is
+/// close; `None` for a step that is too short.
 pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
     // The difference of two representable times: t loses nothing as it grows.
     let mut h = (t + h) - t;
@@ -32,18 +32,18 @@ pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
 }
 
 impl<M: Memory> Integrator<'_, M> {
-    /// Where the next step is to end at the latest.
+    /// Latest end of the next step.
     pub(super) fn next_end(&self, until: f64) -> f64 {
         let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));
         breaks.min(until)
     }
 
-    /// As [`landing`], from where the tip is.
+    /// As [`landing`], from the present time.
     pub(super) fn landing(&self, h: f64, end: f64) -> Option<f64> {
         landing(self.t, h, end)
     }
 
-    /// When the tip leaves the stretch, if it does: a polynomial, of which values at nodes are known.
+    /// Time at which the tip leaves the stretch, if it does, from the values of its polynomial at the nodes.
     pub(super) fn leaves(
         &self,
         nodes: &[f64],

@@ -1,8 +1,8 @@
-//! Adaptive collocation of the closed equation: one unknown, the tip's displacement within the step.
+//! Adaptive collocation of the closed equation, with the displacement of the tip within the step as the only unknown.
 //!
-//! Radau IIA applied to (10) and (11) together. The stage values of u never appear: within a step the
-//! groove is what the memory knows of the past plus the step's own indentation, the Butcher matrix
-//! applied to `f'(x_i - x_j)`, so that s scalar unknowns remain.
+//! Radau IIA is applied to (10) and (11) together. The stage values of u never appear. Within a step the groove is
+//! the sum of that of the past, from the memory, and the contribution of the step: the Butcher matrix applied to
+//! `f'(x_i - x_j)`. So s scalar unknowns remain.
 
 mod ahead;
 pub(crate) mod control;
@@ -29,25 +29,25 @@ use std::cell::OnceCell;
 use taylor::Taylor;
 pub(crate) use taylor::{BeginBeside, EndedBeside, SideBySide};
 
-/// What the integrator did, in counts that do not depend on the machine.
+/// Numbers of steps, iterations and series, which do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Work {
     /// Accepted steps.
     pub steps: u64,
     /// Steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations, each of them one look at the groove in all stages.
+    /// Newton iterations, each with one evaluation of the groove at all stages.
     pub newton_iterations: u64,
-    /// Taylor series that were expanded: each makes one step or several, without an iteration.
+    /// Taylor series; each yields one or several steps, without an iteration.
     pub series: u64,
-    /// How often collocation took over from series.
+    /// Number of changes from series to collocation.
     pub switches: u64,
 }
 
-/// The state of a tip under way, and all that acts on it.
+/// The state of a tip in motion, and all forces on it.
 pub struct Integrator<'a, M> {
     model: &'a Model,
-    /// Once collocation has asked for it.
+    /// Expansion of f about its apex, computed when collocation first needs it.
     apex: OnceCell<Apex>,
     surface: &'a InitialSurface,
     force: &'a Force,
@@ -55,9 +55,9 @@ pub struct Integrator<'a, M> {
     memory: M,
     control: Control,
     t: f64,
-    /// When it started.
+    /// Start time.
     start: f64,
-    /// Until then the tip is at rest by symmetry: nothing drags or pushes it, and what it leaves is even about it.
+    /// End of the initial rest by symmetry: until then no force acts on the tip, and its groove is even about it.
     rest_until: f64,
     /// R - x0
     extension: f64,
@@ -66,24 +66,26 @@ pub struct Integrator<'a, M> {
     curvature: f64,
     /// u0' and Fext as `velocity` has them: where they jump, the next step begins with others.
     limits_from_before: (f64, f64),
-    /// Of u0, where the step under way began.
+    /// The stretch of u0 on which the present step began.
     stretch: Stretch,
-    /// Of |h|, where there is a depth limit.
+    /// The kink of |h|, with a depth limit.
     corner: Option<Corner>,
     taylor: Taylor,
     last: Option<Step>,
     work: Work,
 }
 
-/// Iterations end, and the step's own groove is expanded, at this fraction of the error allowed in a step.
+/// Accuracy of the iterations, and of the expansion of the contribution of the step, as a fraction of the error
+/// allowed in a step.
 pub(crate) const ENOUGH: f64 = 0.01;
 
-/// An error of the velocity is so many times what a step errs by, over its length: it leads M times as far astray.
+/// Error of the velocity, as a multiple of the error of a step over its length: with inertia it displaces the tip by
+/// M times as much.
 pub(crate) const COASTING: f64 = 10.0;
 
 impl<'a, M: Memory> Integrator<'a, M> {
-    /// A tip that starts at time t with its spring extended by `extension` = rt - x0, and nothing
-    /// remembered but what `memory` brings along. With inertia it starts at the velocity r.
+    /// A tip that starts at time t with the extension `extension` = rt - x0 of its spring, and no past except that of
+    /// `memory`. With inertia its initial velocity is r.
     pub fn new(
         model: &'a Model,
         surface: &'a InitialSurface,
@@ -119,7 +121,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         integrator.set_off(model.r())
     }
 
-    /// Where it is, with what surface and forces make of that; with inertia at this velocity.
+    /// Computes surface and forces at the position of the tip; with inertia it has this velocity.
     fn set_off(mut self, velocity: f64) -> Self {
         let (x, wider) = (self.position(), self.model.wider());
         let (slope, curvature) = self.surface.slope_and_curvature(x);
@@ -142,20 +144,20 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self
     }
 
-    /// Whether the tip is at rest by symmetry. No sum over the past is exactly even, and where rest is unstable what it
-    /// leaves of the slope would grow.
+    /// Whether the tip is at rest by symmetry. No algorithm for the history integral is exactly even, and if rest is
+    /// unstable the remaining slope would grow.
     fn rests(&self) -> bool {
         self.t < self.rest_until
     }
 
-    /// Steps of this length only, without error control: for observing the order of convergence.
+    /// The integrator with a fixed step, without error control: for observing the order of convergence.
     #[must_use]
     pub fn with_fixed_step(mut self, h: f64) -> Self {
         self.control.fix(h);
         self
     }
 
-    /// On a support that moves otherwise, and is where it was; with inertia from this velocity.
+    /// The integrator with another support, at the present position; with inertia the tip has this velocity.
     #[must_use]
     pub fn moved_by(mut self, support: Support, velocity: f64) -> Self {
         self.support = support;
@@ -168,13 +170,13 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self.t
     }
 
-    /// l = rt - r - x0 now.
+    /// The present l = rt - r - x0.
     #[must_use]
     pub fn l(&self) -> f64 {
         self.extension - self.model.r()
     }
 
-    /// Counts so far.
+    /// Numbers of steps, iterations and series so far.
     #[must_use]
     pub fn work(&self) -> Work {
         self.work
@@ -186,7 +188,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         &self.memory
     }
 
-    /// Makes one step, which ends at `until` at the latest, but for a rounding of t.
+    /// Makes one step. It ends at `until` at the latest, except for one rounding of t.
     ///
     /// # Errors
     /// The tolerance cannot be met.
@@ -227,7 +229,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         IntegrationError::StepTooSmall { t: self.t, h, tolerance: self.control.tolerance() }
     }
 
-    /// The stretch of u0 ahead, and the velocity with which the tip enters it.
+    /// Sets the stretch of u0 ahead, and the velocity with which the tip enters it.
     fn enter_stretch(&mut self) {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
@@ -239,7 +241,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
     }
 
-    /// A step of length h, accepted, or the shorter length to try instead.
+    /// Makes a step of length h; returns the accepted step, or the shorter length to try instead.
     fn attempt(&mut self, h: f64) -> Result<Step, Retry> {
         let longest = step::longest_displacement(self.model.tip().band());
         let guess = self.predict(h, longest);
@@ -277,7 +279,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         Ok(self.accept(h, &solution, heights))
     }
 
-    /// What a step of length h begins with.
+    /// The data at the start of a step of length h.
     fn begin(&self, h: f64) -> Begin {
         Begin {
             t: self.t,
@@ -291,7 +293,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         }
     }
 
-    /// Defect, and error as an interpolant, against the step before.
+    /// Defect of the step, and its error as an interpolant from a comparison with the last step.
     fn signs_of_error(&self, displacement: &Stages, h: f64) -> (f64, f64) {
         let before =
             |last: Step| step::interpolation_error(displacement, h, (&last.displacement, last.h));
@@ -325,7 +327,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
         step
     }
 
-    /// How fast the fastest fades over a groove of this curvature, in k/Γ.
+    /// The largest decay rate over a groove of this curvature, in k/Γ.
     fn fastest(&self, curvature: f64) -> f64 {
         let stiffness = 1.0 + curvature;
         let Some(mass) = self.model.wider().inertia else { return stiffness };
@@ -333,12 +335,12 @@ impl<'a, M: Memory> Integrator<'a, M> {
         if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { (stiffness / mass).sqrt() }
     }
 
-    /// x0 now.
+    /// The present x0.
     fn position(&self) -> f64 {
         self.support.position(self.t) - self.extension
     }
 
-    /// u0' at the tip, as much of it as is left.
+    /// The undecayed part of u0' at the tip.
     fn relief_slope(&self) -> f64 {
         let slope = self.surface.slope_and_curvature_on(&self.stretch, self.position()).0;
         match self.model.wider().healing_time {
@@ -348,12 +350,12 @@ impl<'a, M: Memory> Integrator<'a, M> {
     }
 }
 
-/// Why an attempt is repeated with a shorter step.
+/// Reasons for repeating an attempt with another step.
 enum Retry {
-    /// It erred too much.
+    /// The error was too large.
     Shorter(f64),
-    /// It passed a knot of u0, or the corner of |h|: it is to end there.
+    /// The step passed a knot of u0, or the kink of |h|, where it must end.
     ToKnot(f64),
-    /// It began at the corner of |h|, and went the other way.
+    /// The step began at the kink of |h|, and moved to the other side.
     OtherSide,
 }

@@ -1,10 +1,10 @@
-//! The integrator between two steps, written down and taken up again.
+//! Saved states of the integrator between two steps.
 
 use super::{Integrator, Work};
 use crate::memory::Memory;
 use crate::state::{Damaged, Reader, Saved, State};
 
-/// All that the next steps depend on, beside what [`Integrator::new`] is given.
+/// Contains all data that determine the next steps, except the arguments of [`Integrator::new`].
 impl<M: Memory + Saved> Saved for Integrator<'_, M> {
     fn save(&self, state: &mut State) {
         let (slope, force) = self.limits_from_before;

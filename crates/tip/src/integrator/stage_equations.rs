@@ -1,5 +1,5 @@
-//! The equations for the tip's displacement at the nodes of one step, and their Newton iteration; under a
-//! depth limit for the heights under the tip too.
+//! The equations for the displacement of the tip at the nodes of one step, and their Newton iteration; with a depth
+//! limit also for the heights under the tip.
 
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
@@ -11,7 +11,7 @@ use crate::step::{
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
 
-/// The [`Equations`] of a step, with what memory and surface tell.
+/// The [`Equations`] of a step, with the values from memory and surface.
 pub(super) struct StageEquations<'a> {
     model: &'a Model,
     apex: &'a Apex,
@@ -25,7 +25,7 @@ pub(super) struct StageEquations<'a> {
     rests: bool,
 }
 
-/// What a step begins with.
+/// The data at the start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Begin {
     pub(super) t: f64,
@@ -44,20 +44,20 @@ pub(super) struct Begin {
     pub(super) rests: bool,
 }
 
-/// What is left at the stages of what there was when the step, and when the run, began.
+/// Undecayed parts, at the stages, of indentations at the start of the step and at the start of the run.
 struct Left {
     past: Stages,
     relief: Stages,
 }
 
-/// Displacements, and heights where there is a depth limit.
+/// Displacements, and with a depth limit heights.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unknowns {
     pub(super) displacement: Stages,
     pub(super) height: Stages,
 }
 
-/// How an iteration ended.
+/// Result of an iteration.
 pub(super) struct Solved {
     pub(super) iterations: u64,
     /// `None` if it did not converge.
@@ -68,7 +68,7 @@ pub(super) struct Solution {
     pub(super) displacement: Stages,
     /// Heights at the nodes.
     pub(super) height: Option<Stages>,
-    /// For how long, as it were, the tip indented at each node: what is left of it at the end of the step.
+    /// Effective time of indentation at each node, multiplied by its undecayed part at the end of the step.
     pub(super) spent: Stages,
     /// u_xx at the last node.
     pub(super) curvature_at_end: f64,
@@ -77,10 +77,10 @@ pub(super) struct Solution {
 const MOST_ITERATIONS: u64 = 12;
 /// Corrections below this are round-off of displacements of order one.
 const ROUND_OFF: f64 = 1e-15;
-/// As long as corrections shrink at least so fast, the Jacobian of an earlier iteration will do.
+/// Largest ratio of successive corrections for which the Jacobian of an earlier iteration is kept.
 const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 
-/// What one look at the groove tells.
+/// Results of one evaluation of the groove.
 struct Look {
     known: Known,
     own: OwnGroove,
@@ -100,14 +100,14 @@ impl Look {
     }
 }
 
-/// The Jacobian, factored: one of the two.
+/// The factored Jacobian: one of the two forms.
 struct Jacobian {
     plain: Option<Factors>,
     limited: Option<LimitedFactors>,
 }
 
 impl<'a> StageEquations<'a> {
-    /// For the step that begins so.
+    /// The equations for a step that begins with these data.
     #[inline]
     pub(super) fn new(
         (model, apex): (&'a Model, &'a Apex),
@@ -139,8 +139,8 @@ impl<'a> StageEquations<'a> {
         Self { model, apex, surface, stretch, x, equations, depth, left, rests }
     }
 
-    /// Newton's iteration from `guess`, to an error below `enough`; given up when a displacement
-    /// exceeds `most`. The Jacobian is kept while that costs no iteration.
+    /// Solves the equations by Newton's iteration from `guess`, to an error below `enough`. It stops when a
+    /// displacement exceeds `most`. The Jacobian is kept as long as this requires no additional iteration.
     pub(super) fn solve(
         &self,
         memory: &mut impl Memory,
@@ -200,7 +200,7 @@ impl<'a> StageEquations<'a> {
         Solution { displacement, height, spent, curvature_at_end }
     }
 
-    /// Factors the Jacobian afresh.
+    /// Computes and factors the Jacobian.
     fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
         let known = &look.known;
         if let Some(depth) = &self.depth {
@@ -227,7 +227,7 @@ impl<'a> StageEquations<'a> {
         missed.displacement = self.equations.residual(d, &velocity);
     }
 
-    /// What memory and surface tell at these displacements.
+    /// Evaluates memory and surface at these displacements.
     #[inline]
     fn know(&self, memory: &mut impl Memory, d: &Stages, known: &mut Known) {
         let mut groove = Groove::new(&mut known.past_slope, &mut known.past_curvature);
@@ -255,7 +255,7 @@ impl<'a> StageEquations<'a> {
 }
 
 impl Jacobian {
-    /// `None` where it is singular.
+    /// Newton's corrections; `None` if the Jacobian is singular.
     #[inline]
     fn corrections(&self, missed: &Missed) -> Option<Missed> {
         if let Some(limited) = &self.limited {

@@ -1,4 +1,4 @@
-//! The history of the tip: its accepted steps, each a polynomial.
+//! The history of the tip: the accepted steps, each a polynomial.
 
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::elementary::exp;
@@ -10,42 +10,42 @@ use std::sync::LazyLock;
 
 /// One accepted step: the stage polynomial of the tip's displacement.
 ///
-/// Positions are kept as the spring's extension and as displacements, not as x0: a tip that has
-/// travelled 1e6 widths keeps its last digits.
+/// Positions are stored as the extension of the spring and as displacements, not as x0: so a tip that has travelled
+/// 1e6 widths keeps its last digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Time at its start.
+    /// Time at the start of the step.
     pub t: f64,
-    /// Its duration.
+    /// Duration of the step.
     pub h: f64,
-    /// rt - x0 at its start, the extension of the spring; l = rt - r - x0.
+    /// Extension rt - x0 of the spring at the start of the step; l = rt - r - x0.
     pub extension: f64,
-    /// x0 less its value at the start, at the collocation nodes; the last is the end of the step.
+    /// x0 minus its value at the start, at the collocation nodes; the last node is the end of the step.
     pub displacement: Stages,
-    /// The height of the surface under the tip, where a depth limit (61) asks for it.
+    /// The height of the surface under the tip, with a depth limit (61).
     pub height: Option<Heights>,
 }
 
 /// The height under the tip at the start of a step and at its nodes, in kσ²/a.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heights {
-    /// At its start.
+    /// Height at the start of the step.
     pub start: f64,
-    /// At its nodes.
+    /// Heights at the nodes.
     pub nodes: Stages,
 }
 
-/// How many numbers make a step: its heights too, NaN where there are none.
+/// Number of real numbers in a step, including its heights, which are NaN without a depth limit.
 pub const STEP_NUMBERS: usize = 4 + 2 * STAGES;
 
 impl Step {
-    /// Time at its end.
+    /// Time at the end of the step.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.t + self.h
     }
 
-    /// rt - x0 at its end, for support velocity r.
+    /// rt - x0 at the end of the step, for support velocity r.
     #[must_use]
     pub fn extension_at_end(&self, r: f64) -> f64 {
         self.extension + (r * self.h - self.displacement[STAGES - 1])
@@ -70,7 +70,7 @@ impl Step {
         RADAU.slope(&self.displacement, self.part(t)) / self.h
     }
 
-    /// The fraction of it that has passed at t.
+    /// The elapsed fraction of the step at t.
     fn part(&self, t: f64) -> f64 {
         (t - self.t) / self.h
     }
@@ -82,7 +82,7 @@ impl Step {
         self.extension + (support.advance(self.t, t - self.t) - moved)
     }
 
-    /// What a motion is followed by: l; for a support on a path the lag R - x0, without one x0.
+    /// The variable that describes the motion: l; for a support on a path the lag R - x0, without a support x0.
     #[must_use]
     pub fn followed(&self, support: &Support, t: f64) -> f64 {
         match support {
@@ -101,13 +101,13 @@ impl Step {
         }
     }
 
-    /// The height under the tip at t, on its polynomial, where there is one.
+    /// The height under the tip at t, on its polynomial, with a depth limit.
     #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {
         self.height.map(|height| height.at(self.part(t)))
     }
 
-    /// t, h, extension, displacements and heights: all that it is.
+    /// All data of the step: t, h, extension, displacements and heights.
     #[must_use]
     pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
         let mut numbers = [f64::NAN; STEP_NUMBERS];
@@ -121,7 +121,7 @@ impl Step {
         numbers
     }
 
-    /// Whether it is a step: of a finite duration above 0, with finite numbers throughout.
+    /// Whether the step is valid: its duration is finite and above 0, and all its numbers are finite.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let heights = self.height.into_iter().flat_map(|h| h.nodes.into_iter().chain([h.start]));
@@ -129,7 +129,7 @@ impl Step {
         self.h > 0.0 && numbers.chain(heights).all(f64::is_finite)
     }
 
-    /// From its [`numbers`](Self::numbers).
+    /// A step from its [`numbers`](Self::numbers).
     #[must_use]
     pub fn from_numbers([t, h, extension, rest @ ..]: [f64; STEP_NUMBERS]) -> Self {
         let displacement = std::array::from_fn(|i| rest[i]);
@@ -139,27 +139,27 @@ impl Step {
         Self { t, h, extension, displacement, height }
     }
 
-    /// With the weights w of its visits under a law.
+    /// Relative indentation rates w at the nodes.
     fn weights(&self, wider: &Wider) -> Stages {
         self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
     }
 }
 
 impl Heights {
-    /// At the fraction τ of the step.
+    /// The heights at the fraction τ of the step.
     #[must_use]
     pub fn at(&self, tau: f64) -> f64 {
         self.start + RADAU.value(&self.rise(), tau)
     }
 
-    /// What the height has risen by, at the nodes.
+    /// Increase of the height since the start of the step, at the nodes.
     #[must_use]
     pub fn rise(&self) -> Stages {
         self.nodes.map(|height| height - self.start)
     }
 }
 
-/// The dense history of a run: x0(t) at every t of it. What `surface` needs, and no more.
+/// The dense output of a run: x0(t) at every t of it. It contains only the data that `surface` needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     support: Support,
@@ -175,38 +175,38 @@ static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(POINTS_ON_A_PART).unwrap() }));
 
 impl Trajectory {
-    /// From steps that follow each other without a gap, under support velocity r.
+    /// A trajectory of consecutive steps without gaps, for support velocity r.
     ///
     /// # Panics
-    /// Without any step.
+    /// If there are no steps.
     #[must_use]
     pub fn new(r: f64, steps: Vec<Step>) -> Self {
         Self::under(Wider::default(), Support::Moving(r), steps)
     }
 
-    /// Under a wider law, or for a support that moves otherwise.
+    /// A trajectory in the extended model, or for another motion of the support.
     ///
     /// # Panics
-    /// Without any step.
+    /// If there are no steps.
     #[must_use]
     pub fn under(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
         Self { support, wider, steps }
     }
 
-    /// Velocity of the support when it starts.
+    /// Velocity of the support at the start.
     #[must_use]
     pub fn r(&self) -> f64 {
         self.support.velocity(self.start())
     }
 
-    /// What moves the tip.
+    /// The motion of the support.
     #[must_use]
     pub fn support(&self) -> &Support {
         &self.support
     }
 
-    /// The law under which it moves.
+    /// Parameters of the extended model.
     #[must_use]
     pub fn wider(&self) -> &Wider {
         &self.wider
@@ -218,19 +218,19 @@ impl Trajectory {
         &self.steps
     }
 
-    /// Time at which it starts.
+    /// Start time.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.steps[0].t
     }
 
-    /// Time at which it ends.
+    /// End time.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.steps[self.steps.len() - 1].end()
     }
 
-    /// l(t) = rt - r - x0(t). Outside of the run, the polynomials of its first and last step.
+    /// l(t) = rt - r - x0(t). Outside of the run, the polynomial of the first or last step.
     #[must_use]
     pub fn l(&self, t: f64) -> f64 {
         self.step_at(t).l(self.r(), t)

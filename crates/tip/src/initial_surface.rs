@@ -1,14 +1,14 @@
-//! The surface u0(x) that the tip finds at the start.
+//! The initial surface u0(x).
 //!
-//! Everything before the start is an initial surface, a sum of reliefs: an infinite steady past is the
-//! profile (24), a flat start is none, noise and a measured profile are splines. (15) prints the force of u0
-//! with a factor α; from (14) it is -u0'(x0), for u0 is a height.
+//! The initial surface is a sum of reliefs. An infinite steady past is the profile (24), a flat start is no relief,
+//! noise and a measured profile are splines. (15) contains the force of u0 with a factor α; according to (14) it is
+//! -u0'(x0), because u0 is a height.
 
 use crate::Model;
 use crate::relief::{Noise, Piece, Relief};
 use crate::series::SeriesError;
 
-/// u0(x): the sum of what the surface held before.
+/// The initial surface u0(x), a sum of reliefs.
 #[derive(Debug, Clone, Default)]
 pub struct InitialSurface {
     reliefs: Vec<Relief>,
@@ -17,14 +17,14 @@ pub struct InitialSurface {
 /// A stretch of x on which u0 is one smooth function: between the breaks of its reliefs.
 #[derive(Debug, Clone)]
 pub(crate) struct Stretch {
-    /// Its ends.
+    /// Ends of the stretch.
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// How far beyond an end a step may go and still count as ending there.
+    /// Largest distance of a step beyond an end at which it counts as ending there.
     pub(crate) slack: f64,
-    /// Whether it is level, at 0, as far as a step may look.
+    /// Whether u0 = 0 within the largest distance at which a step evaluates it.
     pub(crate) flat: bool,
-    /// The piece of each relief.
+    /// The number of the piece of each relief.
     pieces: Vec<Option<usize>>,
 }
 
@@ -35,7 +35,7 @@ impl InitialSurface {
         Self::default()
     }
 
-    /// The steady past of a tip at `position`.
+    /// The groove of a tip in steady motion, now at `position`.
     #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         Self::flat().with(Relief::steady(model, position))
@@ -47,7 +47,7 @@ impl InitialSurface {
         self.reliefs.is_empty()
     }
 
-    /// Adds one more.
+    /// Adds a relief.
     #[must_use]
     pub fn with(mut self, relief: Relief) -> Self {
         self.reliefs.push(relief);
@@ -76,20 +76,20 @@ impl InitialSurface {
         carved + self.texture(x)
     }
 
-    /// The part of u0(x) that no tip has carved: a given profile and the noise.
+    /// The part of u0(x) that no tip has carved: the given profile and the noise.
     #[must_use]
     pub fn texture(&self, x: f64) -> f64 {
         let texture = |relief: &&Relief| relief.steady_position().is_none();
         self.reliefs.iter().filter(texture).fold(0.0, |sum, r| sum + r.height(x))
     }
 
-    /// Where the given profile and the noise end, if there are any.
+    /// The end of the given profile and the noise, if there are any.
     #[must_use]
     pub fn texture_ends(&self) -> Option<f64> {
         self.reliefs.iter().filter_map(Relief::end).reduce(f64::max)
     }
 
-    /// Position of the tip whose steady past, (24), is part of u0.
+    /// Position of the tip whose groove in steady motion, (24), is part of u0.
     #[must_use]
     pub fn steady_position(&self) -> Option<f64> {
         self.reliefs.iter().find_map(Relief::steady_position)
@@ -101,14 +101,15 @@ impl InitialSurface {
         sum(self.reliefs.iter().map(|relief| relief.slope_and_curvature(x)))
     }
 
-    /// u0' and u0'' of the function that u0 is on the stretch, wherever x is: within a step that begins
-    /// there, all is smooth.
+    /// u0' and u0'' of the smooth function that equals u0 on the stretch, evaluated at any x, so that everything is
+    /// smooth within a step that begins there.
     pub(crate) fn slope_and_curvature_on(&self, stretch: &Stretch, x: f64) -> (f64, f64) {
         let told = self.reliefs.iter().zip(&stretch.pieces);
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
-    /// u0, u0', u0'' and u0''' on the stretch, of all but the steady past; `None` where they are not all.
+    /// u0, u0', u0'' and u0''' on the stretch, without the groove of steady motion; `None` if some of them are
+    /// unknown.
     pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64) -> Option<[f64; 4]> {
         let mut sum = [0.0; 4];
         if stretch.flat {
@@ -121,20 +122,20 @@ impl InitialSurface {
         Some(sum)
     }
 
-    /// u0 likewise.
+    /// u0 of the same function.
     pub(crate) fn height_on(&self, stretch: &Stretch, x: f64) -> f64 {
         let told = self.reliefs.iter().zip(&stretch.pieces);
         told.map(|(relief, piece)| relief.height_on(*piece, x)).sum()
     }
 
-    /// What the rounding of x may amount to in u0', per unit of curvature: 0 where u0 is flat.
+    /// Error of u0' due to the rounding of x, per unit of curvature: 0 where u0 is flat.
     pub(crate) fn rounding(&self, x: f64) -> f64 {
         let textured = self.reliefs.iter().any(|relief| relief.covers(x));
         if textured { f64::EPSILON * x.abs() } else { 0.0 }
     }
 
-    /// Makes the stretch that which a tip at x is on, or about to enter if it is at a break; x is known to
-    /// `accuracy`.
+    /// Sets the stretch to the one that contains a tip at x, or that the tip is about to enter if it is at a break; x
+    /// has an error of at most `accuracy`.
     pub(crate) fn enter(&self, stretch: &mut Stretch, x: f64, forward: bool, accuracy: f64) {
         let Piece { low, high, slack, .. } = Piece::EVERYWHERE;
         (stretch.low, stretch.high, stretch.slack) = (low, high, slack);
@@ -152,7 +153,7 @@ impl InitialSurface {
 }
 
 impl Stretch {
-    /// None entered yet.
+    /// An undefined stretch.
     pub(crate) fn nowhere() -> Self {
         Self { low: 0.0, high: 0.0, slack: 0.0, flat: false, pieces: vec![] }
     }

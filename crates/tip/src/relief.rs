@@ -1,4 +1,4 @@
-//! One thing that the surface held before the run: a profile of height, with two derivatives.
+//! A single contribution to the initial surface: a height profile with two derivatives.
 
 mod on_lattice;
 
@@ -10,39 +10,40 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use stickslip_convolution::Field;
 
-/// A height as a function of x, smooth but for breaks at known places.
+/// A height as a function of x, smooth except at known breaks.
 #[derive(Debug, Clone)]
 pub struct Relief(Shape);
 
-/// White noise on a grid, made smooth by a cubic spline.
+/// White noise on a grid, interpolated by a cubic spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
     /// Heights are uniform in [-amplitude, amplitude]; 0 or above.
     pub amplitude: f64,
-    /// Distance of the grid points. White noise has no limit as it goes to 0: it is part of the start.
+    /// Distance of the grid points. White noise has no limit for distances → 0, so that the spacing is a parameter of
+    /// the start.
     pub spacing: f64,
-    /// Seed of the `ChaCha8` stream that the heights are drawn from, left to right.
+    /// Seed of the `ChaCha8` stream that yields the heights, from left to right.
     pub seed: u64,
 }
 
 #[derive(Debug, Clone)]
 enum Shape {
     SteadyPast(SteadyPast),
-    /// 0 outside of it.
+    /// A spline, and 0 outside of it.
     Spline(CubicSpline),
     OnLattice(OnLattice),
 }
 
-/// The profile (24) of a tip that has always moved steadily and is now at `position`.
+/// The profile (24) of a tip in steady motion that is now at `position`.
 #[derive(Debug, Clone)]
 struct SteadyPast {
     tip: TipFunction,
-    /// α/r, times w0 under a depth limit.
+    /// Depth α/r, multiplied by w0 with a depth limit.
     depth: f64,
-    /// s = 1/(rT), 0 where nothing heals.
+    /// Decay rate s = 1/(rT); 0 without healing.
     fading: f64,
     position: f64,
-    /// Ahead of it and behind, where it has a slope.
+    /// Distance from `position`, ahead and behind, within which the profile has a slope.
     reach: f64,
     behind: f64,
 }
@@ -50,16 +51,16 @@ struct SteadyPast {
 /// A stretch of x on which a relief is one smooth function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Piece {
-    /// Its ends.
+    /// Ends of the piece.
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// How far beyond an end a step may go and still count as ending there.
+    /// Largest distance of a step beyond an end at which it counts as ending there.
     pub(crate) slack: f64,
-    /// Which one, for a relief that has several; `None` outside of them.
+    /// Number of the piece, for a relief that has several; `None` outside of them.
     pub(crate) index: Option<usize>,
 }
 
-/// No step looks farther (`memory::longest_look`).
+/// Largest distance at which a step evaluates the surface (`memory::longest_look`).
 const FARTHEST_LOOK: f64 = 12.0;
 /// A knot within this fraction of an interval counts as reached,
 const AT_A_KNOT: f64 = 1e-9;
@@ -68,14 +69,14 @@ const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
 const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl Piece {
-    /// All of x.
+    /// The whole axis.
     pub(crate) const EVERYWHERE: Self =
         Self { low: f64::NEG_INFINITY, high: f64::INFINITY, slack: f64::INFINITY, index: None };
 }
 
 impl Relief {
-    /// -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X; under the wider law
-    /// -(α w0/r) ∫_0^∞ f(x-X+y) e^{-sy}dy, s = 1/(rT).
+    /// The profile -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X; in the extended model -(α w0/r) ∫_0^∞
+    /// f(x-X+y) e^{-sy}dy, s = 1/(rT).
     #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         let tip = model.tip().clone();
@@ -86,8 +87,8 @@ impl Relief {
         Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach, behind }))
     }
 
-    /// The cubic spline through (x, u) that ends level, 0 outside: the slope, which is what the tip
-    /// feels, is continuous. (A corner that is hollow would hold a slow tip for ever, pushed back from
+    /// The cubic spline through (x, u) with slope 0 at both ends, and 0 outside. So the slope, which determines the
+    /// force, is continuous. (A kink in a hollow would hold a slow tip permanently, because it is pushed back from
     /// either side.)
     ///
     /// # Errors
@@ -110,14 +111,15 @@ impl Relief {
         Self(Shape::Spline(CubicSpline::through(x, u)))
     }
 
-    /// A height and its slope given as fields of one lattice, 0 beyond their ends, where both must have vanished: what
-    /// other passes of a tip left. It is that of X + x, or of X - x where it is mirrored, for `along` (X, whether so).
+    /// A height and its slope as fields on one lattice, and 0 beyond their ends, where both must have decayed: the
+    /// groove of other scans of a tip. With `along` = (X, mirrored) the relief at x is the field at X + x, or at X -
+    /// x if it is mirrored.
     #[must_use]
     pub fn on_lattice(heights: Field, slopes: Field, along: (f64, bool)) -> Self {
         Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }
 
-    /// Its height at x.
+    /// Height at x.
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         match &self.0 {
@@ -128,7 +130,7 @@ impl Relief {
         }
     }
 
-    /// That of the function that it is on a piece, wherever x is.
+    /// Height of the smooth function of a piece, evaluated at any x.
     pub(crate) fn height_on(&self, piece: Option<usize>, x: f64) -> f64 {
         match (&self.0, piece) {
             (Shape::SteadyPast(past), _) => past.height(x),
@@ -144,7 +146,7 @@ impl Relief {
         self.slope_and_curvature_on(self.piece(x, true, 0.0).index, x)
     }
 
-    /// Those of the function that it is on a piece, wherever x is.
+    /// Slope and curvature of the smooth function of a piece, evaluated at any x.
     #[inline]
     pub(crate) fn slope_and_curvature_on(&self, piece: Option<usize>, x: f64) -> (f64, f64) {
         match (&self.0, piece) {
@@ -158,8 +160,8 @@ impl Relief {
         }
     }
 
-    /// Slope and two more derivatives on a piece where there are no others but 0, or of a steady past nothing; `None`
-    /// elsewhere.
+    /// Height and three derivatives on a piece if all higher ones are 0; zeros for the groove of steady motion;
+    /// `None` otherwise.
     pub(crate) fn jet_on(&self, piece: Option<usize>, x: f64) -> Option<[f64; 4]> {
         match (&self.0, piece) {
             (Shape::SteadyPast(_), _) | (Shape::Spline(_), None) => Some([0.0; 4]),
@@ -171,7 +173,7 @@ impl Relief {
         }
     }
 
-    /// Where the tip stood whose steady past it is; `None` for what no tip has carved.
+    /// Position of the tip in steady motion that carved the profile; `None` for other reliefs.
     #[must_use]
     pub fn steady_position(&self) -> Option<f64> {
         match &self.0 {
@@ -180,7 +182,7 @@ impl Relief {
         }
     }
 
-    /// Where it ends, if it is one with breaks.
+    /// The end of a relief with breaks.
     pub(crate) fn end(&self) -> Option<f64> {
         match &self.0 {
             Shape::SteadyPast(_) | Shape::OnLattice(_) => None,
@@ -188,7 +190,7 @@ impl Relief {
         }
     }
 
-    /// Whether it has a slope at x.
+    /// Whether the relief has a slope at x.
     pub(crate) fn covers(&self, x: f64) -> bool {
         match &self.0 {
             Shape::SteadyPast(past) => past.covers(x),
@@ -197,7 +199,8 @@ impl Relief {
         }
     }
 
-    /// Whether it has neither slope nor height as far as a step from x may look, on this piece.
+    /// Whether slope and height are 0 on this piece, within the largest distance from x at which a step evaluates
+    /// them.
     pub(crate) fn is_flat_about(&self, piece: &Piece, x: f64) -> bool {
         match &self.0 {
             Shape::SteadyPast(past) => x - past.position > past.reach + FARTHEST_LOOK,
@@ -206,7 +209,8 @@ impl Relief {
         }
     }
 
-    /// The piece that a tip at x is on, or about to enter if it is at a break; x is known to `accuracy`.
+    /// The piece that contains a tip at x, or that the tip is about to enter if it is at a break; x has an error of
+    /// at most `accuracy`.
     pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
         let Shape::Spline(spline) = &self.0 else { return Piece::EVERYWHERE };
         let (low, high) = spline.ends_of(spline.piece_of(x));
@@ -226,7 +230,7 @@ impl SteadyPast {
         ahead < self.reach && -ahead < self.behind
     }
 
-    /// φ' = sφ - f, of which the height is -depth φ.
+    /// Slope and curvature from φ' = sφ - f; the height is -depth φ.
     #[cold]
     fn fading_slope_and_curvature(&self, x: f64) -> (f64, f64) {
         let s = self.fading;
@@ -258,7 +262,7 @@ fn is_inside(spline: &CubicSpline, x: f64) -> bool {
     (spline.first()..=spline.last()).contains(&x)
 }
 
-/// Ends and number of the piece of a spline at x.
+/// Ends and number of the piece of a spline that contains x.
 fn ends_at(spline: &CubicSpline, x: f64) -> (f64, f64, Option<usize>) {
     if x < spline.first() {
         (f64::NEG_INFINITY, spline.first(), None)

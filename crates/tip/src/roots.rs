@@ -1,6 +1,6 @@
 //! Zeros of functions of one variable.
 
-/// Brackets are halved in the worst case, 52 times to round-off; smooth functions take about six.
+/// Bisections in the worst case: 52 reach round-off; smooth functions take about six iterations.
 const MOST_ITERATIONS: usize = 60;
 
 /// The zero of a function that changes sign between a and b, to round-off.
@@ -11,7 +11,7 @@ pub fn zero_between(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     zero_to(f, (a, b), 0.0)
 }
 
-/// The same, or a place near it where the function is at most `enough`.
+/// The same, or a nearby point where the function is at most `enough`.
 pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     let mut last = a;
@@ -40,7 +40,7 @@ pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) 
     0.5 * (a + b)
 }
 
-/// The same by halving the bracket: slower, but it ends at the sign change whatever the function is like.
+/// The same by bisection: slower, but it ends at the sign change for any function.
 pub fn halved_between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let sign = f(low).signum();
     let mut halvings = 0..MOST_ITERATIONS;
@@ -48,8 +48,8 @@ pub fn halved_between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A bracket of the place where a property is lost, from what has it to what has not, halved until it is narrow, or
-/// until no number lies within.
+/// A bracket of the point where a property is lost, from a point with the property to one without it. It is halved
+/// until it is narrow, or until no number lies within.
 pub fn bisected(
     (mut has, mut has_not): (f64, f64),
     is_before: impl Fn(f64) -> bool,

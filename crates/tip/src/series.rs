@@ -1,8 +1,8 @@
-//! Measured series (x_i, y_i) from a user's file, checked before a spline goes through them.
+//! Measured series (x_i, y_i) from a user's file, checked before their interpolation by a spline.
 
 use thiserror::Error;
 
-/// Why a series was refused. Rows are counted from 1.
+/// Errors in a series. Rows are counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SeriesError {
     /// Columns of different lengths.
@@ -17,14 +17,14 @@ pub enum SeriesError {
     /// A first column that does not increase.
     #[error("row {row} has {value} in its first column: it must increase from row to row")]
     Unsorted {
-        /// Row.
+        /// Number of the row.
         row: usize,
-        /// Entry.
+        /// Value in this row.
         value: f64,
     },
 }
 
-/// A series that a spline can go through.
+/// Checks that a spline can interpolate the series.
 pub(crate) fn checked(x: Vec<f64>, y: Vec<f64>) -> Result<(Vec<f64>, Vec<f64>), SeriesError> {
     if x.len() != y.len() {
         return Err(SeriesError::Uneven(x.len(), y.len()));

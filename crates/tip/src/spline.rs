@@ -1,5 +1,5 @@
-//! The cubic spline through given points, with two derivatives: initial surfaces, measured forces and
-//! unevenly sampled footprints come through it. (No crate found gives the derivatives.)
+//! The cubic spline through given points, with two derivatives: for initial surfaces, measured forces and unevenly
+//! sampled footprints. (No crate found yields the derivatives.)
 
 /// Cubic spline through (x_i, y_i).
 #[derive(Debug, Clone, PartialEq)]
@@ -11,14 +11,14 @@ pub(crate) struct CubicSpline {
 }
 
 impl CubicSpline {
-    /// The natural spline: its second derivative is 0 at both ends. `x` increasing, as long as `y`, at
-    /// least two points: the callers have validated that.
+    /// The natural spline: its second derivative is 0 at both ends. The callers ensure that `x` increases, is as long
+    /// as `y`, and contains at least two points.
     pub(crate) fn through(x: Vec<f64>, y: Vec<f64>) -> Self {
         let m = second_derivatives(&x, &y, Ends::Straight);
         Self { x, y, m }
     }
 
-    /// The spline that ends level: its slope is 0 at both ends.
+    /// The spline with slope 0 at both ends.
     pub(crate) fn level(x: Vec<f64>, y: Vec<f64>) -> Self {
         let m = second_derivatives(&x, &y, Ends::Level);
         Self { x, y, m }
@@ -41,7 +41,7 @@ impl CubicSpline {
         self.jet_on(self.piece_of(x), x)
     }
 
-    /// The same on the polynomial of the given piece, wherever x is.
+    /// The same on the polynomial of the given piece, evaluated at any x.
     pub(crate) fn jet_on(&self, piece: usize, x: f64) -> (f64, f64, f64) {
         let (low, high) = self.ends_of(piece);
         let h = high - low;
@@ -59,7 +59,7 @@ impl CubicSpline {
         (self.m[piece + 1] - self.m[piece]) / (high - low)
     }
 
-    /// The piece between knots that x lies in, the nearest one outside.
+    /// The piece between knots that contains x, or the nearest one.
     pub(crate) fn piece_of(&self, x: f64) -> usize {
         self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1) - 1
     }
@@ -69,18 +69,18 @@ impl CubicSpline {
         (self.x[piece], self.x[piece + 1])
     }
 
-    /// The first knot above x, infinity if there is none.
+    /// The first knot above x, or infinity.
     pub(crate) fn next_knot(&self, x: f64) -> f64 {
         self.x.get(self.x.partition_point(|knot| *knot <= x)).copied().unwrap_or(f64::INFINITY)
     }
 }
 
-/// What vanishes at both ends.
+/// The derivative that vanishes at both ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ends {
     /// The second derivative.
     Straight,
-    /// The first.
+    /// The first derivative.
     Level,
 }
 

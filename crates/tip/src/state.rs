@@ -1,7 +1,7 @@
-//! The state of a computation as a list of 64-bit words: exact, and without a format to get wrong.
+//! The state of a computation as a list of 64-bit words: exact, and without a text format.
 //!
-//! What was written is read back in the same order. Numbers keep their bits, so that a computation taken
-//! up again goes on as if it had never stopped.
+//! Data are read in the order in which they were written. Numbers keep their bits, so that a resumed computation
+//! yields the same results as an uninterrupted one.
 
 use crate::history::{STEP_NUMBERS, Step};
 use thiserror::Error;
@@ -12,7 +12,7 @@ pub struct State {
     words: Vec<u64>,
 }
 
-/// Why words are no state.
+/// Errors in a saved state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Damaged {
     /// Fewer words than announced.
@@ -21,10 +21,10 @@ pub enum Damaged {
     /// Words after the last one expected.
     #[error("it has {0} words too many")]
     Long(usize),
-    /// A number that the state cannot have.
+    /// A number out of its range.
     #[error("it has a number out of range")]
     OutOfRange,
-    /// A state of something else: another memory, another fit.
+    /// A state of another kind: another memory or another fit.
     #[error("it is that of another {0}")]
     Other(&'static str),
 }
@@ -35,23 +35,23 @@ pub struct Reader<'a> {
     words: &'a [u64],
 }
 
-/// What can be written down between two steps, and taken up again.
+/// Data that can be saved between two steps, and restored.
 pub trait Saved {
-    /// Writes down all that it holds: what [`restore`](Self::restore) takes up to the last bit.
+    /// Writes all data, from which [`restore`](Self::restore) recovers the same bits.
     fn save(&self, state: &mut State);
 
-    /// Takes up what [`save`](Self::save) wrote, on one made by the same choices.
+    /// Reads the data that [`save`](Self::save) wrote, into an object of the same type and options.
     ///
     /// # Errors
-    /// A state of something else.
+    /// A state of another kind.
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged>;
 }
 
-/// Cells of lattices are numbered within this; sums of two such numbers do not overflow.
+/// Bound on the cell numbers of lattices; the sum of two such numbers does not overflow.
 const LARGEST_WHOLE: u64 = 1 << 61;
 
 impl State {
-    /// From words read elsewhere.
+    /// A state from words of another source.
     #[must_use]
     pub fn from_words(words: Vec<u64>) -> Self {
         Self { words }
@@ -63,7 +63,7 @@ impl State {
         &self.words
     }
 
-    /// Reads it again.
+    /// A reader at the beginning of the state.
     #[must_use]
     pub fn reader(&self) -> Reader<'_> {
         Reader { words: &self.words }
@@ -89,19 +89,19 @@ impl State {
         self.words.push(u64::from(value));
     }
 
-    /// Writes how many numbers there are, and the numbers.
+    /// Writes the count of numbers, and the numbers.
     pub fn numbers(&mut self, values: impl ExactSizeIterator<Item = f64>) {
         self.count(values.len() as u64);
         self.words.extend(values.map(f64::to_bits));
     }
 
-    /// Writes how many pairs there are, and the pairs.
+    /// Writes the count of pairs, and the pairs.
     pub fn pairs<'a>(&mut self, pairs: impl ExactSizeIterator<Item = &'a (f64, f64)>) {
         self.count(pairs.len() as u64);
         pairs.for_each(|(a, b)| self.words.extend([a.to_bits(), b.to_bits()]));
     }
 
-    /// Writes how many steps there are, and the steps.
+    /// Writes the count of steps, and the steps.
     pub fn steps<'a>(&mut self, steps: impl ExactSizeIterator<Item = &'a Step>) {
         self.count(steps.len() as u64);
         steps.for_each(|step| self.step(step));
@@ -129,18 +129,18 @@ impl Reader<'_> {
         if value.is_nan() { Err(Damaged::OutOfRange) } else { Ok(value) }
     }
 
-    /// Reads a number that is finite.
+    /// Reads a finite number.
     ///
     /// # Errors
-    /// No words left, or not finite.
+    /// No words left, or a number that is not finite.
     pub fn finite(&mut self) -> Result<f64, Damaged> {
         self.number().and_then(|x| if x.is_finite() { Ok(x) } else { Err(Damaged::OutOfRange) })
     }
 
-    /// Reads a number of at most this size.
+    /// Reads a number of at most this absolute value.
     ///
     /// # Errors
-    /// No words left, or larger.
+    /// No words left, or a larger number.
     pub fn within(&mut self, most: f64) -> Result<f64, Damaged> {
         let value = self.finite()?;
         if value.abs() <= most { Ok(value) } else { Err(Damaged::OutOfRange) }
@@ -157,7 +157,7 @@ impl Reader<'_> {
     /// Reads an integer.
     ///
     /// # Errors
-    /// No words left, or an integer that no lattice reaches.
+    /// No words left, or an integer out of the range of lattices.
     pub fn whole(&mut self) -> Result<i64, Damaged> {
         let value = self.word()?.cast_signed();
         if value.unsigned_abs() <= LARGEST_WHOLE { Ok(value) } else { Err(Damaged::OutOfRange) }
@@ -175,7 +175,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads how many things of so many words follow: no more than there are words for.
+    /// Reads the number of the following items, of `words_each` words each; the remaining words must suffice for
+    /// them.
     ///
     /// # Errors
     /// Too few words left.
@@ -203,7 +204,7 @@ impl Reader<'_> {
     /// Reads a step.
     ///
     /// # Errors
-    /// Too few words left, a number that is not finite, or a duration of no length.
+    /// Too few words left, a number that is not finite, or a duration that is not positive.
     pub fn step(&mut self) -> Result<Step, Damaged> {
         let mut numbers = [0.0; STEP_NUMBERS];
         for number in &mut numbers {
@@ -221,7 +222,7 @@ impl Reader<'_> {
         (0..self.length(STEP_NUMBERS)?).map(|_| self.step()).collect()
     }
 
-    /// Says that all has been read.
+    /// Checks that all words have been read.
     ///
     /// # Errors
     /// Words left.

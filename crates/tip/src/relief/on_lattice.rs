@@ -1,15 +1,16 @@
-//! A relief held on a lattice: what earlier passes of a tip left, however many there were.
+//! A relief on a lattice: the groove of any number of earlier scans.
 
 use std::sync::Arc;
 use stickslip_convolution::Field;
 
-/// Heights and slopes as fields, each read with its derivative. They are smooth everywhere: no step has to end anywhere.
+/// Heights and slopes as fields, each evaluated with its derivative. They are smooth everywhere, so that no step has
+/// to end at a break.
 ///
-/// Slopes are no differences of heights but a field of their own, so that curvatures are as good as slopes.
+/// Slopes are not differences of heights but a separate field, so that curvatures are as accurate as slopes.
 #[derive(Debug, Clone)]
 pub(super) struct OnLattice {
     fields: Arc<[Field; 2]>,
-    /// What is read at x is what lies at origin + sign x.
+    /// The value at x is that of the fields at origin + sign x.
     origin: f64,
     sign: f64,
     low: f64,
@@ -17,7 +18,7 @@ pub(super) struct OnLattice {
 }
 
 impl OnLattice {
-    /// Of a height that vanishes towards the ends of both fields, along x from an origin on or, mirrored, back from it.
+    /// A relief from fields that decay towards their ends, along x from an origin or, if mirrored, against x.
     pub(super) fn new(heights: Field, slopes: Field, (origin, mirrored): (f64, bool)) -> Self {
         let (a, b) = (heights.range(), slopes.range());
         let (low, high) = (a.start().max(*b.start()), a.end().min(*b.end()));
@@ -25,7 +26,7 @@ impl OnLattice {
         Self { fields: Arc::new([heights, slopes]), origin, sign, low, high }
     }
 
-    /// Where it is read; `None` beyond its ends.
+    /// Coordinate in the fields; `None` beyond their ends.
     fn place(&self, x: f64) -> Option<f64> {
         let at = self.origin + self.sign * x;
         (at > self.low && at < self.high).then_some(at)

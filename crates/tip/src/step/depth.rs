@@ -1,11 +1,11 @@
-//! The depth limit (61) within a step: the heights under the tip, beside its displacements.
+//! The depth limit (61) within a step, with the heights under the tip as further unknowns.
 //!
 //! ```text
 //!     η_i = outside_i - α (past_i + Σ_k b_ik w_k f(d_i - d_k))        w_k = e^{-|η_k|/b}
 //! ```
 //!
-//! with b = hA, and w in the groove of the step itself too. |η| has a corner at 0: a step keeps to one side
-//! of it, where w is the smooth e^{-ση/b}, and the integrator ends steps where η = 0.
+//! with b = hA; the contribution of the step to the groove contains the same w. |η| has a kink at 0. A step stays on
+//! one side of it, where w is the smooth e^{-ση/b}, and the integrator ends steps where η = 0.
 
 use super::law::Equations;
 use super::linear_system::Factors;
@@ -13,7 +13,7 @@ use super::own::{Matrix, OwnGroove, OwnHeight};
 use crate::collocation::{STAGES, Stages};
 use crate::elementary::exp;
 
-/// b of (61), and the side of the corner: σ = 1 above 0, -1 below.
+/// b of (61), and the side of the kink: σ = 1 above 0, -1 below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
     /// b
@@ -22,45 +22,45 @@ pub struct Depth {
     pub side: f64,
 }
 
-/// What is known at the stages beside their displacements: slopes, curvatures, heights.
+/// Data at the stages in addition to their displacements: slopes, curvatures, heights.
 #[derive(Debug, Clone, Copy)]
 pub struct Known {
-    /// ∫ f' over the past, as far as it is still there.
+    /// ∫ f' over the undecayed past.
     pub past_slope: Stages,
     /// ∫ f''
     pub past_curvature: Stages,
     /// ∫ f
     pub past_height: Stages,
-    /// Of what the surface held before the run.
+    /// Slope of the initial surface, undecayed part.
     pub relief_slope: Stages,
-    /// Likewise.
+    /// Curvature of the initial surface, likewise.
     pub relief_curvature: Stages,
-    /// Likewise.
+    /// Height of the initial surface, likewise.
     pub relief_height: Stages,
 }
 
-/// What the equations miss at given displacements and heights.
+/// Residuals of the equations at given displacements and heights.
 #[derive(Debug, Clone, Copy)]
 pub struct Missed {
     /// d - hAv
     pub displacement: Stages,
-    /// η less what it should be.
+    /// η minus the right-hand side of its equation.
     pub height: Stages,
 }
 
-/// The Jacobian of both, factored by blocks.
+/// The Jacobian of both residuals, factored by blocks.
 pub struct LimitedFactors {
     height: Factors,
-    /// ∂(missed height)/∂d
+    /// ∂(residual of heights)/∂d
     height_by_displacement: Matrix,
-    /// ∂(missed displacement)/∂η
+    /// ∂(residual of displacements)/∂η
     displacement_by_height: Matrix,
-    /// What is left for the displacements once heights are eliminated.
+    /// The Schur complement for the displacements, after elimination of the heights.
     displacement: Factors,
 }
 
 impl Known {
-    /// Nothing yet.
+    /// All values 0.
     #[must_use]
     pub(crate) fn nothing() -> Self {
         let zero = [0.0; STAGES];
@@ -74,7 +74,7 @@ impl Known {
         }
     }
 
-    /// As much of it as is left at each stage.
+    /// Multiplies past and relief by their undecayed parts at each stage.
     pub(crate) fn fade(&mut self, past: &Stages, relief: &Stages) {
         let scale = |told: &mut Stages, left: &Stages| {
             told.iter_mut().zip(left).for_each(|(told, left)| *told *= left);
@@ -95,7 +95,7 @@ impl Depth {
         height.map(|height| exp(-self.side * height / self.limit))
     }
 
-    /// What displacements and heights miss.
+    /// Residuals of displacements and heights.
     #[must_use]
     pub fn missed(
         &self,
@@ -117,7 +117,7 @@ impl Depth {
         }
     }
 
-    /// The Jacobian of [`missed`](Self::missed); `None` where it is singular.
+    /// The Jacobian of [`missed`](Self::missed); `None` if it is singular.
     #[must_use]
     pub fn factors(
         &self,
@@ -158,8 +158,8 @@ impl Depth {
         })
     }
 
-    /// ∂(missed height)/∂d: minus the slope of the surface under the tip, and what moves along with each
-    /// stage.
+    /// ∂(residual of heights)/∂d: minus the slope of the surface under the tip, and the contributions that move with
+    /// each stage.
     fn height_slopes(
         &self,
         equations: &Equations,
@@ -179,7 +179,7 @@ impl Depth {
 }
 
 impl LimitedFactors {
-    /// Newton's corrections, to be taken away.
+    /// Newton's corrections, to be subtracted.
     #[must_use]
     pub fn corrections(&self, missed: &Missed) -> Missed {
         let by_height = self.height.solve(&missed.height);
@@ -196,12 +196,12 @@ impl LimitedFactors {
     }
 }
 
-/// Each column times a factor.
+/// The matrix with each column multiplied by a factor.
 fn by_columns(matrix: &Matrix, factors: &Stages) -> Matrix {
     matrix.map(|row| std::array::from_fn(|k| row[k] * factors[k]))
 }
 
-/// Entry by entry.
+/// The product of two matrices, entry by entry.
 fn products(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|k| a[i][k] * b[i][k]))
 }

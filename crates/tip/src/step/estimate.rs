@@ -1,14 +1,14 @@
-//! Signs of the error of a step, and how long one may be.
+//! Error measures of a step, and limits on its length.
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
-/// A step displaces the tip by at most this much over the band limit of f, 1.5 widths of a Gaussian:
-/// beyond, the step's own indentation is no smooth function of its stages.
+/// Largest displacement of the tip in a step, times the band limit of f: 1.5 widths of a Gaussian. Beyond it the
+/// contribution of the step to the groove is not a smooth function of its stages.
 const BANDS_PER_STEP: f64 = 13.0;
-/// And never by more than this.
+/// Largest displacement in any case.
 const LONGEST_DISPLACEMENT: f64 = 4.0;
 
-/// The farthest that one step is planned to lead, for an f of this band.
+/// Largest planned displacement of a step, for an f of this band.
 #[must_use]
 #[inline]
 pub fn longest_displacement(band: f64) -> f64 {
@@ -22,8 +22,7 @@ pub fn velocity_at_end(displacement: &Stages, h: f64) -> f64 {
     apply(&RADAU.derivative, displacement)[STAGES - 1] / h
 }
 
-/// Defect of the stage polynomial at the start of the step, where the true velocity is known from the step
-/// before.
+/// Defect of the stage polynomial at the start of the step, whose exact velocity is known from the last step.
 #[must_use]
 #[inline]
 pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
@@ -31,8 +30,8 @@ pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
     slope / h - velocity
 }
 
-/// Error of the stage polynomial as an interpolant, from its continuation back into the step before, of
-/// which displacements and length are given.
+/// Error of the stage polynomial as an interpolant, from its extrapolation back into the last step, whose
+/// displacements and length are given.
 #[must_use]
 #[inline]
 pub fn interpolation_error(

@@ -1,11 +1,11 @@
-//! What a step carves where the surface heals meanwhile.
+//! The contribution of a step to the groove of a surface that heals meanwhile.
 
 use super::linear_system::Factors;
 use super::own::Matrix;
 use crate::collocation::{RADAU, STAGES};
 
-/// How much of what each stage of a step of length h leaves is there at each stage, where all fades as
-/// e^{-t/T}: y' = g - y/T from y = 0 is y = (1 + hA/T)⁻¹hA g.
+/// Weights of each stage in the groove at each stage, for a step of length h and a decay as e^{-t/T}: y' = g - y/T
+/// from y = 0 is y = (1 + hA/T)⁻¹hA g.
 #[must_use]
 pub fn healing(h: f64, time: f64) -> Matrix {
     let share = h / time;
@@ -15,7 +15,7 @@ pub fn healing(h: f64, time: f64) -> Matrix {
     columns(|k| factors.solve(&std::array::from_fn(|i| h * RADAU.a[i][k])))
 }
 
-/// Its derivative by the length of the step: with N = (1 + hA/T)⁻¹, NAN.
+/// The derivative of this matrix by the length of the step: with N = (1 + hA/T)⁻¹, NAN.
 #[must_use]
 pub fn healing_rate(h: f64, time: f64) -> Matrix {
     let share = h / time;
@@ -33,7 +33,7 @@ pub(super) fn plus_one(mut matrix: Matrix) -> Matrix {
     matrix
 }
 
-/// The matrix of these columns.
+/// The matrix with these columns.
 pub(super) fn columns(column: impl Fn(usize) -> [f64; STAGES]) -> Matrix {
     let columns: Matrix = std::array::from_fn(column);
     std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]))

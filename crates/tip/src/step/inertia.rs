@@ -1,22 +1,22 @@
-//! From the force on a tip with inertia to its displacement.
+//! Displacement of a tip with inertia, from the force on it.
 
 use super::healing::{columns, plus_one};
 use super::linear_system::Factors;
 use super::own::Matrix;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
-/// M v' + v = φ, x' = v, collocated: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and d = hAv. So d is
-/// linear in the force at the stages, and one unknown for each stage is enough.
+/// M v' + v = φ, x' = v, collocated: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and d = hAv. So d is linear in
+/// the force at the stages, and one unknown per stage is sufficient.
 #[derive(Debug, Clone)]
 pub struct Inertia {
-    /// hA S hA/M: d by φ.
+    /// hA S hA/M: derivative of d by φ.
     carried: Matrix,
-    /// hA S v(start): how far the tip would glide.
+    /// hA S v(start): displacement without a force.
     glide: Stages,
 }
 
 impl Inertia {
-    /// Of a step of length h that begins with this velocity.
+    /// The equations of a step of length h with this velocity at its start.
     #[must_use]
     pub fn new(mass: f64, h: f64, velocity: f64) -> Self {
         let share = h / mass;
@@ -30,19 +30,19 @@ impl Inertia {
         }
     }
 
-    /// d less what force and start make of it.
+    /// d minus its value from force and initial velocity.
     pub(crate) fn residual(&self, d: &Stages, force: &Stages) -> Stages {
         let carried = apply(&self.carried, force);
         std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
     }
 
-    /// d of a tip that no force acts on.
+    /// d without a force.
     #[must_use]
     pub fn glide(&self) -> &Stages {
         &self.glide
     }
 
-    /// ∂d by the force.
+    /// Derivative of d by the force.
     #[must_use]
     pub fn carried(&self) -> &Matrix {
         &self.carried

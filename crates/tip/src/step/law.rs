@@ -1,4 +1,4 @@
-//! The velocity of the tip, and the equations that it makes for the stages of a step.
+//! The velocity of the tip, and the equations for the stages of a step.
 
 use super::healing::healing;
 use super::inertia::Inertia;
@@ -6,42 +6,42 @@ use super::own::{Matrix, OwnGroove, carving};
 use crate::Model;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
-/// The force on a tip, (15), as a function of where it is: α g - u0' + p - κd, with g = ∫ f' over the past.
-/// Without inertia it is the tip's velocity.
+/// The force on a tip, (15), as a function of its position: α g - u0' + p - κd, with g = ∫ f' over the past. Without
+/// inertia it equals the velocity of the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
     /// α
     pub alpha: f64,
-    /// Velocity of the support: r, where it does not change.
+    /// Velocity of the support: r, if it is constant.
     pub r: f64,
     /// κ: 1, or 0 without a spring.
     pub spring: f64,
 }
 
 impl Law {
-    /// That of a model.
+    /// The law of a model.
     #[must_use]
     pub fn of(model: &Model) -> Self {
         let spring = if model.wider().spring { 1.0 } else { 0.0 };
         Self { alpha: model.alpha(), r: model.r(), spring }
     }
 
-    /// The pull of the support where the tip stood when the step began: its spring was extended by
-    /// `extension` then, and is by rh c more at the node c.
+    /// The pull of the support at the position of the tip at the start of the step. The extension of the spring was
+    /// `extension` then, and is larger by rh c at the node c.
     #[must_use]
     #[inline]
     pub fn pull(&self, extension: f64, h: f64) -> Stages {
         RADAU.c.map(|c| self.spring * (extension + self.r * h * c))
     }
 
-    /// Velocity at a displacement d under the pull p, on a relief of this slope.
+    /// Velocity at a displacement d with the pull p, on a relief of this slope.
     #[must_use]
     #[inline]
     pub fn velocity(&self, pull: f64, d: f64, relief: f64, groove: f64) -> f64 {
         pull - self.spring * d - relief + self.alpha * groove
     }
 
-    /// ∂v/∂d, where relief and groove have these curvatures.
+    /// ∂v/∂d, for these curvatures of relief and groove.
     #[must_use]
     #[inline]
     pub fn velocity_slope(&self, relief: f64, groove: f64) -> f64 {
@@ -54,42 +54,42 @@ impl Law {
 pub struct Equations<'a> {
     law: Law,
     h: f64,
-    /// κ(R - x0(start)) and forces at the nodes: all of the velocity that does not depend on d.
+    /// κ(R - x0(start)) and forces at the nodes: the part of the velocity that does not depend on d.
     pull: Stages,
-    /// hA, or what healing makes of it.
+    /// hA, or its counterpart with healing.
     carving: Matrix,
     heals: bool,
     inertia: Option<&'a Inertia>,
 }
 
 impl<'a> Equations<'a> {
-    /// Of a step of length h under this pull.
+    /// The equations of a step of length h with this pull.
     #[must_use]
     #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
         Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
     }
 
-    /// On a surface that heals in this time.
+    /// The equations for a surface that heals in this time.
     #[must_use]
     pub fn with_healing(mut self, time: f64) -> Self {
         (self.carving, self.heals) = (healing(self.h, time), true);
         self
     }
 
-    /// With a tip of this inertia, in a step of the same length.
+    /// The equations for a tip with this inertia, in a step of the same length.
     #[must_use]
     pub fn with_inertia(self, inertia: &'a Inertia) -> Self {
         Self { inertia: Some(inertia), ..self }
     }
 
-    /// How much of what each stage leaves is there at each stage; the last row is what stays.
+    /// Weights of each stage in the groove at each stage; the last row belongs to the end of the step.
     #[must_use]
     pub fn carving(&self) -> &Matrix {
         &self.carving
     }
 
-    /// α times that.
+    /// The same matrix, multiplied by α.
     #[must_use]
     pub fn indenting(&self) -> Matrix {
         if self.heals {
@@ -103,15 +103,15 @@ impl<'a> Equations<'a> {
         self.law.alpha
     }
 
-    /// The force at the stages: v without inertia. `past` and `relief` are the slopes of what was carved before
-    /// the step and of what the surface held before the run.
+    /// The force at the stages, which is v without inertia. `past` and `relief` are the slopes of the groove before
+    /// the step and of the initial surface.
     #[must_use]
     #[inline]
     pub fn velocity(&self, d: &Stages, past: &Stages, relief: &Stages, own: &OwnGroove) -> Stages {
         self.velocity_with(&self.carving, d, (past, relief), own)
     }
 
-    /// The same where what each stage leaves is another matrix.
+    /// The same with another matrix of weights.
     #[must_use]
     #[inline]
     pub(super) fn velocity_with(
@@ -126,7 +126,7 @@ impl<'a> Equations<'a> {
         std::array::from_fn(|i| self.law.velocity(self.pull[i], d[i], relief[i], groove[i]))
     }
 
-    /// d - hAv, or what inertia makes of it.
+    /// d - hAv, or its counterpart with inertia.
     #[must_use]
     #[inline]
     pub fn residual(&self, d: &Stages, velocity: &Stages) -> Stages {
@@ -144,7 +144,7 @@ impl<'a> Equations<'a> {
         self.jacobian_with(&self.indenting(), (past, relief), own)
     }
 
-    /// The same where what each stage indents is another matrix.
+    /// The same with another matrix of indentations.
     #[must_use]
     #[inline]
     pub(super) fn jacobian_with(
@@ -163,7 +163,7 @@ impl<'a> Equations<'a> {
         self.less_carried(jacobian, &derivatives)
     }
 
-    /// A matrix less hA times one of derivatives of the force.
+    /// A matrix minus hA times a matrix of derivatives of the force.
     #[inline]
     pub(super) fn less_carried(&self, mut matrix: Matrix, derivatives: &Matrix) -> Matrix {
         let (carried, h) = match self.inertia {

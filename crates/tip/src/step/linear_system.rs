@@ -1,5 +1,5 @@
-//! Elimination for the systems of a step, s×s for each coordinate. They are solved once or twice a step, and so small that a
-//! general routine spends its time on bookkeeping.
+//! Elimination for the linear systems of a step, s×s for each coordinate. They are solved once or twice per step, and
+//! are so small that a general routine would spend most of its time on bookkeeping.
 
 use crate::collocation::STAGES;
 
@@ -10,7 +10,7 @@ pub(crate) struct Factors<const N: usize = STAGES> {
 }
 
 impl<const N: usize> Factors<N> {
-    /// `None` for a matrix that is singular or not finite.
+    /// The factors; `None` for a matrix that is singular or not finite.
     #[inline]
     pub(crate) fn of(mut rows: [[f64; N]; N]) -> Option<Self> {
         let mut order = std::array::from_fn(|i| i);
@@ -52,7 +52,7 @@ impl<const N: usize> Factors<N> {
         x
     }
 
-    /// The same for all columns of a matrix, side by side.
+    /// The same for all columns of a matrix, in SIMD lanes.
     pub(crate) fn solve_columns(&self, right: &[[f64; N]; N]) -> [[f64; N]; N] {
         let mut x = self.order.map(|i| right[i]);
         for i in 0..N {

@@ -1,4 +1,4 @@
-//! The collocation equations of one step, written down once: the integrator solves them, cycles linearise
+//! The collocation equations of one step, in a single place: the integrator solves them, and limit cycles linearise
 //! them.
 //!
 //! With the displacements d of the tip at the nodes of a step of length h, and the Butcher matrix A,
@@ -9,10 +9,10 @@
 //!     g_i = past_i + Σ_k b_ik f'(d_i - d_k)      b = hA: what the step itself carves
 //! ```
 //!
-//! Whatever changes the law changes it here. The weight w of each visit under a [`Depth`] limit multiplies the
-//! columns of b, with the heights that it depends on as further unknowns; a surface that heals makes b another
-//! matrix, [`healing`]; a further term of the force goes into [`Law`], with its derivative beside it; an inertia
-//! is another way from v to d, [`Equations::residual`].
+//! All terms of the extended model are here. With a [`Depth`] limit the weight w of each node multiplies the columns
+//! of b, and the heights in it are further unknowns. A surface that heals replaces b by another matrix, [`healing`].
+//! A further term of the force belongs to [`Law`], together with its derivative. Inertia changes the relation of d to
+//! v, [`Equations::residual`].
 
 mod depth;
 mod estimate;

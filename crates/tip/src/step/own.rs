@@ -1,22 +1,22 @@
-//! What the step itself carves.
+//! The contribution of a step to the groove.
 
 use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::tip_function::Apex;
 use multiversion::multiversion;
 
-/// A row for each stage.
+/// A matrix with a row for each stage.
 pub type Matrix = [Stages; STAGES];
 
-/// f' and f'' at `d_i - d_k` for all pairs of stages: of them are the groove that the step carves under its
-/// own stages, `Σ_k b_ik f'(d_i - d_k)`, and its derivatives made.
+/// f' and f'' at `d_i - d_k` for all pairs of stages. They determine the contribution of the step to the groove under
+/// its own stages, `Σ_k b_ik f'(d_i - d_k)`, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct OwnGroove {
     slope: Pairs,
     curvature: Pairs,
 }
 
-/// Pairs of stages i > k, and one idle pair (0, 0) that fills the machine's vectors.
+/// Pairs of stages i > k, and one idle pair (0, 0) that fills the SIMD vectors.
 const PAIRS: [(usize, usize); 16] = pairs();
 const IDLE: usize = PAIRS.len() - 1;
 type Pairs = [f64; PAIRS.len()];
@@ -36,8 +36,8 @@ const fn pairs() -> [(usize, usize); 16] {
     all
 }
 
-/// How much of what each stage leaves is there at each stage: the Butcher matrix times a factor, h for the
-/// groove of a step of that length.
+/// Weights of each stage in the groove at each stage: the Butcher matrix times a factor, h for the groove of a step
+/// of that length.
 #[must_use]
 #[inline]
 pub fn carving(factor: f64) -> Matrix {
@@ -45,19 +45,19 @@ pub fn carving(factor: f64) -> Matrix {
 }
 
 impl OwnGroove {
-    /// Not yet known.
+    /// All values 0.
     pub(crate) fn nothing() -> Self {
         Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] }
     }
 
-    /// Under stages at these displacements.
+    /// The contribution under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let [slope, curvature] = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
         Self { slope, curvature }
     }
 
-    /// The same by the polynomial of the apex, where that holds.
+    /// The same from the polynomial about the apex, where that is accurate.
     #[inline]
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
@@ -87,7 +87,7 @@ impl OwnGroove {
         }
     }
 
-    /// Adds the derivatives of that with respect to d. (The idle pair adds what it takes away.)
+    /// Adds the derivatives of this sum with respect to d. (The idle pair adds and subtracts the same value.)
     #[inline]
     pub fn add_derivatives(&self, b: &Matrix, derivatives: &mut Matrix) {
         for (curvature, (i, k)) in self.curvature.iter().zip(PAIRS) {
@@ -106,7 +106,7 @@ fn side_by_side(tip: &TipFunction, distance: &Pairs) -> [Pairs; 2] {
     tip.slopes_and_curvatures(distance)
 }
 
-/// f at `d_i - d_k`: the height of the groove that the step carves, `Σ_k b_ik f(d_i - d_k)`.
+/// f at `d_i - d_k`: the height of the contribution of the step to the groove, `Σ_k b_ik f(d_i - d_k)`.
 #[derive(Debug, Clone, Copy)]
 pub struct OwnHeight {
     value: Pairs,
@@ -114,19 +114,19 @@ pub struct OwnHeight {
 }
 
 impl OwnHeight {
-    /// Not yet known.
+    /// All values 0.
     pub(crate) fn nothing() -> Self {
         Self { value: [0.0; PAIRS.len()], apex: 0.0 }
     }
 
-    /// Under stages at these displacements.
+    /// The heights under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let value = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));
         Self { value, apex: tip.value(0.0) }
     }
 
-    /// The same by the polynomial of the apex, where that holds.
+    /// The same from the polynomial about the apex, where that is accurate.
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let mut value = [0.0; PAIRS.len()];
         if apex.values(&PAIRS.map(|(i, k)| d[i] - d[k]), &mut value) {

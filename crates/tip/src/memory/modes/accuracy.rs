@@ -1,40 +1,42 @@
-//! How well f' must be fitted for a run to keep its tolerance.
+//! Accuracy of the fit of f' that a run requires.
 
 use crate::Model;
 use crate::elementary::{log10, pow};
 
-/// The error of x0 that the fit may bring about, over the tolerance of the run.
-/// Motions near onset amplify it a hundredfold, as they do the error of a step, of which they allow as much.
+/// Allowed error of x0 due to the fit, in units of the tolerance of the run. Motions near onset amplify it a
+/// hundredfold, as they do the error of a step, which is allowed as much.
 const SHARE: f64 = 0.025;
-/// Of that for a tip that swings back: it turns where its groove does not hold it, and carves another.
+/// Factor of this share for a tip with M > 1/2: it turns where its groove does not hold it, and carves another
+/// groove.
 const SWINGING: f64 = 0.1;
-/// Errors of a fit change sign within about this distance, in widths of the apex: what a moving tip feels
-/// of them is that much at a time.
+/// Distance, in widths of the apex, within which errors of a fit change sign: they act on a moving tip over about
+/// this distance.
 const WIDTHS: f64 = 2.0;
 
-/// Down to here an error is cheap, one exponential more for a fifth of it, and is this much smaller than it need be: errors
-/// of a fit are there from the start of a run, and nothing but the motion says what becomes of them.
+/// Accuracy up to which a smaller error is cheap: one exponential more reduces it to a fifth. Down to this accuracy
+/// the error is made smaller than necessary, because errors of a fit act from the start of a run and their later
+/// effect depends on the motion.
 const CHEAP: f64 = 1e-10;
 const SPARE: f64 = 0.1;
 
-/// Heights are forgotten more slowly than slopes, by about this factor.
+/// Approximate factor by which heights act on the tip for longer than slopes.
 const HEIGHTS: f64 = 4.0;
-/// Exponentials do not fit much better than this: heights alone do not ask for more, nor, where they are to hold
-/// farther back, does a tip that swings.
+/// Finest accuracy of a fit. Heights do not require more, nor does a tip that swings back, whose fit must be valid
+/// farther behind.
 const FINEST: f64 = 2.5e-14;
 const FINEST_OF_SWINGING: f64 = 5e-14;
 
-/// The largest error ε of f' that moves the tip by a small part of the tolerance.
+/// The largest error ε of f' that displaces the tip by a small part of the tolerance.
 ///
-/// ε shifts the force by α ε times the time spent within reach. A tip that moves on at about r spends
-/// 1/r per length, and the errors that it meets alternate: α ε times two widths over r, against a spring of
-/// stiffness 1. A tip that sticks for a time T feels α ε T, but the groove that it made meanwhile has the
-/// stiffness α T |f''(0)|: it is shifted by ε/|f''(0)|, however long T is.
+/// ε changes the force by α ε times the time spent within reach. A tip that moves on at about r spends 1/r per
+/// length, and the errors alternate along its path. The change is α ε times two widths over r, and the spring has
+/// stiffness 1. For a tip that sticks for a time T the change is α ε T, but the groove made meanwhile has the
+/// stiffness α T |f''(0)|: the displacement is ε/|f''(0)| for any T.
 ///
-/// Under a depth limit b an error of the height, which is α times that of f for a time, changes the rate of
-/// indentation by its part of b: where α is above b, that counts for more.
+/// With a depth limit b an error of the height, which is α times that of f for a time, changes the indentation rate
+/// by its ratio to b: if α is above b, this effect is the larger one.
 ///
-/// In quarter decades, so that runs alike share a fit.
+/// Rounded to quarter decades, so that similar runs share a fit.
 #[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
@@ -47,7 +49,7 @@ pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     pow(10.0, (4.0 * log10(largest)).floor() / 4.0)
 }
 
-/// How far an error ε of f' displaces the tip, in σ: see [`accuracy_needed`].
+/// Displacement of the tip by an error ε of f', in σ: see [`accuracy_needed`].
 #[must_use]
 pub fn displacement(model: &Model, slope_error: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();

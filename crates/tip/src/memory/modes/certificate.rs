@@ -1,4 +1,4 @@
-//! How far a sum of exponentials is from f', everywhere on its half-line.
+//! Error of a sum of exponentials as an approximation of f', everywhere on its half-line.
 
 use super::term::Term;
 use crate::elementary::{complex_exp, exp, norm};
@@ -8,9 +8,9 @@ use num_complex::Complex;
 /// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ from minus the retreat on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitCertificate {
-    /// Of f'(ξ): an error of the force per time spent within reach, over α.
+    /// Error of f'(ξ): an error of the force per time spent within reach, over α.
     pub slope: f64,
-    /// Of f''(ξ), which steers Newton's iteration only.
+    /// Error of f''(ξ), which affects Newton's iteration only.
     pub curvature: f64,
     /// ∫|error of f'|dξ: an error of the force on a tip of velocity v, times v/α.
     pub area: f64,
@@ -18,12 +18,13 @@ pub struct FitCertificate {
 
 /// Grid points per 1/|s| of the fastest exponential.
 const POINTS_PER_LENGTH: f64 = 16.0;
-/// Sums that have not faded at so many reaches are no fits.
+/// Distance, in reaches, at which a sum must have decayed.
 const FARTHEST: f64 = 100.0;
-/// Powers `e^{s n h}` are formed by so many multiplications at most, then afresh.
+/// Largest number of successive multiplications that form powers `e^{s n h}`; then a new exponential is evaluated.
 const BLOCK: usize = 32;
 
-/// On a grid from minus the retreat to where the sum of moduli, `Σ|w_j| e^{Re s_j ξ}`, bounds the rest.
+/// Evaluates the errors on a grid from minus the retreat to the point where the sum of moduli, `Σ|w_j| e^{Re s_j ξ}`,
+/// bounds the rest.
 ///
 /// Between grid points the error is at most that at the nearest of them, plus half a spacing times the
 /// largest error of the derivative.

@@ -2,11 +2,11 @@
 
 use num_complex::Complex;
 
-/// One term `Re(w e^{sξ})`: a conjugate pair, or a real exponential where Im s = 0.
+/// One term `Re(w e^{sξ})`: a conjugate pair, or a real exponential if Im s = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Term {
-    /// s, Re s < 0 ≤ Im s
+    /// Exponent s, Re s < 0 ≤ Im s.
     pub exponent: Complex<f64>,
-    /// w
+    /// Weight w.
     pub weight: Complex<f64>,
 }

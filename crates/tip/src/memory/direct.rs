@@ -1,16 +1,16 @@
-//! The definition: a sum over visits. The oracle for the other sums.
+//! The definition, a sum over all nodes within reach: the reference for the other algorithms.
 
 use super::groove::{Groove, range};
 use super::record::Record;
 use crate::TipFunction;
 use multiversion::multiversion;
 
-/// Points side by side: the stages of a step, and idle ones that fill the vectors of the machine.
+/// Number of points per vector: the stages of a step, and idle ones that fill the SIMD vectors.
 const LANES: usize = 8;
 
-/// The groove of all that the record holds within reach, at displacements from the tip.
+/// The groove of all nodes of the history buffer within reach, at displacements from the tip.
 ///
-/// It costs as much as there are visits within reach, and a look at every block of them.
+/// The cost is proportional to the number of nodes within reach, plus one comparison per block.
 pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mut Groove<'_>) {
     let position = record.position();
     let (low, high) = range(at);
@@ -20,7 +20,7 @@ pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mu
     }
 }
 
-/// Adds the groove of these visits at the points `origin + at`.
+/// Adds the groove of these nodes at the points `origin + at`.
 pub(super) fn add(
     visits: &[(f64, f64)],
     tip: &TipFunction,
@@ -42,9 +42,9 @@ pub(super) fn add(
     }
 }
 
-/// Adds the slope and curvature of these visits at the first of x, as many as are told.
+/// Adds the slope and curvature of these nodes at the first points x, as many as there is room for.
 ///
-/// Compiled for wider vectors too: lanes do not know of each other.
+/// Also compiled for wider vectors: lanes are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn add_side_by_side(
     visits: &[(f64, f64)],

@@ -9,27 +9,26 @@ use crate::collocation::STAGES;
 use std::ops::Range;
 use stickslip_convolution::{Convolver, Density, Field, Kernel};
 
-/// ∫ f'(x - x0(t'))dt' = f' ∗ ρ with ρ the residence density of the tip, how long it spent where.
+/// ∫ f'(x - x0(t'))dt' = f' ∗ ρ with ρ the residence density of the tip: time spent per length.
 ///
-/// New history is spread onto a lattice that keeps ρ as far as some 12,000 widths about the tip; a window of
-/// it is convolved with f' by FFT and read off at the tip. The cost of a step does not depend on how much
-/// history lies within reach; whether the tip came back to what was dropped is told by
-/// [`forgotten`](Self::forgotten). For a footprint without reach (J0) the window holds all that was visited
-/// and grows with it; the newest steps are then summed directly for a while, so that the longer transforms
-/// are shared by several steps.
+/// New nodes are spread onto a lattice that keeps ρ within some 12,000 widths of the tip. A window of the lattice is
+/// convolved with f' by FFT and evaluated at the tip. The cost of a step does not depend on the length of the history
+/// within reach. [`forgotten`](Self::forgotten) reports whether the tip returned to positions that were dropped. For
+/// a footprint without reach (J0) the window contains all positions and grows with them; the newest steps are then
+/// summed directly for a while, so that several steps share each of the longer transforms.
 pub(super) struct Fft {
     tip: TipFunction,
     convolver: Convolver,
     density: Density,
     field: Field,
-    /// For those who ask for heights.
+    /// The field of heights, if heights have been requested.
     heights: Option<Heights>,
-    /// Position of the tip, relative to an origin that follows it.
+    /// Position of the tip, relative to an origin that moves with it.
     position: f64,
-    /// Position and weight of what is not yet in the field.
+    /// Positions and weights of nodes that are not yet in the field.
     pending: Vec<(f64, f64)>,
     most_pending: usize,
-    /// Cells outside of these may have been dropped.
+    /// Range of cells outside of which cells may have been dropped.
     known: Range<i64>,
 }
 
@@ -37,38 +36,38 @@ pub(super) struct Fft {
 struct Heights {
     convolver: Convolver,
     field: Field,
-    /// Whether the field is that of the density as it is.
+    /// Whether the field belongs to the present density.
     current: bool,
 }
 
-/// What became of the lattice when visits were added.
+/// Change of the lattice when nodes were added.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Lattice {
-    /// Nothing.
+    /// No change.
     Same,
     /// Its origin moved by this much.
     Moved(f64),
-    /// It no longer spans all that was visited by a footprint without reach: it is to be made anew.
+    /// The lattice no longer spans all positions, for a footprint without reach, and must be built anew.
     Outgrown,
 }
 
-/// The origin moves by this many cells at a time: positions stay small, so that their differences keep
-/// full precision however far the tip travels.
+/// Number of cells by which the origin moves: positions remain small, so that their differences keep full precision
+/// however far the tip travels.
 const CELLS_PER_ORIGIN: i64 = 512;
 
-/// Cells of the density kept on either side of the tip, at least: 12,000 widths of a Gaussian. Beyond
-/// twice as many are dropped.
+/// Least number of cells of the density kept on either side of the tip: 12,000 widths of a Gaussian. Beyond twice as
+/// many they are dropped.
 const CELLS_KEPT: usize = 1 << 16;
-/// And at least so many windows.
+/// Least number of windows kept.
 const WINDOWS_KEPT: usize = 4;
-/// Cells are numbered within these bounds.
+/// Bounds on the numbers of cells.
 const EVERYWHERE: Range<i64> = -(1 << 60)..1 << 60;
 
-/// A transform of this many cells costs about as much as summing one step directly.
+/// Number of cells for which a transform takes about as long as a direct sum over one step.
 const CELLS_PER_DIRECT_STEP: usize = 512;
 
 impl Fft {
-    /// With a past: displacements from where the tip stands now, and times spent there.
+    /// A lattice with a past: displacements from the present position of the tip, and times spent there.
     pub(super) fn new(tip: &TipFunction, past: impl Iterator<Item = (f64, f64)>) -> Self {
         let pending: Vec<_> = past.collect();
         let look = longest_look(tip);
@@ -120,7 +119,7 @@ impl Fft {
         direct::add(&self.pending, &self.tip, (self.position, at), groove);
     }
 
-    /// All weights times a factor.
+    /// Multiplies all weights by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         self.pending.iter_mut().for_each(|(_, weight)| *weight *= factor);
         self.density.scale(factor);
@@ -129,7 +128,7 @@ impl Fft {
         self.heights.iter_mut().for_each(|heights| heights.current = false);
     }
 
-    /// Moves what is pending into the density, and the field to where the tip is now.
+    /// Adds pending nodes to the density, and moves the field to the present position of the tip.
     fn fold(&mut self) -> Lattice {
         for (position, weight) in self.pending.drain(..) {
             self.density.add(position, weight);
@@ -167,8 +166,8 @@ impl Fft {
         &heights.field
     }
 
-    /// Drops what lies far from a window that starts at `first`: the density takes no more room, however
-    /// far the tip goes.
+    /// Drops cells far from a window that starts at `first`, so that the size of the density is bounded however far
+    /// the tip travels.
     fn drop_far(&mut self, first: i64) {
         let (range, kept) = (self.density.range(), self.kept());
         if first - range.start > 2 * kept {
@@ -180,17 +179,17 @@ impl Fft {
         self.density.keep(&self.known);
     }
 
-    /// Cells kept on either side of the window.
+    /// Number of cells kept on either side of the window.
     fn kept(&self) -> i64 {
         CELLS_KEPT.max(WINDOWS_KEPT * self.convolver.length()) as i64
     }
 
-    /// Whether nothing is ever out of sight.
+    /// Whether no cells are ever dropped.
     fn keeps_all(&self) -> bool {
         self.tip.reach().is_none()
     }
 
-    /// Whether the window, for a footprint without reach, still spans everything that was visited.
+    /// Whether the window, for a footprint without reach, still spans all positions.
     fn holds_all(&self) -> bool {
         let range = self.density.range();
         if !self.keeps_all() || range.is_empty() {
@@ -203,7 +202,7 @@ impl Fft {
         behind.max(ahead) <= self.convolver.plan().separation
     }
 
-    /// Exact: the spacing has few significant bits.
+    /// Moves the origin. This is exact, because the spacing has few significant bits.
     fn move_origin(&mut self, cells: i64) -> Lattice {
         let shift = cells as f64 * self.convolver.spacing();
         self.position -= shift;
@@ -212,14 +211,14 @@ impl Fft {
         Lattice::Moved(shift)
     }
 
-    /// Whether the field is right wherever the tip may look from x.
+    /// Whether the field is valid at every point that the memory may evaluate for a tip at x.
     fn field_holds(&self, x: f64) -> bool {
         let look = longest_look(&self.tip);
         let range = self.field.range();
         range.contains(&(x - look)) && range.contains(&(x + look))
     }
 
-    /// Whether the tip has come back to what was dropped, and how far the past is kept.
+    /// Distance within which the past is kept, if the tip has returned to cells that were dropped; `None` otherwise.
     pub(super) fn forgotten(&self) -> Option<f64> {
         let first = self.field.first_cell();
         let seen = first..first + self.convolver.length() as i64;

@@ -1,10 +1,10 @@
-//! What the tip has visited: the one record of the past, which every sum is made from.
+//! The history buffer: positions of the tip and times spent there, from which every memory is built.
 //!
-//! New nodes are kept as they are. A record of bounded size gathers them when there are many: the weight w at
-//! y within a bin acts on any g that is a polynomial of degree n < p over the bin as the moments `Σ w T_n(y)`
-//! do, and those as p weights on the bin's Chebyshev points. A bin is at most 8/band long, little more than
-//! the shortest wave in f: the coefficients beyond degree 15 are below 6e-9 of that wave, which itself is
-//! below round-off, and below round-off for all that are longer.
+//! New nodes are kept unchanged. A buffer of bounded size compresses them when there are many: a weight w at y within
+//! a bin acts on any g that is a polynomial of degree n < p over the bin in the same way as the moments `Σ w T_n(y)`.
+//! These act in the same way as p weights on the Chebyshev points of the bin. The length of a bin is at most 8/band,
+//! slightly more than the shortest wave in f. The coefficients beyond degree 15 are below 6e-9 of that wave, which
+//! itself is below round-off; for all longer waves they are below round-off.
 
 mod bins;
 mod saved;
@@ -13,31 +13,31 @@ use crate::TipFunction;
 use crate::collocation::STAGES;
 use bins::Bins;
 
-/// Nodes kept as they are in a record of bounded size: of a tip that goes on, twice as many as there are within what is kept,
-/// so that most are dropped without having been gathered.
+/// Number of nodes kept unchanged in a buffer of bounded size: for a tip that moves on, twice as many as lie within
+/// the distance kept, so that most are dropped without compression.
 const MOST_NODES: usize = 1 << 15;
-/// The origin of a record that keeps all moves by this much.
+/// Distance by which the origin of an unbounded buffer moves.
 const ORIGIN_STEP: f64 = 64.0;
 
 /// Positions with the times spent there.
 #[derive(Debug, Clone)]
 pub(super) struct Record {
     reach: f64,
-    /// Of the tip, relative to an origin that follows it: positions stay small, so that their differences
-    /// keep full precision however far the tip travels.
+    /// Position of the tip, relative to an origin that moves with it: positions remain small, so that their
+    /// differences keep full precision however far the tip travels.
     position: f64,
     nodes: Vec<(f64, f64)>,
     kept: Kept,
 }
 
-/// What becomes of nodes when there are many.
+/// Treatment of nodes when there are many.
 #[derive(Debug, Clone)]
 enum Kept {
-    /// They stay, in blocks of at most so many as a step has.
+    /// All are kept, in blocks of at most the number of nodes of a step.
     All(Vec<Block>),
-    /// They are gathered.
+    /// They are compressed in bins.
     Gathered(Bins),
-    /// They stay; the origin is that of a lattice, which says when it moves.
+    /// All are kept; the origin is that of a lattice, which determines when it moves.
     OnLattice,
 }
 
@@ -50,17 +50,18 @@ struct Block {
 }
 
 impl Record {
-    /// Keeps all.
+    /// An unbounded buffer.
     pub(super) fn whole(tip: &TipFunction) -> Self {
         Self::new(tip, Kept::All(vec![]), vec![])
     }
 
-    /// Keeps a bounded stretch, and takes its room once, that of bins when visits are first gathered: no other visit allocates.
+    /// A buffer of bounded length. It allocates its memory once, and that of its bins at the first compression; later
+    /// operations do not allocate.
     pub(super) fn bounded(tip: &TipFunction) -> Self {
         Self::new(tip, Kept::Gathered(Bins::new(tip)), Vec::with_capacity(MOST_NODES))
     }
 
-    /// Keeps all, about the origin of a lattice.
+    /// An unbounded buffer about the origin of a lattice.
     pub(super) fn on_lattice(tip: &TipFunction) -> Self {
         Self::new(tip, Kept::OnLattice, vec![])
     }
@@ -70,17 +71,17 @@ impl Record {
         Self { reach, position: 0.0, nodes, kept }
     }
 
-    /// Of the tip, about the origin of the nodes.
+    /// Position of the tip, about the origin of the nodes.
     pub(super) fn position(&self) -> f64 {
         self.position
     }
 
-    /// Nodes that have not been gathered, about their origin.
+    /// Nodes that have not been compressed, about their origin.
     pub(super) fn nodes(&self) -> &[(f64, f64)] {
         &self.nodes
     }
 
-    /// Takes over the visits of another record: displacements from the tip, and times spent there.
+    /// Adds the nodes of another buffer: displacements from the tip, and times spent there.
     pub(super) fn with(mut self, visits: impl Iterator<Item = (f64, f64)>) -> Self {
         visits.for_each(|(position, weight)| self.add(position, weight));
         self
@@ -109,7 +110,7 @@ impl Record {
         }
     }
 
-    /// Blocks of at most one step.
+    /// Adds blocks of at most one step.
     fn push_blocks(&mut self, position: &[f64], weight: &[f64]) {
         for (position, weight) in position.chunks(STAGES).zip(weight.chunks(STAGES)) {
             self.push(position, weight);
@@ -117,14 +118,14 @@ impl Record {
         }
     }
 
-    /// Visits seen from where the tip was.
+    /// Adds nodes given as displacements from the last position of the tip.
     fn push(&mut self, position: &[f64], weight: &[f64]) {
         self.make_room(position.len());
         let here = self.position;
         self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
     }
 
-    /// The last nodes are a block.
+    /// Closes a block of the last nodes.
     fn close_block(&mut self, nodes: usize) {
         let end = self.nodes.len();
         let Kept::All(blocks) = &mut self.kept else { return };
@@ -140,7 +141,7 @@ impl Record {
         }
     }
 
-    /// Drops what is farther behind than is kept, and gathers where that is not half of it.
+    /// Drops nodes farther behind than the distance kept, and compresses the others unless this drops half of them.
     #[cold]
     fn thin(&mut self) {
         if let Kept::Gathered(bins) = &mut self.kept {
@@ -158,7 +159,7 @@ impl Record {
         }
     }
 
-    /// Moves the origin after the tip.
+    /// Moves the origin towards the tip.
     fn follow(&mut self) {
         let step = match &self.kept {
             Kept::All(_) => ORIGIN_STEP,
@@ -170,7 +171,7 @@ impl Record {
         }
     }
 
-    /// Exact for a shift of few significant bits.
+    /// Moves the origin; exact for a shift of few significant bits.
     pub(super) fn move_origin(&mut self, shift: f64) {
         self.position -= shift;
         self.nodes.iter_mut().for_each(|(x, _)| *x -= shift);
@@ -186,7 +187,7 @@ impl Record {
         }
     }
 
-    /// All weights times a factor.
+    /// Multiplies all weights by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         self.nodes.iter_mut().for_each(|(_, weight)| *weight *= factor);
         if let Kept::Gathered(bins) = &mut self.kept {
@@ -194,12 +195,12 @@ impl Record {
         }
     }
 
-    /// Displacements from the tip, and weights, of all that is kept.
+    /// Displacements from the tip, and weights, of all nodes kept.
     pub(super) fn all(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         self.within(f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Of what lies between two displacements.
+    /// Displacements and weights of the nodes between two displacements.
     fn within(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
         let bins = match &self.kept {
             Kept::Gathered(bins) => Some(bins.points(self.position + low, self.position + high)),
@@ -210,12 +211,12 @@ impl Record {
         told.filter(move |(x, _)| (low..=high).contains(x))
     }
 
-    /// Of what may be seen from displacements in [low, high].
+    /// Displacements and weights of the nodes within reach of displacements in [low, high].
     pub(super) fn near(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
         self.within(low - self.reach, high + self.reach)
     }
 
-    /// The blocks of which any node may be seen from positions in [low, high], if all is kept.
+    /// The blocks with any node within reach of positions in [low, high], for an unbounded buffer.
     pub(super) fn blocks_near(
         &self,
         low: f64,
@@ -237,18 +238,18 @@ impl Record {
         }
     }
 
-    /// How often visits were remembered.
+    /// Number of steps added.
     pub(super) fn steps(&self) -> usize {
         self.blocks().len()
     }
 
-    /// Number of remembered nodes that the tip may see.
+    /// Number of nodes within reach of the tip.
     pub(super) fn nodes_within_reach(&self) -> usize {
         self.blocks_near(self.position, self.position).map(<[_]>::len).sum()
     }
 
-    /// Whether the tip has come back to what was dropped, and how far behind its farthest point the past is
-    /// kept.
+    /// Distance behind the farthest point of the tip within which the past is kept, if the tip has returned to
+    /// positions that were dropped; `None` otherwise.
     pub(super) fn forgotten(&self) -> Option<f64> {
         match &self.kept {
             Kept::Gathered(bins) => bins.forgotten(),

@@ -1,4 +1,4 @@
-//! The lattice, written down and taken up again, with the record that belongs to it.
+//! Saving and restoring the lattice, with the history buffer that belongs to it.
 
 use super::super::record::Record;
 use super::{CELLS_PER_ORIGIN, Fft, most_pending, plan};
@@ -8,7 +8,7 @@ use std::ops::Range;
 use stickslip_convolution::Density;
 
 impl Fft {
-    /// `visited` is all of the past, where the lattice may have to be made anew from it.
+    /// Writes the lattice. `visited` is the whole past, if the lattice may have to be built anew from it.
     pub(in crate::memory) fn save(&self, visited: Option<&Record>, state: &mut State) {
         state.number(self.position);
         state.number(self.convolver.plan().separation);
@@ -23,7 +23,7 @@ impl Fft {
         [self.known.start, self.known.end].into_iter().for_each(|cell| state.whole(cell));
     }
 
-    /// Takes up what was saved, and returns the record that came with it.
+    /// Restores the lattice, and returns the history buffer that was saved with it.
     pub(in crate::memory) fn restore(
         &mut self,
         state: &mut Reader,
@@ -50,7 +50,7 @@ impl Fft {
         Err(Damaged::OutOfRange)
     }
 
-    /// Whether the tip is where it has been and, unless that is all kept, near the origin.
+    /// Whether the tip is at the end of its past and, unless the whole past is kept, close to the origin.
     fn stands_on_its_past(&self) -> bool {
         let (cells, cell) = (self.density.range(), self.position / self.convolver.spacing());
         let about = |cells: &Range<i64>| {

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from a little behind 0 on, with its certified error.
+/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from slightly behind 0 on, with its certified error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     terms: Vec<Term>,
@@ -23,28 +23,28 @@ pub struct Fit {
     certificate: FitCertificate,
 }
 
-/// Why f' is not fitted.
+/// Reasons why f' has no fit.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum FitError {
-    /// J0 falls like 1/√ξ: no few exponentials do.
+    /// J0 decays like 1/√ξ, which no few exponentials approximate.
     #[error(
         "the modes need a footprint that fades; this one does not (J0 falls like 1/√x): use the memory fft"
     )]
     NeverFades,
-    /// Terms that make no sum.
+    /// Terms that do not form a decaying sum.
     #[error("a fit needs at least one exponential, and each must fade")]
     Terms,
-    /// Nobody waits for it any more: [`crate::stop`].
+    /// The computation was cancelled: [`crate::stop`].
     #[error("stopped before f' was fitted")]
     Stopped,
-    /// The best fit is not good enough.
+    /// The best fit is not accurate enough.
     #[error(
         "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: ask for a larger tolerance, or use the memory fft"
     )]
     NotMet {
-        /// Largest error asked for.
+        /// Largest error allowed.
         wanted: f64,
-        /// Of the best fit tried.
+        /// Error of the best fit.
         reached: f64,
     },
 }
@@ -62,31 +62,31 @@ const FINEST_OF_PENCIL: f64 = 2e-12;
 /// Below this slips make the error of a fit that of a run: one pair more, for a fifth of it, is looked at.
 const CHEAP: f64 = 1e-10;
 const SPARE: f64 = 0.3;
-/// Lattices of exponents for what is left: the period over reach and retreat.
+/// Lattices of exponents, where the pencil does not suffice: the period over reach and retreat.
 const PERIODS: [f64; 4] = [1.3, 1.6, 2.0, 2.4];
-/// What the images of f' and the waves left out may amount to, over the accuracy wanted.
+/// Allowed error due to the images of f' and the omitted waves, over the required accuracy.
 const SHARE_OF_LATTICE: f64 = 0.1;
-/// A lattice with more exponents would cost more than `fft` does.
+/// Largest number of pairs: a lattice with more exponents would cost more than `fft`.
 const MOST_PAIRS: usize = 64;
-/// Terms that cancel lose digits: at most this share of the accuracy, or expansions would be short.
+/// Allowed error due to cancellation between terms, over the required accuracy; otherwise expansions would be short.
 const SHARE_OF_ROUND_OFF: f64 = 0.1;
 const LEAST_ROUND_OFF: f64 = 2e-15;
-/// Least squares uses so many times the samples of the pencil.
+/// Number of samples for least squares, as a multiple of those of the pencil.
 const FINER: usize = 2;
-/// The pencil is given up beyond this many terms (pairs count twice).
+/// Largest number of terms of the pencil (pairs count twice).
 const MOST_TERMS: usize = 40;
 
 impl Fit {
-    /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and the area of that
-    /// error at most that times two widths of a Gaussian.
+    /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and whose area is at most
+    /// `wanted` times two widths of a Gaussian.
     ///
     /// # Errors
-    /// A footprint that never fades, or an accuracy out of reach.
+    /// A footprint that does not decay, or an accuracy that no fit reaches.
     pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
         Self::reaching_back(tip, wanted, Retreat::Small)
     }
 
-    /// The same for a tip that comes back so far.
+    /// The same for a tip with this retreat.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -127,7 +127,7 @@ impl Fit {
         Err(if stop::is_asked() { FitError::Stopped } else { FitError::NotMet { wanted, reached } })
     }
 
-    /// -sin ξ = Re(i e^{iξ}), exactly, on both sides and for ever.
+    /// -sin ξ = Re(i e^{iξ}), exactly, for all ξ.
     fn of_cosine(wanted: f64) -> Self {
         let terms = vec![Term { exponent: Complex::i(), weight: Complex::i() }];
         let certificate = FitCertificate { slope: 0.0, curvature: 0.0, area: 0.0 };
@@ -135,8 +135,8 @@ impl Fit {
         Self { terms, retreat: everywhere, between_steps: everywhere, wanted, certificate }
     }
 
-    /// As [`reaching_back`](Self::reaching_back), or a fit made before for the same: the last so many are kept for all
-    /// threads, and those of the default footprints come with the program. The bits are the same wherever it is from.
+    /// As [`reaching_back`](Self::reaching_back), or an equal fit made earlier. The latest fits are kept for all
+    /// threads, and those of the default footprints are part of the program. The result is the same bit for bit.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -167,7 +167,7 @@ impl Fit {
         fit
     }
 
-    /// One that comes with the program.
+    /// A fit that is part of the program.
     fn standard(tip: &TipFunction, wanted: f64, back: Retreat) -> Option<Self> {
         if back != Retreat::Small {
             return None;
@@ -177,10 +177,10 @@ impl Fit {
         Some(Self { terms, retreat, between_steps, wanted, certificate })
     }
 
-    /// The sum of given terms, with its certified error: for exponentials found elsewhere.
+    /// The sum of given terms, with its certified error: for exponentials from other sources.
     ///
     /// # Errors
-    /// A footprint that never fades, no terms, or terms that do not fade.
+    /// A footprint that does not decay, no terms, or terms that do not decay.
     pub fn from_terms(tip: &TipFunction, terms: Vec<Term>) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
         Self::of_terms(tip, terms, &Window::of(tip, reach, Retreat::Small))
@@ -220,25 +220,25 @@ impl Fit {
         &self.terms
     }
 
-    /// The accuracy that it was made for, its own error where the terms were given.
+    /// The required accuracy; the error of the sum if the terms were given.
     #[must_use]
     pub fn wanted(&self) -> f64 {
         self.wanted
     }
 
-    /// How far behind the farthest point remembered the sum still holds.
+    /// Distance behind the farthest point within which the sum is valid.
     #[must_use]
     pub fn retreat(&self) -> f64 {
         self.retreat
     }
 
-    /// How far behind it a step may begin, so that its looks stay within.
+    /// Distance behind the farthest point at which a step may begin, so that all its evaluations are valid.
     #[must_use]
     pub fn retreat_between_steps(&self) -> f64 {
         self.between_steps
     }
 
-    /// Its largest errors.
+    /// Largest errors of the sum.
     #[must_use]
     pub fn certificate(&self) -> FitCertificate {
         self.certificate
@@ -253,7 +253,7 @@ impl Fit {
         })
     }
 
-    /// Whether f' is as near as wanted, and the error not all of one sign: its area over two widths is no larger.
+    /// Whether the error of f' is at most the required one, and changes sign: its area over two widths is no larger.
     fn meets(&self, window: &Window) -> bool {
         let wanted = self.wanted;
         let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(norm(t.weight)));
@@ -262,7 +262,7 @@ impl Fit {
             && f64::EPSILON * largest <= (SHARE_OF_ROUND_OFF * wanted).max(LEAST_ROUND_OFF)
     }
 
-    /// These exponents with the weights that least squares gives them.
+    /// The sum of these exponents with weights from least squares.
     fn with_exponents(
         tip: &TipFunction,
         window: &Window,
@@ -283,7 +283,7 @@ impl Fit {
     }
 }
 
-/// The pencil with ever more terms, until one meets the accuracy or no longer gains.
+/// The matrix pencil with an increasing number of terms, until it meets the accuracy or no longer improves.
 fn by_pencil(
     tip: &TipFunction,
     window: &Window,
@@ -326,7 +326,7 @@ fn by_pencil(
     met
 }
 
-/// Exponents s = -a ± iκk on a lattice: more of them, but certain. `f' e^{aξ}` is a Fourier series whose
+/// Exponents s = -a ± iκk on a lattice: more of them, but without a search. `f' e^{aξ}` is a Fourier series whose
 /// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`. `largest` is max |f'|.
 fn damped_fourier(
     tip: &TipFunction,
@@ -348,7 +348,7 @@ fn damped_fourier(
     Fit::with_exponents(tip, window, &exponents, &samples, wanted)
 }
 
-/// How many waves of a lattice matter to f': the others, all of them beyond, amount to less than `error`.
+/// Number of waves of a lattice that f' requires: all the others together amount to less than `error`.
 fn waves(tip: &TipFunction, lattice: f64, error: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let all = (tip.band() / lattice).ceil() as usize;

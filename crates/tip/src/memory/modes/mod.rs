@@ -32,12 +32,12 @@ use num_complex::Complex;
 use prepared::Prepared;
 use std::sync::Arc;
 
-/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is
-/// `Σ_j Re(w_j z_j e^{s_j at})`, and the state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` is all of the past: it fades as
-/// the tip moves on, and a step costs the same for ever.
+/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is `Σ_j Re(w_j z_j
+/// e^{s_j at})`. The state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` contains the whole past. It decays as the tip moves
+/// on, and the cost of a step is constant.
 ///
-/// As exact as the [`Fit`], as long as the tip looks no farther back than its retreat behind the farthest point that
-/// it has been to.
+/// The error is that of the [`Fit`], as long as the groove is evaluated no farther back than the retreat behind the
+/// farthest point of the tip.
 pub(super) struct Modes {
     fit: Arc<Fit>,
     bank: Bank,
@@ -47,12 +47,12 @@ pub(super) struct Modes {
     farthest: f64,
 }
 
-/// An expansion is made to hold a little beyond the stages that ask for it: Newton's next iteration asks
-/// nearby.
+/// Factor of the radius of an expansion over that of the requested stages, because the next iteration of Newton's
+/// method requests points close to them.
 const BEYOND_THE_STAGES: f64 = 1.05;
 
 impl Modes {
-    /// Nothing remembered yet.
+    /// An empty memory.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
         let prepared = Prepared::cached(&fit);
         let (bank, groove) = (Bank::new(&prepared.bank), LocalGroove::nowhere());
@@ -63,23 +63,23 @@ impl Modes {
         &self.fit
     }
 
-    /// Whether the sum holds at all of these displacements.
+    /// Whether the sum is valid at all these displacements.
     pub(super) fn reach_back_to(&self, at: &[f64]) -> bool {
         let lowest = at.iter().copied().fold(f64::INFINITY, f64::min);
         lowest >= self.farthest - self.fit.retreat()
     }
 
-    /// Whether the tip has retreated so far that the next step may look too far back.
+    /// Whether the tip has retreated so far that the next step may evaluate the groove where the sum is invalid.
     pub(super) fn retreated(&self) -> bool {
         self.farthest > self.fit.retreat_between_steps()
     }
 
-    /// How far the tip is behind its farthest point.
+    /// Distance of the tip behind its farthest point.
     pub(super) fn behind(&self) -> f64 {
         self.farthest
     }
 
-    /// The tip has been to this displacement.
+    /// Records a displacement at which the tip has been.
     pub(super) fn reached(&mut self, position: f64) {
         self.farthest = self.farthest.max(position);
     }
@@ -90,27 +90,27 @@ impl Modes {
         self.bank.advance(position, weight);
     }
 
-    /// All weights times a factor.
+    /// Multiplies all weights by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         self.bank.scale(factor);
         self.groove.forget();
     }
 
-    /// Visits that the state does not take up, while it is not in use.
+    /// Records positions without adding them to the state, while it is not in use.
     pub(super) fn pass(&mut self, position: &[f64]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
         self.groove.forget();
     }
 
-    /// The state summed afresh: displacements from the tip, and times spent there.
+    /// Computes the state anew from displacements from the tip, and times spent there.
     pub(super) fn sum_up(&mut self, visits: impl Iterator<Item = (f64, f64)>) {
         self.bank.clear();
         self.groove.forget();
         visits.for_each(|(position, weight)| self.bank.add(position, weight));
     }
 
-    /// As [`Memory::groove`](super::groove::Memory::groove), where the sum holds.
+    /// As [`Memory::groove`](super::groove::Memory::groove), where the sum is valid.
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         if !self.groove.holds(at) {
             let (low, high) = range(at);
@@ -127,7 +127,7 @@ impl Modes {
         }
     }
 
-    /// Where no polynomial is accurate.
+    /// The groove at each point separately, where no polynomial is accurate.
     fn one_by_one(&self, at: &[f64], groove: &mut Groove<'_>) {
         let told = groove.slope.iter_mut().zip(groove.curvature.iter_mut());
         for (at, (slope, curvature)) in at.iter().zip(told) {
@@ -140,7 +140,7 @@ impl Modes {
         }
     }
 
-    /// As [`Memory::derivatives`](super::groove::Memory::derivatives), with `left` of what the state says.
+    /// As [`Memory::derivatives`](super::groove::Memory::derivatives), with the state multiplied by `left`.
     pub(super) fn derivatives(
         &self,
         steady: Option<&SteadyPast>,

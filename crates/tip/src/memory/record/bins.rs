@@ -1,4 +1,4 @@
-//! Visits gathered in bins: as many moments of each as act on f.
+//! Nodes compressed in bins, with as many moments of each bin as act on f.
 
 use crate::TipFunction;
 use crate::elementary::{cos, exp2, log2};
@@ -9,13 +9,13 @@ use std::sync::LazyLock;
 pub(super) const MOMENTS: usize = 16;
 pub(super) type Bin = [f64; MOMENTS];
 
-/// Bins kept: what is farther behind is forgotten.
+/// Number of bins kept: the past farther behind is dropped.
 pub(super) const MOST_BINS: usize = 1 << 11;
-/// The origin moves by so many bins: rarely, as all nodes move with it, and not so far that their positions lose more than
-/// some 3e-14.
+/// Number of bins by which the origin moves: rarely, as all nodes move with it, and not so far that the error of
+/// their positions exceeds some 3e-14.
 const BINS_PER_ORIGIN: i64 = 512;
 
-/// Moments of what was visited, bin by bin.
+/// Moments of the weights in each bin.
 #[derive(Debug, Clone)]
 pub(super) struct Bins {
     /// Length of a bin, a power of two: moving the origin by bins is exact.
@@ -50,22 +50,23 @@ impl Bins {
         self.first -= bins;
     }
 
-    /// Notes how far back the tip sees.
+    /// Records how far back the memory is evaluated.
     pub(super) fn look_from(&mut self, x: impl Fn() -> f64) {
         self.missed |= self.dropped && x() < self.first as f64 * self.length;
     }
 
-    /// How far behind the farthest point of the tip the past is kept, if it looked farther.
+    /// Distance behind the farthest point of the tip within which the past is kept, if positions beyond it were
+    /// evaluated.
     pub(super) fn forgotten(&self) -> Option<f64> {
         self.missed.then_some(self.length_kept())
     }
 
-    /// How far behind the farthest point of the tip.
+    /// Distance behind the farthest point of the tip within which the past is kept.
     pub(super) fn length_kept(&self) -> f64 {
         MOST_BINS as f64 * self.length
     }
 
-    /// Drops of these visits, and of the bins, what is farther behind than is kept.
+    /// Removes those of these nodes, and of the bins, that are farther behind than the distance kept.
     pub(super) fn forget(&mut self, visits: &mut Vec<(f64, f64)>) {
         let farthest = visits.iter().map(|visit| visit.0).fold(f64::NEG_INFINITY, f64::max);
         let end = if self.moments.is_empty() { i64::MIN } else { self.end() };
@@ -98,12 +99,12 @@ impl Bins {
         (x / self.length).floor() as i64
     }
 
-    /// Of the last bin, and one.
+    /// Number of the last bin, plus one.
     fn end(&self) -> i64 {
         self.first.saturating_add(self.moments.len() as i64)
     }
 
-    /// A time spent at x.
+    /// Adds a time spent at x.
     pub(super) fn add(&mut self, (x, weight): (f64, f64)) {
         let scaled = x / self.length;
         let cell = scaled.floor();
@@ -113,7 +114,7 @@ impl Bins {
         add_polynomials(bin, y, weight);
     }
 
-    /// The bin of that number, made if need be; `None` if it is farther behind than is kept.
+    /// The bin with this number, created if necessary; `None` if it is farther behind than the distance kept.
     fn bin(&mut self, number: i64) -> Option<&mut Bin> {
         if !self.moments.is_empty() && number.saturating_sub(self.end()) >= MOST_BINS as i64 {
             // So far ahead that nothing of what there is will be kept.
@@ -146,7 +147,7 @@ impl Bins {
         self.moments.get_mut(usize::try_from(number - self.first).ok()?)
     }
 
-    /// Positions and weights that act as all that was gathered in bins of which a part lies in [low, high].
+    /// Positions and weights that act like all nodes in bins that overlap [low, high].
     pub(super) fn points(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
         let starts = (self.first..).map(|number| number as f64 * self.length);
         let seen = move |start: f64| start + self.length >= low && start <= high;
@@ -157,7 +158,7 @@ impl Bins {
     }
 }
 
-/// Lanes that go side by side.
+/// Number of SIMD lanes.
 const LANES: usize = 4;
 
 /// Adds `weight T_m(y)`, m = 0, 1, …: by `T_{m+4} = 2 T_4 T_m - T_{|m-4|}` four at a time.
@@ -173,7 +174,7 @@ fn add_polynomials(bin: &mut Bin, y: f64, weight: f64) {
     }
 }
 
-/// The weights on Chebyshev points that have the moments of the bin.
+/// The weights on Chebyshev points with the moments of the bin.
 fn points(bin: &Bin) -> impl Iterator<Item = (f64, f64)> + Clone {
     COSINES.iter().map(move |cosines| {
         let sum: f64 = bin.iter().zip(cosines).map(|(moment, cos)| moment * cos).sum();

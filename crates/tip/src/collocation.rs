@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 /// Number of stages s: order 2s - 1 at step ends, s + 1 locally in between.
 pub const STAGES: usize = 6;
 
-/// One number per stage.
+/// One real number per stage.
 pub type Stages = [f64; STAGES];
 
 /// The s-stage Radau IIA method on the unit step.
@@ -19,15 +19,15 @@ pub struct Collocation {
     pub c: Stages,
     /// `a_ij` = `∫_0^{c_i}` `ℓ_j(τ)dτ` with the Lagrange polynomials `ℓ_j` of the nodes.
     pub a: [Stages; STAGES],
-    /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes:
-    /// the inverse of `a`.
+    /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes: the inverse of
+    /// `a`.
     pub derivative: [Stages; STAGES],
     /// Derivative of that polynomial at τ = 0.
     pub derivative_at_start: Stages,
-    /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): what a defect at the start of a step, times
-    /// its length, amounts to within the step.
+    /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): factor from the defect at the start of a step, times its
+    /// length, to the largest error within the step.
     pub defect_to_error: f64,
-    /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation, per divided difference.
+    /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation per divided difference.
     largest_node_product: f64,
     /// `1/Π_{k≠j}(c_j - c_k)`: the Lagrange polynomials less their products of differences.
     scales: Stages,
@@ -36,7 +36,7 @@ pub struct Collocation {
     about_the_end: [Stages; STAGES],
 }
 
-/// The method, built once.
+/// The method, built once per program.
 pub static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::radau);
 
 impl Collocation {
@@ -101,33 +101,34 @@ impl Collocation {
         tau * (0..STAGES).map(|i| values[i] / self.c[i] * basis[i]).sum::<f64>()
     }
 
-    /// Its values at τ = 1 + ρ `c_i`, less that at τ = 1: its continuation beyond the unit step.
+    /// Values at τ = 1 + ρ `c_i`, minus that at τ = 1, of the same polynomial: its extrapolation beyond the unit
+    /// step.
     pub fn continued(&self, values: &Stages, ratio: f64) -> Stages {
         let beyond = self.about_the_end(values);
         self.c.map(|c| beyond(ratio * c))
     }
 
-    /// Its value at τ = 1 + y less that at τ = 1, for any y.
+    /// Value of the same polynomial at τ = 1 + y minus that at τ = 1, for any y.
     pub fn about_the_end(&self, values: &Stages) -> impl Fn(f64) -> f64 + use<> {
         let power = apply(&self.about_the_end, values);
         move |y| y * power.iter().rev().fold(0.0, |sum, p| sum * y + p)
     }
 
-    /// The largest error on the unit step of the polynomial as an interpolant, from its miss of a value
-    /// known at another τ: both are the same divided difference times a product of node distances.
+    /// The largest error on the unit step of the polynomial as an interpolant, from its error at another τ where the
+    /// value is known: both are the same divided difference times a product of node distances.
     pub fn interpolation_error(&self, values: &Stages, tau: f64, known: f64) -> f64 {
         let product: f64 = tau * self.c.iter().map(|c| tau - c).product::<f64>();
         (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
     }
 
-    /// The largest error of interpolation on a step of length h, of a function with this divided difference of order
+    /// The largest error of interpolation on a step of length h, for a function with this divided difference of order
     /// s + 1.
     pub fn interpolation_bound(&self, difference: f64, h: f64) -> f64 {
         let h2 = h * h;
         self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
     }
 
-    /// Its derivative at τ.
+    /// Derivative of the polynomial at τ.
     pub fn slope(&self, values: &Stages, tau: f64) -> f64 {
         self.between(&apply(&self.derivative, values), tau)
     }

@@ -1,11 +1,11 @@
 //! Eigenvalues of a real matrix: balancing, its range, Hessenberg form, Francis's QR iteration.
 //!
-//! Matrices here are graded over dozens of orders of magnitude. Of the exponentials that carry the past most
-//! have faded after a period, and a monodromy matrix maps the whole state to the few directions in which a
-//! deviation can still be; what is left are zeros but for round-off. So the matrix is reduced to its range
-//! first: with the columns of V an orthonormal basis of it, M V = V (Vᵀ M V), and the eigenvalues but zero are
-//! those of the small matrix Vᵀ M V. Every entry that is negligible is set to zero where it is judged to be,
-//! shifts change when they do not help, and work is bounded.
+//! Matrices here are graded over dozens of orders of magnitude. Most of the exponentials that represent the past have
+//! decayed after a period, and a monodromy matrix maps the whole state to the few directions in which a deviation
+//! persists; the other eigenvalues are zero except for round-off. So the matrix is reduced to its range first: with
+//! the columns of V an orthonormal basis of it, M V = V (Vᵀ M V), and the nonzero eigenvalues are those of the small
+//! matrix Vᵀ M V. Every negligible entry is set to zero where it is detected, shifts change when they do not help,
+//! and the number of iterations is bounded.
 //!
 //! References: Golub & Van Loan, *Matrix Computations*, sections 5.2 and 7.5; Parlett & Reinsch, Numer. Math.
 //! 13, 293 (1969).
@@ -15,17 +15,17 @@ use crate::stop;
 use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
 use num_complex::Complex;
 
-/// What is smaller, in parts of the largest column, is round-off.
+/// Smaller entries, in units of the largest column, are round-off.
 const ROUND_OFF: f64 = 1e-15;
-/// Sweeps for one eigenvalue or pair; ordinary matrices need two or three.
+/// Largest number of sweeps for one eigenvalue or pair; ordinary matrices need two or three.
 const MOST_SWEEPS: usize = 90;
-/// After so many without success the shifts are not those of the corner for once.
+/// Number of unsuccessful sweeps after which exceptional shifts replace those of the corner once.
 const SWEEPS_PER_STALL: usize = 10;
-/// From here on an entry that is negligible in the whole matrix is so everywhere.
+/// Number of sweeps after which an entry that is negligible in the whole matrix counts as negligible everywhere.
 const PATIENCE: usize = 40;
 
-/// All eigenvalues, of a conjugate pair the one above the real axis first; to about round-off of the norm
-/// of the balanced matrix. `None` where an entry is not finite, or the iteration does not end.
+/// All eigenvalues, with an error of about round-off of the norm of the balanced matrix. Of a conjugate pair the one
+/// above the real axis is first. `None` if an entry is not finite, or the iteration does not converge.
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -58,7 +58,7 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(found.into_iter().map(|value| value * largest).collect())
 }
 
-/// An orthonormal basis of what the columns span, by Gram and Schmidt, the largest column first.
+/// An orthonormal basis of the range of the columns, by Gram-Schmidt, the largest column first.
 fn range(mut left: DMatrix<f64>) -> DMatrix<f64> {
     let (rows, columns) = left.shape();
     let mut basis: Vec<DVector<f64>> = vec![];
@@ -110,7 +110,7 @@ fn balance(matrix: &mut DMatrix<f64>) {
     }
 }
 
-/// A Hessenberg matrix, of whose upper left corner eigenvalues are still wanted.
+/// A Hessenberg matrix whose upper left corner still contains unknown eigenvalues.
 struct Deflation {
     h: DMatrix<f64>,
     norm: f64,
@@ -142,7 +142,7 @@ impl Deflation {
         Some(found)
     }
 
-    /// Where the last block that does not fall apart starts; what couples it to the rest becomes zero.
+    /// Start of the last irreducible block; the entry that couples it to the rest is set to zero.
     fn start_of_block(&mut self, end: usize, in_a_hurry: bool) -> usize {
         for i in (1..end).rev() {
             let beside = self.h[(i, i)].abs() + self.h[(i - 1, i - 1)].abs();
@@ -155,7 +155,7 @@ impl Deflation {
         0
     }
 
-    /// Those of the two by two block from here.
+    /// The eigenvalues of the two by two block that starts here.
     fn pair(&self, i: usize) -> [Complex<f64>; 2] {
         let (a, d) = (self.h[(i, i)], self.h[(i + 1, i + 1)]);
         let product = self.h[(i, i + 1)] * self.h[(i + 1, i)];
@@ -228,8 +228,8 @@ impl Deflation {
     }
 }
 
-/// v of the reflection that leaves nothing of a vector but its first entry, and that entry; `None` for the
-/// zero vector.
+/// The vector v of the reflection that maps a vector to a multiple of the first unit vector, and this multiple;
+/// `None` for the zero vector.
 fn reflector(vector: &[f64; 3]) -> Option<([f64; 3], f64)> {
     let scale = vector.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if scale <= 0.0 {

@@ -1,9 +1,10 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! Those of the C library differ in the last bit from one processor to the next, and from a browser to both. A fit of
-//! exponentials amplifies that, and so does a motion: what is computed here, and in what a run consists of, uses these
-//! instead (`clippy.toml` of this crate names the ones that may not be used). All are those of the crate `libm`, the same code
-//! everywhere, but the exponential, which is taken too often for that.
+//! Those of the C library differ in the last bit from one processor to the next, and between browsers and both. A fit
+//! of exponentials amplifies such differences, and so does a motion: therefore this crate, and all code that
+//! determines a run, uses the functions of this module (`clippy.toml` of this crate lists the forbidden ones). They
+//! are those of the crate `libm`, which is the same code everywhere. Only the exponential is implemented here,
+//! because it is evaluated too often for that.
 
 use num_complex::Complex;
 use std::f64::consts::LOG2_E;
@@ -11,11 +12,11 @@ use std::f64::consts::LOG2_E;
 pub use libm::{cos, sincos as sin_cos};
 pub(crate) use libm::{exp2, hypot, log as ln, log2, log10, pow, sin};
 
-/// Beyond, e^x or its inverse may leave the normal range of f64.
+/// Largest |x|: beyond it e^x or its inverse may leave the normal range of f64.
 pub(crate) const LARGEST: f64 = 700.0;
-/// Added to a number it leaves the nearest whole one in the last bits.
+/// Adding this number to another one leaves the nearest integer in the last bits.
 pub(crate) const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;
-/// ln 2 in two parts, the first of so few bits that small whole multiples of it are exact.
+/// ln 2 in two parts, the first with so few bits that small integer multiples of it are exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
 /// 1/m!
@@ -29,14 +30,15 @@ const INVERSE_FACTORIALS: [f64; 14] = {
     inverse
 };
 
-/// e^x to one unit of its last place.
+/// e^x with an error of one unit in the last place.
 #[inline]
 pub fn exp(x: f64) -> f64 {
     if x.abs() <= LARGEST { exp_within(x) } else { libm::exp(x) }
 }
 
-/// e^x for |x| up to [`LARGEST`]: x = k ln 2 + ρ (Cody & Waite, *Software Manual for the Elementary Functions*, 1980), and
-/// of e^ρ the Taylor series, its terms in pairs (Estrin's scheme) that need not wait for each other.
+/// e^x for |x| up to [`LARGEST`]: x = k ln 2 + ρ (Cody & Waite, *Software Manual for the Elementary Functions*,
+/// 1980), and e^ρ from its Taylor series, whose terms are combined in pairs (Estrin's scheme), so that they can be
+/// evaluated in parallel.
 #[inline(always)]
 pub(crate) fn exp_within(x: f64) -> f64 {
     let rounded = x * LOG2_E + ROUNDS;
@@ -62,7 +64,7 @@ pub fn complex_exp(z: Complex<f64>) -> Complex<f64> {
     Complex::new(size * cos, size * sin)
 }
 
-/// ln z, its imaginary part within ±π.
+/// ln z, with its imaginary part within ±π.
 pub(crate) fn complex_ln(z: Complex<f64>) -> Complex<f64> {
     Complex::new(ln(norm(z)), libm::atan2(z.im, z.re))
 }

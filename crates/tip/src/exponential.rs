@@ -1,4 +1,4 @@
-//! `e^{s x}` for many complex s at once.
+//! `e^{s x}` for many complex s in SIMD lanes.
 //!
 //! Half of what a cycle takes is exponentials, each for some forty instructions of the libraries' functions and as many
 //! again for the sine and cosine. Side by side in the lanes of the machine they take a quarter of that, by the usual
@@ -11,12 +11,13 @@ use multiversion::multiversion;
 use num_complex::Complex;
 use std::f64::consts::FRAC_2_PI;
 
-/// Side by side: some vectors of the machine, so that their loops are worth making vectors of.
+/// Number of SIMD lanes: several vectors, so that the compiler vectorises the loops.
 const LANES: usize = 12;
 
-/// Phases beyond are left to the library: π/2 is subtracted in parts of 33 bits, at most this often.
+/// Largest phase: larger ones are evaluated by the library. π/2 is subtracted in parts of 33 bits, at most this
+/// often.
 const LARGEST_PHASE: f64 = 1e6;
-/// π/2 in parts, of few bits but the last.
+/// π/2 in parts; all but the last have few bits.
 const HALF_PI: [f64; 3] =
     [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 
@@ -38,8 +39,8 @@ const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Appends e^{s x} at each of these x, exponent by exponent, and e^{-s x}. Both are true to some four roundings of the
-/// larger of 1 and the phase; real parts of s x are held within ±700.
+/// Appends e^{s x} at each of these x, exponent by exponent, and e^{-s x}. The errors of both are some four roundings
+/// of the larger of 1 and the phase; real parts of s x are limited to ±700.
 ///
 /// ```
 /// use num_complex::Complex;
@@ -68,9 +69,9 @@ pub fn exponentials<const N: usize>(
     all(into[from..].as_flattened_mut(), inverse[from..].as_flattened_mut());
 }
 
-/// From arguments to their exponentials, and the inverses of these.
+/// Replaces arguments by their exponentials, and computes the inverses of these.
 ///
-/// Compiled for wider vectors too: lanes do not know of each other.
+/// Also compiled for wider vectors: lanes are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
     let (whole, rest) = values.as_chunks_mut();
@@ -88,7 +89,7 @@ fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
     rest_inverses.copy_from_slice(&inverses[..rest.len()]);
 }
 
-/// e^{(re + i im) x}, in parts.
+/// e^{(re + i im) x}, as real and imaginary parts.
 #[inline(always)]
 pub(crate) fn of_lanes<const N: usize>(
     (re, im): ([f64; N], [f64; N]),
@@ -122,7 +123,7 @@ fn some(values: &mut [Complex<f64>; LANES], inverses: &mut [Complex<f64>; LANES]
     }
 }
 
-/// e^x, x held within ±700.
+/// e^x, with x limited to ±700.
 #[inline(always)]
 fn exp<const N: usize>(mut x: [f64; N]) -> [f64; N] {
     // Not `map`, which is no part of the loop over lanes unless it happens to be inlined.

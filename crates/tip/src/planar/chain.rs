@@ -1,4 +1,4 @@
-//! The Taylor series of the motion in two coordinates, from the derivatives of the groove under the tip, layer by layer.
+//! Taylor series of the motion in two coordinates, from the derivatives of the groove under the tip, layer by layer.
 //!
 //! `A_mn = α ∫ w φ_m(η') g⁽ⁿ⁾(x0 - x') dt'`, the layers `φ_m` where the tip is and their derivatives `ψ_m = dφ_m/dη` follow
 //! each other,
@@ -8,25 +8,25 @@
 //!     M x0'' + x0' = Σ_m φ_m A_m1 + κ(R - x0) + F_x           y0' = (1/v) Σ_m ψ_m A_m0 - κ_y y0 + F_y
 //! ```
 //!
-//! and of `A_mn` the coefficients up to `t^{p-n}` are all that a series of order p takes: M p³/6 products, the layers side by
-//! side.
+//! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: M p³/6 products, with the layers in
+//! SIMD lanes.
 
 use super::layers::{LANES, Lanes, ROOTS, slopes, values};
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 use multiversion::multiversion;
 
-/// What acts on the tip while it moves.
+/// Forces on the tip during the motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Acting {
     /// κ_y
     pub(super) stiffness: f64,
-    /// R', velocity of the support.
+    /// Velocity R' of the support.
     pub(super) support: f64,
-    /// 1/T, 0 where nothing heals.
+    /// 1/T; 0 without healing.
     pub(super) healing: f64,
-    /// M and the velocity along that the tip has, where there is inertia.
+    /// M and the velocity of the tip along the scan, if there is inertia.
     pub(super) inertia: Option<(f64, f64)>,
-    /// R - x0
+    /// Extension R - x0 of the spring.
     pub(super) extension: f64,
     /// y0
     pub(super) y: f64,
@@ -39,7 +39,7 @@ pub(super) struct Acting {
 /// Second derivatives of the surface under the tip: along, mixed, across.
 pub(super) type Curvatures = [f64; 3];
 
-/// Coefficients of powers of time, up to an order.
+/// Coefficients of powers of time, up to a given order.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     order: usize,
@@ -51,12 +51,12 @@ pub(super) struct Chain {
     layers: Vec<Lanes>,
     /// α g⁽ⁿ⁾(0)
     sources: [f64; MOST_ORDER + 1],
-    /// Of the forces along and across.
+    /// Coefficients of the forces along and across.
     pub(super) force: [[f64; MOST_ORDER]; 2],
-    /// Of x0', likewise the highest first, and of y0'.
+    /// Coefficients of x0', likewise the highest first, and of y0'.
     along: [f64; MOST_ORDER],
     across: [f64; MOST_ORDER],
-    /// Of x0 and y0 less their values at the start.
+    /// Coefficients of x0 and y0 minus their values at the start.
     displacement: [Series; 2],
 }
 
@@ -79,22 +79,22 @@ impl Chain {
         self.order
     }
 
-    /// Of x0 and y0, less their values at the start.
+    /// Coefficients of x0 and y0, minus their values at the start.
     pub(super) fn displacement(&self) -> &[Series; 2] {
         &self.displacement
     }
 
-    /// Entries of a row.
+    /// Number of entries in a row.
     fn stride(&self) -> usize {
         (self.order + 1) * self.groups
     }
 
-    /// Where the layers at the start are.
+    /// Index of the layers at the start.
     fn first_layers(&self) -> usize {
         (self.order - 1) * 2 * self.groups
     }
 
-    /// Room for what a series of so many groups of layers begins with: A, n after n, from 0 to the order.
+    /// Room for the initial values of a series with this number of groups of layers: A, for n = 0 to the order.
     pub(super) fn start(&mut self, groups: usize, alpha: f64, of_tip: &[f64]) -> &mut [Lanes] {
         if groups != self.groups {
             self.groups = groups;
@@ -106,7 +106,7 @@ impl Chain {
         &mut self.rows[..stride]
     }
 
-    /// The series, from what was put into the room that [`start`](Self::start) gave, and from the forces.
+    /// Computes the series from the values written to the room of [`start`](Self::start), and from the forces.
     pub(super) fn run(&mut self, acting: &Acting) {
         let first = self.first_layers();
         let (psi, phi) = self.layers[first..].split_at_mut(self.groups);
@@ -115,7 +115,7 @@ impl Chain {
         run(self, acting);
     }
 
-    /// Of the surface of the past, at the start; `room` is for as many groups of layers.
+    /// Curvatures of the surface of the past at the start; `room` has the size of as many groups of layers.
     pub(super) fn curvatures(&self, eta: f64, width: f64, room: &mut Vec<Lanes>) -> Curvatures {
         let groups = self.groups;
         let (psi, phi) = self.layers[self.first_layers()..].split_at(groups);
@@ -126,7 +126,7 @@ impl Chain {
         [-of(2, phi), -of(1, psi) / width, -of(0, room) / (width * width)]
     }
 
-    /// For so many groups: where the compiler knows how many, loops over them are none.
+    /// The coefficients for a number of groups: if the compiler knows it, it unrolls the loops over them.
     #[inline(always)]
     fn coefficients(&mut self, groups: usize, acting: &Acting) {
         if let Some((_, velocity)) = acting.inertia {
@@ -142,7 +142,7 @@ impl Chain {
         }
     }
 
-    /// Coefficients k of `Σ_m ψ_m A_m0` and `Σ_m φ_m A_m1`.
+    /// Coefficients of order k of `Σ_m ψ_m A_m0` and `Σ_m φ_m A_m1`.
     #[inline(always)]
     fn reading(&self, groups: usize, k: usize) -> [f64; 2] {
         let (both, stride) = (2 * groups, (self.order + 1) * groups);
@@ -160,7 +160,7 @@ impl Chain {
         [total(&across), total(&along)]
     }
 
-    /// The next coefficients of velocities and displacements, from those of what the groove pushes with.
+    /// The next coefficients of velocities and displacements, from those of the forces of the groove.
     #[inline(always)]
     fn advance(&mut self, k: usize, groove: [f64; 2], acting: &Acting) {
         let next = INVERSE[k + 1];
@@ -254,7 +254,7 @@ impl Chain {
     }
 }
 
-/// Entries of a row that are summed side by side.
+/// Number of entries of a row that are summed in SIMD lanes.
 const BLOCK: usize = 12;
 
 /// Rows one after the other, with factors of them and one of their sum.
@@ -266,7 +266,7 @@ struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Adds the sum of the rows times their factors, from an entry on; in this order on every machine.
+    /// Adds the sum of the rows times their factors, from a given entry on; in this order on every machine.
     #[inline(always)]
     fn add<const N: usize>(&self, from: usize, to: &mut [Lanes; N]) {
         let mut sums = [[0.0; LANES]; N];
@@ -282,8 +282,8 @@ impl Sums<'_> {
     }
 }
 
-/// Compiled for wider vectors too: no products are fused with sums, and each lane is a sum of its own, so that the bits are
-/// the same.
+/// Also compiled for wider vectors: products and sums are not fused, and each lane is a separate sum, so that the
+/// bits are the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
     match chain.groups {

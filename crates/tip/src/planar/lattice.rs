@@ -1,14 +1,14 @@
-//! The past of a tip that goes back: Gaussians on a lattice along the scan, for each layer across.
+//! The past of a retreating tip: Gaussians on a lattice along the scan, for each layer across.
 //!
-//! A Gaussian of variance w² is one of variance s² convolved with one of w² - s², and the integral of that convolution a sum
-//! over a lattice, but for round-off if its spacing is small enough:
+//! A Gaussian of variance w² is the convolution of one of variance s² with one of w² - s². If the spacing is small
+//! enough, the integral of the convolution is a sum over a lattice, except for round-off:
 //!
 //! ```text
 //!     e^{-(x-x')²/2w²} = (w h/(√(2π) s q)) Σ_j e^{-(x-x_j)²/2q²} e^{-(x_j-x')²/2s²}        q² = w² - s², x_j = jh
 //! ```
 //!
-//! So what each visit leaves at the nodes near it is all of the past, whichever way the tip goes. It costs more than
-//! exponentials, which hold on one side only, and knows no series.
+//! So the contributions of each node to the lattice points close to it represent the whole past, for motion in both
+//! directions. They cost more than exponentials, which are valid on one side only, and yield no series.
 
 use super::layers::{LANES, Lanes, recenter};
 use super::modes::Jet;
@@ -18,36 +18,38 @@ use crate::state::{Damaged, Reader, State};
 use crate::{Gaussian, TipFunction};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// Spacing in the smallest width w of f: the sum errs by 6e-16 of a Gaussian.
+/// Spacing, in units of the smallest width w of f: the error of the sum is 6e-16 of a Gaussian.
 const SPACING: f64 = 0.36;
-/// e^{-z²/2} is nothing for larger z.
+/// Distance in widths beyond which e^{-z²/2} is negligible.
 const NOTHING: f64 = 8.7;
-/// Nodes are kept so far behind the farthest point, in the smallest width and in reaches of f: some 700 for (48).
+/// Distance behind the farthest point within which lattice points are kept, in the smallest width and in reaches of
+/// f: some 700 for (48).
 const KEPT: (f64, f64) = (250.0, 4.0);
 
-/// Nodes that have been near the tip, in their order along the scan.
+/// Lattice points that have been close to the tip, in their order along the scan.
 #[derive(Debug, Clone)]
 pub(super) struct Lattice {
     /// h and s
     spacing: f64,
     spread: f64,
-    /// The Gaussian that visits leave.
+    /// The Gaussian of the contribution of a node.
     left: TipFunction,
-    /// Of each Gaussian of f its amplitude times w h/(√(2π) s q), its center and q.
+    /// For each Gaussian of f its amplitude times w h/(√(2π) s q), its center and q.
     terms: Vec<[f64; 3]>,
-    /// Beyond it nodes are not felt; how far behind the farthest point they are kept.
+    /// Distance beyond which lattice points have no effect; distance behind the farthest point within which they are
+    /// kept.
     reach: f64,
     kept: f64,
     groups: usize,
-    /// Layers of node after node.
+    /// Layers of successive lattice points.
     nodes: Vec<Lanes>,
-    /// The first node, as a displacement from the tip.
+    /// The first lattice point, as a displacement from the tip.
     first: f64,
     farthest: f64,
 }
 
 impl Lattice {
-    /// For this footprint along the scan; `None` if it is no sum of Gaussians.
+    /// The lattice for this footprint along the scan; `None` if it is not a sum of Gaussians.
     pub(super) fn new(tip: &TipFunction) -> Option<Self> {
         let TipFunction::Gaussians(sum) = tip else { return None };
         let smallest = sum.terms().iter().map(|g| g.width).fold(f64::INFINITY, f64::min);
@@ -73,24 +75,24 @@ impl Lattice {
         })
     }
 
-    /// How far behind the farthest point the tip may go.
+    /// Largest allowed distance of the tip behind its farthest point.
     pub(super) fn retreat(&self) -> f64 {
         self.kept - self.reach
     }
 
-    /// Numbers that it consists of.
+    /// Number of real numbers in the lattice.
     pub(super) fn size(&self) -> usize {
         self.nodes.len() * LANES
     }
 
-    /// The nodes.
+    /// Writes the lattice points.
     pub(super) fn save(&self, state: &mut State) {
         state.number(self.first);
         state.number(self.farthest);
         state.numbers(self.nodes.as_flattened().iter().copied());
     }
 
-    /// Nodes of so many groups of layers.
+    /// Reads lattice points with this number of groups of layers.
     pub(super) fn restore(&mut self, state: &mut Reader, groups: usize) -> Result<(), Damaged> {
         (self.first, self.farthest) = (state.finite()?, state.number()?);
         let nodes = state.numbers()?;
@@ -102,7 +104,7 @@ impl Lattice {
         Ok(())
     }
 
-    /// Another number of layers: new ones hold nothing.
+    /// Changes the number of layers; new layers are 0.
     pub(super) fn resize(&mut self, groups: usize) {
         let kept = groups.min(self.groups);
         let mut nodes = vec![[0.0; LANES]; self.count() * groups];
@@ -115,17 +117,17 @@ impl Lattice {
         (self.nodes, self.groups) = (nodes, groups);
     }
 
-    /// The center of the layers moves by so many widths.
+    /// Moves the center of the layers by a number of widths.
     pub(super) fn recenter(&mut self, distance: f64) {
         recenter(distance, &mut self.nodes, self.groups);
     }
 
-    /// All that is remembered times a factor.
+    /// Multiplies the whole past by a factor.
     pub(super) fn fade(&mut self, factor: f64) {
         self.nodes.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
     }
 
-    /// Remembers a steady past on a line, of which these are the layers.
+    /// Adds a steady past on a line with these layers.
     pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
         let end = -past.distance;
         self.hold(end - self.kept, end + NOTHING * self.spread);
@@ -138,8 +140,8 @@ impl Lattice {
         self.farthest = self.farthest.max(end);
     }
 
-    /// Remembers visits, displacements from the tip, which then stands at the last of them: of each the layers times what it
-    /// weighs.
+    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
+    /// layers of each node multiplied by its weight.
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         let near = NOTHING * self.spread;
@@ -183,7 +185,7 @@ impl Lattice {
         self.nodes.len().checked_div(self.groups).unwrap_or(0)
     }
 
-    /// Makes room for nodes between these displacements.
+    /// Adds lattice points between these displacements.
     fn hold(&mut self, low: f64, high: f64) {
         let (groups, spacing) = (self.groups, self.spacing);
         if self.nodes.is_empty() {
@@ -201,7 +203,7 @@ impl Lattice {
         }
     }
 
-    /// Drops nodes that are too far behind, many at a time.
+    /// Drops lattice points that are too far behind, many at a time.
     fn forget(&mut self) {
         let behind = (self.farthest - self.first) / self.spacing;
         let kept = self.kept / self.spacing;
@@ -213,7 +215,7 @@ impl Lattice {
     }
 }
 
-/// A count: 0 for what is below it.
+/// Conversion to a count; 0 for negative numbers.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held above 0")]
 fn index(x: f64) -> usize {
     x.max(0.0) as usize

@@ -6,9 +6,9 @@
 //!     e^{-(η-η')²/2} = Σ_m φ_m(η) φ_m(η')        dφ_m/dη = √m φ_{m-1} - √(m+1) φ_{m+1}
 //! ```
 //!
-//! The squares of `φ_m(η)` are the probabilities of a Poisson distribution of mean η². So the layers from M on amount to at
-//! most P[Poisson(ρ²) ≥ M] for any two points within ρ of the center, by the inequality of Cauchy and Schwarz. A change of
-//! center is a rotation of the φ, as long as none of them is cut off:
+//! The squares of `φ_m(η)` are the probabilities of a Poisson distribution of mean η². Therefore, by the
+//! Cauchy-Schwarz inequality, the sum of the layers from M on is at most P[Poisson(ρ²) ≥ M] for any two points within
+//! ρ of the center. A change of center is a rotation of the φ, as long as none of them is truncated:
 //!
 //! ```text
 //!     φ_a(η - D) = Σ_b T_ab(D) φ_b(η)            T_0b = e^{-D²/2} D^b/√b!
@@ -19,14 +19,14 @@
 
 use crate::elementary::exp;
 
-/// Layers side by side in the vectors of the machine: their number is a multiple of it.
+/// Number of layers in a SIMD vector; the number of layers is a multiple of it.
 pub(super) const LANES: usize = 4;
-/// Of so many layers.
+/// A group of layers.
 pub(super) type Lanes = [f64; LANES];
-/// More layers would cost more than a sum over the history: a range of 20 widths.
+/// Largest number of layers, for a range of 20 widths: more would cost more than a sum over the history.
 const MOST: usize = 256;
 
-/// `φ_m` at η times a weight, as many as there is room for.
+/// `φ_m` at η multiplied by a weight, as many as there is room for.
 pub(super) fn values(eta: f64, weight: f64, phi: &mut [Lanes]) {
     let mut value = weight * exp(-0.5 * eta * eta);
     for (phi, roots) in phi.iter_mut().zip(INVERSE_ROOTS.as_chunks::<LANES>().0) {
@@ -95,7 +95,7 @@ pub(super) fn poisson_tail(mean: f64, count: usize) -> f64 {
     sum.min(1.0)
 }
 
-/// What the layers from `count` on amount to at most, in f and in v `f_y`, for visits and tip within a radius.
+/// Bound on the sum of the layers from `count` on, in f and in v `f_y`, for past positions and a tip within a radius.
 ///
 /// `(φ_m')² ≤ 2(m φ_{m-1}² + (m+1) φ_{m+1}²)`, and m φ_{m-1}² = φ_{m-1}² + η² φ_{m-2}².
 pub(super) fn error(radius: f64, count: usize) -> f64 {
@@ -105,23 +105,25 @@ pub(super) fn error(radius: f64, count: usize) -> f64 {
     (tail(count) * tail(count).max(2.0 * slopes)).sqrt()
 }
 
-/// The same for visits within a radius and a tip that may be anywhere: the squares of all φ add up to 1, and so do those of
-/// their derivatives.
+/// The same for past positions within a radius and a tip at any position: the squares of all φ sum to 1, and so do
+/// those of their derivatives.
 pub(super) fn error_of_visits(radius: f64, count: usize) -> f64 {
     poisson_tail(radius * radius, count).sqrt()
 }
 
-/// How far visits and tip may be from the center, in widths, for so many layers.
+/// Largest distances of past positions and tip from the center, in widths, for a number of layers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Radii {
-    /// Both, while the layers are those.
+    /// Radius for both, while the number of layers is unchanged.
     pub(super) tip: f64,
-    /// Visits, for a tip that may be anywhere later, when there are others: what they lack cannot be added to them.
+    /// Radius for past positions if the number changes later, for any position of the tip: missing layers cannot be
+    /// added later.
     pub(super) visits: f64,
 }
 
 impl Radii {
-    /// Within which so many layers err by at most `allowed`; `None` for more of them than there are.
+    /// The radii within which this number of layers has an error of at most `allowed`; `None` for more layers than
+    /// the largest number.
     pub(super) fn of(count: usize, allowed: f64) -> Option<Self> {
         // Errors grow with the radius.
         let largest = |error: fn(f64, usize) -> f64| {
@@ -137,7 +139,7 @@ impl Radii {
     }
 }
 
-/// T of a change of center by D widths: of `states` each is a vector of layers.
+/// Applies T for a change of the center by D widths; each of `states` is a vector of layers.
 pub(super) fn recenter(distance: f64, states: &mut [Lanes], groups: usize) {
     let count = groups * LANES;
     let mut matrix = vec![0.0; count * count];

@@ -1,4 +1,4 @@
-//! The past in two coordinates: of each exponential along the scan and each layer across it one complex number.
+//! The past in two coordinates: one complex number for each exponential along the scan and each layer across it.
 //!
 //! With g'(ξ) ≈ `Σ_j Re(c_j e^{s_j ξ})` on the side of the past and the [`layers`] φ about a center,
 //!
@@ -6,7 +6,8 @@
 //!     z_jm = ∫ w φ_m(η') e^{s_j (x0 - x')} dt'        ∫ w φ_m(η') g⁽ⁿ⁾(x0 + d - x') dt' = Σ_j Re(c_j s_j^{n-1} e^{s_j d} z_jm)
 //! ```
 //!
-//! The case n = 0 reads g itself, of which the error is at most the [area](crate::memory::FitCertificate::area) of the fit.
+//! The case n = 0 evaluates g itself, whose error is at most the [area](crate::memory::FitCertificate::area) of the
+//! fit.
 
 use super::layers::{self, LANES, Lanes};
 use crate::elementary::complex_exp;
@@ -17,11 +18,11 @@ use multiversion::multiversion;
 use num_complex::Complex;
 use std::sync::Arc;
 
-/// Exponentials side by side.
+/// Number of exponentials in a SIMD vector.
 const TERMS: usize = 4;
 type Terms = ([f64; TERMS], [f64; TERMS]);
 
-/// All of the past.
+/// The whole past.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
     fit: Arc<Fit>,
@@ -33,15 +34,15 @@ pub(super) struct Modes {
     states: Vec<Lanes>,
     /// The farthest-forward position, as a displacement from the tip.
     farthest: f64,
-    /// For exponentials.
+    /// Scratch space for exponentials.
     room: Vec<Terms>,
 }
 
-/// Of each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
+/// For each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
 pub(super) type Jet<'a> = [&'a mut [Lanes]; 3];
 
 impl Modes {
-    /// Nothing remembered yet.
+    /// An empty memory.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
         let terms = fit.terms();
         let lanes = |terms: &[crate::memory::Term]| -> Terms {
@@ -54,42 +55,42 @@ impl Modes {
         Self { fit, powers, exponents, groups: 0, states: vec![], farthest, room: vec![] }
     }
 
-    /// Exponentials, of which a conjugate pair is one.
+    /// Number of exponentials; a conjugate pair counts as one.
     pub(super) fn terms(&self) -> usize {
         self.fit.terms().len()
     }
 
-    /// The layers as groups of lanes.
+    /// Number of groups of lanes that contain the layers.
     pub(super) fn groups(&self) -> usize {
         self.groups
     }
 
-    /// How far behind its farthest point the tip is.
+    /// Distance of the tip behind its farthest point.
     pub(super) fn behind(&self) -> f64 {
         self.farthest
     }
 
-    /// How far behind it the sum holds.
+    /// Distance behind the farthest point within which the sum is valid.
     pub(super) fn retreat(&self) -> f64 {
         self.fit.retreat()
     }
 
-    /// How far behind it a step may begin.
+    /// Largest distance behind the farthest point at which a step may begin.
     pub(super) fn retreat_between_steps(&self) -> f64 {
         self.fit.retreat_between_steps()
     }
 
-    /// Numbers that it consists of.
+    /// Number of real numbers in the state.
     pub(super) fn size(&self) -> usize {
         self.states.len() * LANES
     }
 
-    /// Derivatives of g at 0, as the sum has them.
+    /// Derivatives of g at 0, from the sum of exponentials.
     pub(super) fn of_tip(&self) -> &[f64] {
         self.powers.of_tip()
     }
 
-    /// Another number of layers: new ones hold nothing.
+    /// Changes the number of layers; new layers are 0.
     pub(super) fn resize(&mut self, groups: usize) {
         let mut states = vec![[0.0; LANES]; 2 * self.terms() * groups];
         let kept = groups.min(self.groups);
@@ -102,17 +103,17 @@ impl Modes {
         (self.states, self.groups) = (states, groups);
     }
 
-    /// The center moves by so many widths.
+    /// Moves the center by a number of widths.
     pub(super) fn recenter(&mut self, distance: f64) {
         layers::recenter(distance, &mut self.states, self.groups);
     }
 
-    /// All that is remembered times a factor.
+    /// Multiplies the whole past by a factor.
     pub(super) fn fade(&mut self, factor: f64) {
         self.states.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
     }
 
-    /// Remembers a steady past on a line, of which these are the layers.
+    /// Adds a steady past on a line with these layers.
     pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
         for (term, states) in
             self.fit.terms().iter().zip(self.states.chunks_exact_mut(2 * phi.len()))
@@ -126,8 +127,8 @@ impl Modes {
         self.farthest = self.farthest.max(-past.distance);
     }
 
-    /// Remembers visits, displacements from the tip, which then stands at the last of them: of each the layers times what it
-    /// weighs.
+    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
+    /// layers of each node multiplied by its weight.
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
@@ -135,7 +136,7 @@ impl Modes {
         carry(&mut self.states, &self.exponents, position, weighted, &mut self.room);
     }
 
-    /// The state, and the exponents that it belongs to.
+    /// Writes the state, and the exponents that it belongs to.
     pub(super) fn save(&self, state: &mut State) {
         let exponents: Vec<f64> = self.terms_in_parts().collect();
         state.numbers(exponents.into_iter());
@@ -165,8 +166,8 @@ impl Modes {
         self.fit.terms().iter().flat_map(|term| [term.exponent.re, term.exponent.im])
     }
 
-    /// Derivatives of the integrals of each layer at the tip, from the 0th on, times a factor: one after the other, as many
-    /// as there is room for.
+    /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
+    /// many as there is room for.
     pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
         derivatives(self.powers.rows(), &self.states, factor, told);
     }
@@ -240,11 +241,11 @@ fn carry(
     }
 }
 
-/// Derivatives that are summed side by side.
+/// Number of derivatives that are summed in SIMD lanes.
 const BLOCK: usize = 8;
 
-/// Rows times states, in the order of the terms: the same bits on every machine. What is told are `groups` of lanes for each
-/// derivative; some more of them, as many as fill the last block.
+/// Products of rows and states, in the order of the terms: the same bits on every machine. The results are `groups`
+/// of lanes for each derivative, and some more that fill the last block.
 #[multiversion(targets("x86_64+avx2"))]
 fn derivatives<const ROOM: usize>(
     rows: &[[f64; ROOM]],

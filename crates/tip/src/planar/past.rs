@@ -1,4 +1,4 @@
-//! The memory of a tip in two coordinates: exponentials, and a lattice for one that goes back farther than they hold.
+//! The memory of a tip in two coordinates: exponentials, and a lattice for retreats beyond their range of validity.
 
 use super::lattice::Lattice;
 use super::layers::Lanes;
@@ -6,28 +6,28 @@ use super::modes::{Jet, Modes};
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
 
-/// Both remember the same, where there is a lattice.
+/// Exponentials and, if there is one, a lattice with the same past.
 #[derive(Debug, Clone)]
 pub(super) struct Past {
     modes: Modes,
     lattice: Option<Lattice>,
-    /// Whether the lattice answers in the step under way.
+    /// Whether the lattice is in use in the present step.
     goes_back: bool,
 }
 
-/// How far behind its farthest point a tip is, and how far it may be.
+/// Distance of a tip behind its farthest point, and the largest allowed distance.
 pub(super) struct TooFar {
     pub(super) behind: f64,
     pub(super) allowed: f64,
 }
 
 impl Past {
-    /// Nothing remembered yet.
+    /// An empty memory.
     pub(super) fn new(modes: Modes, lattice: Option<Lattice>) -> Self {
         Self { modes, lattice, goes_back: false }
     }
 
-    /// Decides which of the two answers in a step from where the tip is.
+    /// Chooses between the two for a step from the present position of the tip.
     pub(super) fn begin(&mut self) -> Result<(), TooFar> {
         let behind = self.modes.behind();
         self.goes_back = behind > self.modes.retreat_between_steps();
@@ -36,17 +36,17 @@ impl Past {
         if self.goes_back && behind > allowed { Err(TooFar { behind, allowed }) } else { Ok(()) }
     }
 
-    /// Whether it knows [`derivatives`](Self::derivatives) of any order.
+    /// Whether [`derivatives`](Self::derivatives) of any order are available.
     pub(super) fn knows_series(&self) -> bool {
         !self.goes_back
     }
 
-    /// The exponentials, if they answer.
+    /// Derivatives from the exponentials, if these are in use.
     pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
         self.modes.derivatives(factor, told);
     }
 
-    /// Derivatives of g at 0, as the exponentials have them.
+    /// Derivatives of g at 0, from the sum of exponentials.
     pub(super) fn of_tip(&self) -> &[f64] {
         self.modes.of_tip()
     }
@@ -59,48 +59,48 @@ impl Past {
         }
     }
 
-    /// The lowest displacement from the tip that a step may lead to.
+    /// The lowest displacement from the tip that a step may reach.
     pub(super) fn lowest(&self, farthest: f64) -> f64 {
         let lattice = self.lattice.as_ref().filter(|_| self.goes_back);
         farthest - lattice.map_or(self.modes.retreat(), Lattice::retreat)
     }
 
-    /// How far behind its farthest point the tip is.
+    /// Distance of the tip behind its farthest point.
     pub(super) fn behind(&self) -> f64 {
         self.modes.behind()
     }
 
-    /// The layers as groups of lanes.
+    /// Number of groups of lanes that contain the layers.
     pub(super) fn groups(&self) -> usize {
         self.modes.groups()
     }
 
-    /// Another number of layers: new ones hold nothing.
+    /// Changes the number of layers; new layers are 0.
     pub(super) fn resize(&mut self, groups: usize) {
         self.modes.resize(groups);
         self.lattice.iter_mut().for_each(|lattice| lattice.resize(groups));
     }
 
-    /// The center of the layers moves by so many widths.
+    /// Moves the center of the layers by a number of widths.
     pub(super) fn recenter(&mut self, distance: f64) {
         self.modes.recenter(distance);
         self.lattice.iter_mut().for_each(|lattice| lattice.recenter(distance));
     }
 
-    /// All that is remembered times a factor.
+    /// Multiplies the whole past by a factor.
     pub(super) fn fade(&mut self, factor: f64) {
         self.modes.fade(factor);
         self.lattice.iter_mut().for_each(|lattice| lattice.fade(factor));
     }
 
-    /// Remembers a steady past on a line, of which these are the layers.
+    /// Adds a steady past on a line with these layers.
     pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
         self.modes.remember_steady(past, phi);
         self.lattice.iter_mut().for_each(|lattice| lattice.remember_steady(past, phi));
     }
 
-    /// Remembers visits, displacements from the tip, which then stands at the last of them: of each the layers times what it
-    /// weighs.
+    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
+    /// layers of each node multiplied by its weight.
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         self.modes.remember(position, weighted);
         self.lattice.iter_mut().for_each(|lattice| lattice.remember(position, weighted));
@@ -119,7 +119,7 @@ impl Past {
         }
     }
 
-    /// Numbers that it consists of.
+    /// Number of real numbers in the memory.
     pub(super) fn size(&self) -> usize {
         self.modes.size() + self.lattice.as_ref().map_or(0, Lattice::size)
     }

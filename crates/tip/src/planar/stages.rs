@@ -5,7 +5,7 @@
 //!     e = hA F_y                                     F_y = α (past_y + Σ_k b_ik f_y(d_i - d_k, e_i - e_k)) - κ_y (y0 + e)
 //! ```
 //!
-//! with external forces added to both. What the past pushes with is that of all layers at the displacement of the stage.
+//! with external forces added to both. The force of the past is that of all layers at the displacement of the stage.
 
 use super::chain::{Curvatures, dot};
 use super::layers::{LANES, Lanes, slopes, values};
@@ -15,7 +15,7 @@ use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::footprint::Across;
 use crate::step::{Factors, Inertia, Matrix};
 
-/// What a step begins with.
+/// The data at the start of a step.
 pub(super) struct StageEquations<'a> {
     /// g and h.
     pub(super) footprint: (&'a TipFunction, Across),
@@ -27,16 +27,16 @@ pub(super) struct StageEquations<'a> {
     pub(super) eta: f64,
     pub(super) width: f64,
     pub(super) h: f64,
-    /// All of the forces along and across that does not depend on where the stages are.
+    /// The parts of the forces along and across that do not depend on the displacements of the stages.
     pub(super) pull: [Stages; 2],
-    /// How much of what each stage leaves is there at each stage.
+    /// Weights of each stage in the groove at each stage.
     pub(super) carving: Matrix,
-    /// What is left of the past at each stage.
+    /// Undecayed part of the past at each stage.
     pub(super) left: Stages,
     pub(super) inertia: Option<&'a Inertia>,
 }
 
-/// How an iteration ended.
+/// Result of an iteration.
 pub(super) struct Solved {
     pub(super) iterations: u64,
     /// `None` if it did not converge.
@@ -47,29 +47,29 @@ pub(super) struct Solved {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solution {
     pub(super) displacement: [Stages; 2],
-    /// Of the surface of the past under the last node.
+    /// Curvatures of the surface of the past under the last node.
     pub(super) curvatures: Curvatures,
 }
 
-/// Forces at the stages, and their derivatives by the displacements of stages: by which, of which.
+/// Forces at the stages, and their derivatives by the displacements of the stages.
 struct Forces {
     value: [Stages; 2],
     slope: [[Matrix; 2]; 2],
     curvatures: Curvatures,
 }
 
-/// Both coordinates of all stages.
+/// Number of unknowns: both coordinates of all stages.
 const UNKNOWNS: usize = 2 * STAGES;
 
 const MOST_ITERATIONS: u64 = 12;
 /// Corrections below this are round-off of displacements of order one.
 const ROUND_OFF: f64 = 1e-15;
-/// As long as corrections shrink at least so fast, the Jacobian of an earlier iteration will do.
+/// Largest ratio of successive corrections for which the Jacobian of an earlier iteration is kept.
 const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 
 impl StageEquations<'_> {
-    /// Newton's iteration from a guess, to an error below `enough`; given up where a displacement along exceeds `most[0]`, or
-    /// one across `most[1]`.
+    /// Solves the equations by Newton's iteration from a guess, to an error below `enough`. It stops when a
+    /// displacement along exceeds `most[0]`, or one across `most[1]`.
     pub(super) fn solve(&self, guess: [Stages; 2], enough: f64, most: [f64; 2]) -> Solved {
         let mut displacement = guess;
         let (mut previous, mut ratio) = (f64::INFINITY, 1.0);
@@ -100,7 +100,7 @@ impl StageEquations<'_> {
         Solved { iterations: MOST_ITERATIONS, solution: None }
     }
 
-    /// d and e less what forces make of them.
+    /// d and e minus their values from the forces.
     fn missed(&self, [d, e]: &[Stages; 2], forces: &Forces) -> [f64; UNKNOWNS] {
         let along = match self.inertia {
             Some(inertia) => inertia.residual(d, &forces.value[0]),
@@ -132,7 +132,7 @@ impl StageEquations<'_> {
         jacobian
     }
 
-    /// Forces where the stages are.
+    /// Forces at these displacements of the stages.
     fn forces(&self, displacement: &[Stages; 2]) -> Forces {
         let zero = [[0.0; STAGES]; STAGES];
         let mut forces = Forces { value: self.pull, slope: [[zero; 2]; 2], curvatures: [0.0; 3] };
@@ -153,7 +153,7 @@ impl StageEquations<'_> {
         forces
     }
 
-    /// What the step itself carves.
+    /// Adds the contribution of the step to the groove.
     fn add_own(&self, [d, e]: &[Stages; 2], forces: &mut Forces) {
         for i in 0..STAGES {
             for k in 0..STAGES {
@@ -170,7 +170,7 @@ impl StageEquations<'_> {
         }
     }
 
-    /// First and second derivatives of f at a distance.
+    /// First and second derivatives of f at this distance.
     fn of_visit(&self, x: f64, y: f64) -> ([f64; 2], [f64; 3]) {
         let (along, across) = self.footprint;
         let (g, (g1, g2)) = (along.value(x), along.slope_and_curvature(x));
@@ -180,7 +180,7 @@ impl StageEquations<'_> {
     }
 }
 
-/// Room for the layers at a stage.
+/// Scratch space for the layers at a stage.
 struct Room {
     groups: usize,
     /// φ, φ', φ'', and integrals over g, g', g''.

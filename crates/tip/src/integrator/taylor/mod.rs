@@ -1,6 +1,6 @@
-//! Steps by Taylor series, where the past is told by exponentials: long ones, handed out in pieces.
+//! Steps by Taylor series, if the past is a sum of exponentials: long steps, returned in pieces.
 //!
-//! Collocation makes the other steps: where the groove is stiff ([`switch`]), and where its memory is another.
+//! Collocation makes the other steps: if the groove is stiff ([`switch`]), and with another memory.
 
 mod chain;
 mod expansion;
@@ -33,11 +33,11 @@ use visits::Visits;
 
 pub(crate) use side_by_side::{Begin as BeginBeside, Ended as EndedBeside, SideBySide};
 
-/// What steps by series need.
+/// Data of steps by series.
 #[derive(Debug, Clone)]
 pub(super) struct Taylor {
     order: usize,
-    /// A steady tip indents at this rate, over α.
+    /// Relative indentation rate of a tip in steady motion.
     steady_weight: f64,
     told: Derivatives,
     chain: Chain,
@@ -46,22 +46,22 @@ pub(super) struct Taylor {
     visits: Visits,
 }
 
-/// What a series leaves out may amount to, over the error allowed in a step of collocation: there are fewer steps, but
-/// nothing else tells of their errors.
+/// Allowed truncation error of a series, over the error allowed in a step of collocation: there are fewer steps, but
+/// no other measure of their errors.
 pub(crate) const SHARE_OF_SERIES: f64 = 0.1;
-/// What visits stand for is known to this part of the same.
+/// Allowed error of the weights of nodes, in the same unit.
 pub(crate) const SHARE_OF_VISITS: f64 = 0.0005;
-/// What came of a plan.
+/// Result of a plan.
 enum Made {
     Step,
-    /// It is to be made on the other side of the corner of |h|.
+    /// The step must be made on the other side of the kink of |h|.
     OtherSide,
     Nothing,
 }
 
-/// Of the corner.
+/// Number of sides of the kink.
 const SIDES: usize = 2;
-/// A step is shortened so often to stay where its series holds; collocation goes on from there.
+/// Largest number of times that a step is shortened to remain where its series is valid; then collocation continues.
 pub(crate) const MOST_SHORTENINGS: usize = 8;
 
 impl Taylor {
@@ -77,12 +77,12 @@ impl Taylor {
         }
     }
 
-    /// A step of collocation has been made, of this stiffness over it.
+    /// Records a step of collocation with this stiffness over it.
     pub(super) fn made(&mut self, stiffness: f64) {
         self.switch.made(stiffness, self.order);
     }
 
-    /// The piece taken last, if it was the last step.
+    /// The piece returned last, if it was the last step.
     pub(super) fn taken(&self) -> Option<&Step> {
         self.pieces.taken()
     }
@@ -100,7 +100,7 @@ impl Taylor {
 }
 
 impl<M: Memory> Integrator<'_, M> {
-    /// Takes the next piece of a step by series, or of a new one; false where collocation is to make the step.
+    /// Takes the next piece of a step by series, or of a new step; false if collocation must make the step.
     #[inline]
     pub(super) fn step_by_series(&mut self, until: f64) -> bool {
         if self.taylor.pieces.left().is_empty() && !self.is_expanded(until) {
@@ -114,7 +114,7 @@ impl<M: Memory> Integrator<'_, M> {
         true
     }
 
-    /// Whether a new step by series could be made.
+    /// Whether a new step by series was made.
     #[inline(never)]
     fn is_expanded(&mut self, until: f64) -> bool {
         if self.control.is_fixed() || self.rests() || !self.taylor.switch.is_to_series() {
@@ -127,7 +127,7 @@ impl<M: Memory> Integrator<'_, M> {
         made
     }
 
-    /// Makes a step: its pieces wait, the memory knows of all of it.
+    /// Makes a step: its pieces are stored, and the memory contains the whole step.
     fn expand(&mut self, until: f64) -> bool {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
@@ -146,7 +146,7 @@ impl<M: Memory> Integrator<'_, M> {
         false
     }
 
-    /// The pieces of a step, shortened to where its series, the stretch of u0 and the side of the corner hold.
+    /// The pieces of a step, shortened to where its series, the stretch of u0 and the side of the kink are valid.
     fn make(&mut self, plan: &Plan, end: f64) -> Made {
         let Plan { mut length, mut pieces, .. } = *plan;
         for _ in 0..MOST_SHORTENINGS {
@@ -219,7 +219,7 @@ impl<M: Memory> Integrator<'_, M> {
         self.work.series += 1;
     }
 
-    /// Tells the memory of the whole step.
+    /// Adds the whole step to the memory.
     fn remember_series(&mut self, displacement: &Series, fastest: f64, total: f64) {
         self.velocity = displacement.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
@@ -237,7 +237,7 @@ impl<M: Memory> Integrator<'_, M> {
         self.memory.remember(positions, weights);
     }
 
-    /// What collocation is to go on from.
+    /// Sets the data from which collocation continues.
     fn hand_over(&mut self) {
         self.work.switches += 1;
         self.last = self.taylor.pieces.taken().copied().or(self.last);

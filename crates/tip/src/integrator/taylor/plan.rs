@@ -1,4 +1,4 @@
-//! How long a step by series is to be.
+//! Length of a step by series.
 
 use super::super::Integrator;
 use super::pieces::{self, MOST_PIECES};
@@ -8,22 +8,22 @@ use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
 use crate::memory::Memory;
 use crate::step;
 
-/// A step by series, before it is made.
+/// A planned step by series.
 pub(super) struct Plan {
     pub(super) length: f64,
     pub(super) pieces: usize,
-    /// Displacement per time at its fastest, about.
+    /// Largest speed in the step, approximately.
     pub(super) fastest: f64,
 }
 
-/// What a piece errs by as an interpolant is not carried on: this part of the tolerance.
+/// Allowed interpolation error of a piece, in units of the tolerance; it does not propagate.
 pub(crate) const SHARE_OF_INTERPOLATION: f64 = 0.1;
-/// A piece leads no farther than this part of what a step of collocation may,
+/// Largest displacement in a piece, over that in a step of collocation,
 pub(crate) const REACH_OF_PIECE: f64 = 0.7;
-/// and a step than so many pieces.
+/// and largest displacement in a step, over that in a piece.
 pub(crate) const FARTHEST: f64 = 3.0;
 
-/// As much of a step as leads no farther than `longest`, and what the series is over it.
+/// The part of a step with displacements of at most `longest`, and the series over it.
 pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
     let mut outlook = Outlook::of(&series.over(over));
     for _ in 0..MOST_SHORTENINGS {
@@ -37,7 +37,7 @@ pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outl
     (over, outlook)
 }
 
-/// As in collocation: the end at this distance is met, or enough left for another step.
+/// As in collocation: the step ends at this distance, or leaves enough for another step.
 pub(crate) fn to_end(length: f64, distance: f64) -> f64 {
     if length >= distance * (1.0 - 1e-9) {
         distance
@@ -48,7 +48,7 @@ pub(crate) fn to_end(length: f64, distance: f64) -> f64 {
     }
 }
 
-/// Pieces of at most this length.
+/// Number of pieces of at most this length.
 pub(crate) fn count(length: f64, piece: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let count = (length / piece).ceil() as usize;
@@ -56,7 +56,7 @@ pub(crate) fn count(length: f64, piece: f64) -> usize {
 }
 
 impl<M: Memory> Integrator<'_, M> {
-    /// How long a step, in how many pieces; `None` where collocation gets farther.
+    /// Length of a step, and number of its pieces; `None` if a step of collocation is longer.
     pub(super) fn plan(&mut self, end: f64) -> Option<Plan> {
         let series = self.taylor.chain.displacement();
         let displacement = series.coefficients();
@@ -90,15 +90,16 @@ impl<M: Memory> Integrator<'_, M> {
         Some(Plan { length, pieces: count(length, piece), fastest })
     }
 
-    /// How long a step may be for what heals within it: rules for visits have an end, and of e^{-t/T} the terms beyond the
-    /// order are to fall by half from one to the next.
+    /// Longest step on a surface that heals: the quadrature rules for nodes have a limited order, and beyond the
+    /// order of the series the terms of e^{-t/T} must decrease by half from one to the next.
     fn longest_healing(&self) -> f64 {
         let by_order = 0.5 * self.taylor.order as f64;
         let times = self.taylor.visits.most_healing().min(by_order);
         self.model.wider().healing_time.map_or(f64::INFINITY, |time| times * time)
     }
 
-    /// How far a piece may lead: its nodes stand for what it carves, and what a surface is made of.
+    /// Largest displacement in a piece, whose nodes represent its contribution to the groove, and from which surfaces
+    /// are computed.
     fn reach_of_piece(&self) -> f64 {
         REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
     }

@@ -1,17 +1,17 @@
-//! How much of the past is left, where the surface heals.
+//! The undecayed part of the past, if the surface heals.
 //!
-//! Sums over the past are linear in its weights, so that nothing of them is touched when all fades by one
-//! factor: what is remembered later counts by so much more, and what is told is multiplied by the factor. Only
-//! when that leaves the range of floating point are the sums themselves multiplied.
+//! The history integral is linear in its weights, so that a common decay need not be applied to it: later nodes get
+//! correspondingly larger weights, and results are multiplied by the factor. Only when the factor leaves the range of
+//! floating point are the sums themselves multiplied.
 
 use super::{Now, Policy};
 use crate::state::{Damaged, Reader, State};
 
-/// The factor by which what was remembered first has faded; `None` as long as nothing fades.
+/// The factor by which the first nodes have decayed; `None` without healing.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Fading(Option<f64>);
 
-/// Below this the sums are multiplied.
+/// Smallest factor before the sums are multiplied.
 const LEAST: f64 = 1e-60;
 
 impl Fading {
@@ -19,7 +19,7 @@ impl Fading {
         self.0
     }
 
-    /// Lets all fade by a factor; the factor for the sums, once they are to be multiplied.
+    /// Applies a decay by this factor; returns the factor for the sums when they must be multiplied.
     pub(super) fn by(&mut self, factor: f64) -> Option<f64> {
         let left = self.0.unwrap_or(1.0) * factor;
         let due = left < LEAST;

@@ -1,11 +1,11 @@
-//! The tip farther behind its farthest point than the modes hold: the lattice takes over, from the record.
+//! Retreats of the tip beyond the range of the modes: the lattice, built from the history buffer, replaces them.
 
 use super::super::fft::Fft;
 use super::super::groove::longest_look;
 use super::super::record::Record;
 use crate::TipFunction;
 
-/// How often the tip has retreated beyond what the modes hold for, and what tells the groove while it has.
+/// Number of retreats of the tip beyond the range of the modes, and the lattice in use meanwhile.
 #[derive(Default)]
 pub(super) struct Retreats {
     pub(super) fft: Option<Box<Fft>>,

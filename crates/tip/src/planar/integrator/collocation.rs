@@ -36,7 +36,7 @@ impl Integrator<'_> {
         }
     }
 
-    /// Longest step to try: not over a pulse, and not too far.
+    /// Longest step to try: it does not skip a pulse or move the tip too far.
     fn length_limit(&self) -> f64 {
         let speed = self.effective(self.velocity).max(1e-300);
         self.longest_step().min(self.longest_displacement() / speed)
@@ -46,7 +46,7 @@ impl Integrator<'_> {
         step::longest_displacement(self.model.tip().band())
     }
 
-    /// A step of length h, with what is left of each node at its end, or which shorter length to try instead.
+    /// A step of length h, with the undecayed part of each node at its end, or the shorter length to try instead.
     fn attempt(&mut self, h: f64) -> Result<(Solution, Stages), f64> {
         let longest = self.longest_displacement();
         let mass = self.wider().inertia;
@@ -98,7 +98,7 @@ impl Integrator<'_> {
         }
     }
 
-    /// The last polynomials continued, where they can be trusted to; else straight lines.
+    /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
     fn guess(&self, h: f64, longest: f64) -> [Stages; 2] {
         if let Some(last) = self.last.filter(|last| h <= 1.5 * last.along.h) {
             let ratio = h / last.along.h;
@@ -110,7 +110,7 @@ impl Integrator<'_> {
         self.velocity.map(|v| RADAU.c.map(|c| (c * h * v).clamp(-longest, longest)))
     }
 
-    /// Accepts both polynomials, or says what length to try instead.
+    /// Accepts both polynomials, or returns the length to try instead.
     fn judge(&mut self, solution: &Solution, h: f64) -> Result<(), f64> {
         let [[_, mixed, across], [along, ..]] = [solution.curvatures; 2];
         let [d, e] = &solution.displacement;

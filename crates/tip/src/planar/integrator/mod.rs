@@ -24,7 +24,7 @@ use crate::tip_function::{BAND_OF_A_GAUSSIAN, TipFunction};
 use crate::{Force, Model, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
 
-/// The state of a tip under way, and all that acts on it.
+/// The state of a tip in motion, and all forces on it.
 pub(super) struct Integrator<'a> {
     model: &'a Model,
     /// g and h.
@@ -40,27 +40,28 @@ pub(super) struct Integrator<'a> {
     chain: Chain,
     visits: Visits,
     switch: Switch,
-    /// Time that the series and stages are made up to; steps made but not yet handed out lie before it.
+    /// End time of the present series or stages; steps already made but not yet returned lie before it.
     t: f64,
     /// R - x0
     extension: f64,
     y: f64,
-    /// Along and across; only a tip with inertia has one along that is not that of the force.
+    /// Velocity along and across; the former is independent of the force only for a tip with inertia.
     velocity: [f64; 2],
     last: Option<Step>,
     made: VecDeque<Step>,
     work: Work,
-    /// For layers.
+    /// Scratch space for layers.
     room: Vec<Lanes>,
 }
 
-/// Exponentials that are to hold as far back as for a tip that swings do not fit better: of use below a tolerance of 1e-11.
+/// Finest accuracy of exponentials with the retreat of a tip that swings back: of use below a tolerance of 1e-11.
 const FINEST: f64 = 5e-14;
 
-/// A series costs as much as the third power of its order.
+/// Order of the series per decimal digit; its cost is proportional to the third power of the order.
 const ORDER_PER_DIGIT: f64 = 0.7;
 
-/// Kicks of so many widths and swings lead farther behind the farthest point than friction lets a tip go.
+/// Kick in widths above which, as with inertia, the tip retreats farther behind its farthest point than friction
+/// allows.
 const LARGE_KICK: f64 = 0.2;
 
 fn retreat(along: &Scenario) -> Retreat {
@@ -68,14 +69,14 @@ fn retreat(along: &Scenario) -> Retreat {
     if is_kicked || along.model.wider().inertia.is_some() { Retreat::Swing } else { Retreat::Small }
 }
 
-/// Whether anything but its own groove may drive the tip back.
+/// Whether any force other than that of its own groove may drive the tip back.
 fn may_go_back(PlanarScenario { along, force_across, .. }: &PlanarScenario) -> bool {
     let is_pushed = [&along.force, force_across].iter().any(|force| force.begins() < f64::INFINITY);
     is_pushed || along.path.is_some() || retreat(along) == Retreat::Swing
 }
 
 impl<'a> Integrator<'a> {
-    /// At the start of a scenario, which is valid.
+    /// The integrator at the start of a valid scenario.
     pub(super) fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         let (along, footprint) = (&scenario.along, scenario.footprint()?);
         let model = &along.model;
@@ -115,7 +116,7 @@ impl<'a> Integrator<'a> {
         Ok(integrator)
     }
 
-    /// A tip that moved along the line for ever, to where it was kicked from.
+    /// Adds the past of a tip in steady motion along the line, up to the point of the kick.
     fn remember_steady(&mut self, kick: f64) {
         let past = SteadyPast {
             distance: -kick,
@@ -128,7 +129,7 @@ impl<'a> Integrator<'a> {
         self.past.remember_steady(&past, &phi);
     }
 
-    /// Steps of this length by collocation, without error control.
+    /// Sets a fixed step, by collocation and without error control.
     pub(super) fn fix_step(&mut self, h: f64) {
         self.control.fix(h);
     }
@@ -150,7 +151,7 @@ impl<'a> Integrator<'a> {
         self.past.size() + self.frame.size()
     }
 
-    /// The next step; `None` where the tip is at the end.
+    /// The next step; `None` at the end.
     pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
         if self.made.is_empty() && self.t < until {
             let t = self.t;
@@ -179,13 +180,13 @@ impl<'a> Integrator<'a> {
         self.wider().healing_time.map_or(0.0, |time| 1.0 / time)
     }
 
-    /// Where the next step is to end at the latest.
+    /// Latest end of the next step.
     fn next_end(&self, until: f64) -> f64 {
         let breaks = self.force.iter().map(|force| force.next_break(self.t));
         breaks.fold(self.support.next_break(self.t).min(until), f64::min)
     }
 
-    /// Longest step that does not lead over a pulse.
+    /// Longest step that does not skip a pulse.
     fn longest_step(&self) -> f64 {
         self.force.iter().map(|force| force.longest_step(self.t)).fold(f64::INFINITY, f64::min)
     }
@@ -196,7 +197,7 @@ impl<'a> Integrator<'a> {
         (along * along + (ratio * across) * (ratio * across)).sqrt()
     }
 
-    /// How fast the fastest fades over a groove of these curvatures, in k/Γ.
+    /// The largest decay rate over a groove of these curvatures, in k/Γ.
     fn fastest(&self, [along, mixed, across]: Curvatures) -> f64 {
         let (along, across) = (1.0 + along, self.stiffness + across);
         let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
@@ -236,7 +237,7 @@ impl<'a> Integrator<'a> {
         Ok(())
     }
 
-    /// Forces on the tip where it is, along and across, after what may jump there.
+    /// Forces on the tip at its position, along and across, after any jump there.
     fn forces_now(&self) -> [f64; 2] {
         let (groups, alpha) = (self.past.groups(), self.model.alpha());
         let mut room: [Vec<Lanes>; 5] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
@@ -253,7 +254,7 @@ impl<'a> Integrator<'a> {
         ]
     }
 
-    /// A step is made, its end where the tip is now.
+    /// Accepts a step that ends at the present position of the tip.
     fn accept(&mut self, step: Step) {
         self.extension = step.along.extension_at_end(self.support.velocity(self.t));
         (self.t, self.y) = (step.end(), step.y_at_end());
@@ -261,7 +262,7 @@ impl<'a> Integrator<'a> {
         self.made.push_back(step);
     }
 
-    /// A step from where the tip is.
+    /// A step from the present position of the tip.
     fn step_to(&self, h: f64, [along, across]: [Stages; 2]) -> Step {
         let (t, extension) = (self.t, self.extension);
         let along = crate::Step { t, h, extension, displacement: along, height: None };

@@ -1,4 +1,4 @@
-//! The integrator between two steps, written down and taken up again.
+//! Saved states of the integrator between two steps.
 
 use super::super::history::Step;
 use super::Integrator;
@@ -6,7 +6,7 @@ use crate::collocation::Stages;
 use crate::integrator::Work;
 use crate::state::{Damaged, Reader, Saved, State};
 
-/// All that the next steps depend on, beside what [`Integrator::new`] is given.
+/// Contains all data that determine the next steps, except the arguments of [`Integrator::new`].
 impl Saved for Integrator<'_> {
     fn save(&self, state: &mut State) {
         let [along, across] = self.velocity;

@@ -189,8 +189,8 @@ impl Footprint {
     /// A bound on the transverse stiffness k'/k (52), above which steady motion along y = 0 is stable; 0 if
     /// `f_yy(x,0)` ≤ 0 for all x, infinite if the argument yields no bound.
     ///
-    /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of `f_yy(x,0)` over x >
-    /// 0. The real part of the right side minus μ is harmonic for Re μ > 0, hence largest on the imaginary axis,
+    /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of `f_yy(x,0)` over x > 0.
+    /// The real part of the right side minus μ is harmonic for Re μ > 0, hence largest on the imaginary axis,
     /// where Re S is half the Fourier transform of the even `f_yy`. So no μ with Re μ ≥ 0 exists if k'/k is above
     /// (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], the maximum over all q including infinity. `depth` is α/r.
     #[must_use]

@@ -32,8 +32,8 @@ use num_complex::Complex;
 use prepared::Prepared;
 use std::sync::Arc;
 
-/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is `Σ_j Re(w_j z_j
-/// e^{s_j at})`. The state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` contains the whole past. It decays as the tip moves
+/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is
+/// `Σ_j Re(w_j z_j e^{s_j at})`. The state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` contains the whole past. It decays as the tip moves
 /// on, and the cost of a step is constant.
 ///
 /// The error is that of the [`Fit`], as long as the groove is evaluated no farther back than the retreat behind the

@@ -1,4 +1,4 @@
-//! The slope that a tip has left ahead of it.
+//! Slope of the groove ahead of the tip.
 
 use crate::merged::merged;
 use num_complex::Complex64;
@@ -7,12 +7,12 @@ use stickslip_tip::TipFunction;
 use stickslip_tip::exponential::exponentials;
 use stickslip_tip::memory::{Fit, Retreat};
 
-/// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f', where one is good enough,
-/// else visit by visit, those side by side taken together.
+/// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f' if an accurate one
+/// exists, else as a sum over visits, with neighbouring visits merged.
 pub(crate) struct Ahead<'a> {
     tip: &'a TipFunction,
     reach: f64,
-    /// How far behind the tip visits were, and how long they lasted.
+    /// Distances of the visits behind the tip, and their durations.
     visits: Vec<(f64, f64)>,
     sum: Option<Sum>,
 }
@@ -23,11 +23,12 @@ struct Sum {
     states: Vec<Complex64>,
 }
 
-/// No sum of exponentials is asked to be better; on tables it might be sought in vain.
+/// Smallest error required of a sum of exponentials; for tables a better one may not exist.
 const FINEST: f64 = 1e-12;
 
 impl<'a> Ahead<'a> {
-    /// Of visits so far behind the tip, so long, within reach of a place ahead; the sum may err by as much as `allowed`.
+    /// The slope for visits at these distances behind the tip, with these durations, within reach of a point ahead;
+    /// the sum may have an error of `allowed`.
     pub(crate) fn new(
         tip: &'a TipFunction,
         reach: f64,
@@ -44,7 +45,7 @@ impl<'a> Ahead<'a> {
         Self { tip, reach, visits, sum }
     }
 
-    /// At this distance ahead.
+    /// The slope at this distance ahead.
     pub(crate) fn slope(&self, ahead: f64) -> f64 {
         self.sum.as_ref().map_or_else(|| self.visit_by_visit(ahead), |sum| sum.at(ahead))
     }
@@ -81,7 +82,7 @@ impl Sum {
 mod tests {
     use super::*;
 
-    /// The sum of exponentials beside the definition, visit by visit.
+    /// Comparison of the sum of exponentials with the definition, a sum over visits.
     #[test]
     fn the_sum_of_exponentials_is_the_sum_over_visits() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();

@@ -1,16 +1,17 @@
-//! A tip that is stuck: whether it slips again, and when.
+//! A stuck tip: whether it slips again, and when.
 //!
-//! Let the tip be at X at the time t, hardly moving. Ahead of it the surface that it has left pushes with
-//! -u_x(X + ξ, t), and the spring pulls with rt - X - ξ: together H(ξ). If it advances with θ(x) the time at which
-//! it reaches x, the groove that it digs meanwhile adds α ∫ f'(ξ - η) θ'(X + η)dη, the spring r(θ - t), and as the
-//! velocity is next to nothing, the sum is 0. Transformed,
+//! Let the tip be at X at the time t, hardly moving. Ahead of it its groove exerts the force -u_x(X + ξ, t), and the
+//! spring the force rt - X - ξ; their sum is H(ξ). Let θ(x) be the time at which the advancing tip reaches x. The
+//! groove that it digs meanwhile adds α ∫ f'(ξ - η) θ'(X + η)dη to the force, and the spring adds r(θ - t). The
+//! velocity is negligible, so the total force is 0. Its Laplace transform is
 //!
 //! ```text
 //!     (r - α Q(p)) Φ(p) = -p Ĥ(p),   Φ = ∫ e^{-pξ} θ'(X + ξ)dξ,   Ĥ = ∫ e^{-pξ} H(ξ)dξ,
 //! ```
 //!
-//! so that θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p) with c = p Ĥ(p)/(α Q'(p)): what is to come follows
-//! from the surface as it is. The tip is held for ever if this stays positive, and slips where it reaches 0.
+//! so that θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p) with c = p Ĥ(p)/(α Q'(p)): the present surface
+//! determines the later motion. If this sum stays positive the tip is held permanently; it slips where the sum reaches
+//! 0.
 
 use crate::ahead::Ahead;
 use crate::thinned::Thinned;
@@ -24,37 +25,37 @@ use stickslip_tip::{InitialSurface, Model, Step, Trajectory, stop};
 /// The logarithmic creep x0 ~ (1/p) ln t of a trapped tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Creeping {
-    /// p as measured at the end, the rate at which 1/x0' grows, in 1/σ.
+    /// p as measured at the end of the run: the rate at which 1/x0' grows in time, in 1/σ.
     pub rate: f64,
-    /// The p that it goes to.
+    /// The attracting p, which the measured one approaches, in 1/σ.
     pub attracting: f64,
 }
 
-/// What becomes of a tip that is stuck.
+/// Prediction for a stuck tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Fate {
-    /// It creeps for ever.
+    /// The tip creeps permanently.
     Held(Creeping),
-    /// It slips after this time.
+    /// The tip slips after this time.
     Slips(f64),
-    /// That cannot be told.
+    /// Neither can be decided.
     Open,
 }
 
-/// A velocity v counts as next to nothing where p v²/r is below this: its share in the balance of forces.
+/// A velocity v is negligible where p v²/r, its share in the balance of forces, is below this.
 const SLOW: f64 = 0.01;
-/// The exponentials must add up to the velocity at the end within this part.
+/// Largest relative difference between the sum of the exponentials and the velocity at the end.
 const ADDS_UP: f64 = 0.2;
-/// But for tolerances above this part of the length in which θ' changes by a factor of e.
+/// Upper limit of tolerances, as a fraction of the length in which θ' changes by a factor of e.
 const COARSE: f64 = 1e-3;
-/// Of an error of the position most shifts all that is ahead alike; this part of it does not.
+/// Fraction of a position error that is not a common shift of everything ahead of the tip.
 const DISPLACED: f64 = 0.2;
-/// Errors of the groove below this part of the velocity are not seen.
+/// Errors of the groove below this fraction of the velocity are negligible.
 const UNSEEN: f64 = 0.003;
-/// A coefficient is known to so many times what the velocity and the tolerance may make of it.
+/// Safety factor for the error that the velocity and the tolerance cause in a coefficient.
 const MARGIN: f64 = 10.0;
 
-/// A tip with its surface at the end of a run.
+/// A tip and its surface at the end of a run.
 pub(crate) struct Stuck<'a> {
     pub(crate) model: &'a Model,
     pub(crate) surface: &'a InitialSurface,
@@ -63,7 +64,7 @@ pub(crate) struct Stuck<'a> {
 }
 
 impl Stuck<'_> {
-    /// What becomes of it; `None` where it is not stuck.
+    /// The prediction for this tip; `None` if it is not stuck.
     pub(crate) fn fate(&self) -> Option<Fate> {
         let (model, end) = (self.model, self.tail.end());
         let velocity = self.tail.velocity(end);
@@ -89,7 +90,7 @@ struct Exponentials {
 }
 
 impl Exponentials {
-    /// `None` for a footprint that never fades, and where nobody waits any more.
+    /// `None` for a footprint that never fades, and after a request to stop.
     fn of(stuck: &Stuck, creep: &Creep) -> Option<Self> {
         let Stuck { model, surface, tail, .. } = stuck;
         let reach = model.tip().reach()?;
@@ -173,10 +174,10 @@ impl Exponentials {
     }
 }
 
-/// Steps of the look ahead.
+/// Number of steps of the search ahead.
 const LONGEST_LOOK: usize = 100_000;
 
-/// Widest panel of the quadrature, over 1/band: a wave of f' and a third.
+/// Widest panel of the quadrature, in units of 1/band: a third more than a wavelength of f'.
 const LONGEST_PANEL: f64 = 8.0;
 const POINTS: usize = 10;
 
@@ -194,9 +195,9 @@ fn nodes(reach: f64, longest: f64, first: f64) -> Vec<(f64, f64)> {
     nodes
 }
 
-/// The part of the time since the last turning point that the creep rate is measured over.
+/// Fraction of the time since the last turning point over which the creep rate is measured.
 const MEASURED_SHARE: f64 = 0.5;
-/// How close the measured rate must be to the one that attracts.
+/// Largest relative difference between the measured rate and the attracting one.
 const WITHIN: f64 = 0.1;
 
 /// For a footprint that never fades, of whose past the tail is only a part: l has only risen for the last half of

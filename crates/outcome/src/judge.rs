@@ -1,4 +1,4 @@
-//! The decision: which regime a run has reached, or what it seems to go to.
+//! Classification of a run: the regime that it has reached, or that it approaches.
 
 use crate::creep::{Fate, Stuck, measured};
 use crate::linear::{Linear, Slowest};
@@ -16,30 +16,31 @@ mod free;
 mod remarks;
 mod steady;
 
-/// The last fifth of a run must be near steady motion for the run to count as steady.
+/// A run is steady if this last fraction of it is close to steady motion.
 const STEADY_SHARE: f64 = 0.2;
-/// Swings that have grown by less than this over some periods have not grown.
+/// Oscillations that grow by less than this factor over several periods count as not growing.
 const NOT_GROWN: f64 = 1.05;
-/// A motion is periodic where it is as near to its limit as this part of amplitude and period.
+/// A motion is periodic if its amplitude and period are within this relative distance of their limits.
 const SETTLED: f64 = 1e-3;
-/// Farther from a cycle than this part of its amplitude its multipliers do not say where a motion goes.
+/// Relative distance from a cycle, in amplitudes, beyond which its multipliers do not predict the motion.
 const BESIDE: f64 = 0.3;
-/// A motion stands still beside its cycle where it comes nearer by less than this part of what the multiplier asks.
+/// A motion counts as not approaching its cycle if it approaches by less than this fraction of what the multiplier
+/// predicts.
 const STANDS_STILL: f64 = 0.2;
-/// What the tolerance may displace a cycle by, over the tolerance and the gap of the multiplier.
+/// Displacement of a cycle that the tolerance may cause, times the gap of the multiplier, in units of the tolerance.
 const DISPLACED: f64 = 300.0;
-/// Swings below this many widths may be those of linear theory,
+/// Oscillations below this amplitude, in widths, are compared with linear theory,
 const SMALL: f64 = 0.3;
-/// and are, where they grow or decay at its rate within this part.
+/// and follow it if they grow or decay at its rate within this fraction.
 const AS_FORETOLD: f64 = 0.2;
-/// Changes below so many tolerances from period to period are those of the steps.
+/// Changes from period to period below this many tolerances are attributed to step errors.
 const NOISE: f64 = 30.0;
-/// A deviation of l below this is round-off, in σ.
+/// A deviation of l below this, in σ, is round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Multipliers closer to the unit circle than this cannot be told from it.
+/// Multipliers closer to the unit circle than this cannot be distinguished from it.
 const ON_THE_CIRCLE: f64 = 1e-7;
 
-/// What the motion at the end of a run is.
+/// Classifies the motion at the end of a run.
 ///
 /// # Panics
 /// Before the first step.
@@ -125,7 +126,7 @@ impl End<'_> {
         self.observer.start().unwrap_or(self.last.t)
     }
 
-    /// Distance of l from l0: at the end, or the latest swing if that is larger.
+    /// Distance of l from l0 at the end, or in the latest oscillation if that is larger.
     fn deviation(&self) -> f64 {
         let steady = self.scenario.model.steady_l();
         let end = self.last.end();
@@ -137,7 +138,7 @@ impl End<'_> {
         swings.map(|e| (e.l - steady).abs()).fold(now, f64::max)
     }
 
-    /// Whether swings above the tolerance grow.
+    /// Whether oscillations above the tolerance grow.
     fn grows(&self) -> bool {
         let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
         let span = self.extrema.iter().take(12).map(|e| e.t);
@@ -145,7 +146,7 @@ impl End<'_> {
         swing > self.scenario.tolerance && (rate * lasted).exp() > NOT_GROWN
     }
 
-    /// A tip that hardly moves: trapped, or how long until it slips.
+    /// Classifies a tip that hardly moves: trapped, or the time until it slips.
     fn stuck(&self) -> Option<Outcome> {
         let Scenario { model, tolerance, .. } = self.scenario;
         // Under a depth limit, or where the surface heals, no tip is held for ever.
@@ -178,7 +179,7 @@ impl End<'_> {
         }
     }
 
-    /// An oscillation on or beside a cycle, or one that repeats itself.
+    /// Classifies an oscillation on or close to a cycle, or one that repeats itself.
     fn oscillates(&self) -> Option<Outcome> {
         let sequence = Sequence(&self.extrema);
         let (swing, _) = sequence.swing()?;
@@ -222,7 +223,7 @@ impl End<'_> {
         repeats.or_else(|| unstable.map(|unstable| self.beside_unstable(&unstable)))
     }
 
-    /// Whether small swings about l0 grow or decay as linear theory has it: then no cycle is near.
+    /// Whether small oscillations about l0 grow or decay as linear theory predicts: then no cycle is close.
     fn is_linear(&self) -> bool {
         let Some((swing, rate)) = Sequence(&self.extrema).swing() else { return false };
         let agrees = |expected: f64| (rate / expected - 1.0).abs() < AS_FORETOLD;
@@ -234,12 +235,13 @@ impl End<'_> {
             }
     }
 
-    /// Swings below this may be those of linear theory.
+    /// Amplitude below which oscillations are compared with linear theory.
     fn small(&self) -> f64 {
         self.scenario.model.tip().widths(SMALL)
     }
 
-    /// Near a stable cycle: on it, as near as the tolerance lets the run come, or on the way.
+    /// Classifies a motion close to a stable cycle: on the cycle, as close as the tolerance permits, or approaching
+    /// it.
     fn beside_stable(&self, near: Reference) -> Outcome {
         if near.distance() <= SETTLED {
             return Outcome {
@@ -267,7 +269,8 @@ impl End<'_> {
         Outcome::transient(Some(Regime::StickSlip), Some(time))
     }
 
-    /// Near a cycle that repels: inside of it the way leads to steady motion, or else one cannot tell.
+    /// Classifies a motion close to an unstable cycle: inside the cycle it approaches steady motion; otherwise its
+    /// limit cannot be predicted.
     fn beside_unstable(&self, near: &Reference) -> Outcome {
         let inside = near.measured.amplitude_x0 < near.cycle.amplitude_x0();
         let flips = near.cycle.nontrivial_multipliers().any(|m| m.re < -1.0);
@@ -281,7 +284,7 @@ impl End<'_> {
         }
     }
 
-    /// Neither on a cycle nor stuck: on the way to steady motion or away from it.
+    /// Classifies a motion that is neither on a cycle nor stuck: it approaches steady motion or leaves it.
     fn beside_steady(&self) -> Outcome {
         let (deviation, near) = (self.deviation(), self.observer.near_steady());
         match self.linear() {
@@ -304,7 +307,7 @@ impl End<'_> {
         swing <= self.scenario.tolerance || rate < 0.0
     }
 
-    /// Steady motion repels. The small cycle born at αc attracts, where there is one.
+    /// Prediction where steady motion is unstable: the small cycle that bifurcates at αc attracts, if it exists.
     fn leaves(&self, deviation: f64, rate: f64) -> Outcome {
         let model = &self.scenario.model;
         if stop::is_asked() {

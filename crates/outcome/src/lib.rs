@@ -1,4 +1,4 @@
-//! What the motion of a tip is, and how sure that is.
+//! Classification of a motion into regimes, with error estimates.
 //!
 //! A run shows maxima and minima of l and the steps at its end ([`Observer`]). What they mean is told by theory where
 //! it has an answer: whether steady motion is stable, by the roots of its characteristic equation; how far an
@@ -60,24 +60,24 @@ pub struct Outcome {
     pub drifting: Option<Drift>,
     /// Present where the regime is [`Regime::Transient`].
     pub prospect: Option<Prospect>,
-    /// Where round-off, the start or the tolerance decides.
+    /// Warnings: cases in which round-off, the initial condition, the tolerance or a disturbance decides.
     pub remarks: Vec<Remark>,
 }
 
-/// The velocity of a tip without a spring that moves on.
+/// The constant velocity of a tip without a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
     /// x0' at the end, in kσ/Γ.
     pub velocity: f64,
-    /// Its distance from that of the steady walk that the run goes to, with the errors of both.
+    /// Distance of this velocity from that of the steady walk that the run approaches, with the errors of both.
     pub velocity_error: f64,
 }
 
-/// What a transient seems to go to.
+/// Prediction for a transient.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prospect {
-    /// The regime, where one can be told.
+    /// The regime that the run approaches; `None` if it cannot be predicted.
     pub towards: Option<Regime>,
-    /// How much longer that would take, in Γ/k, where it can be told.
+    /// Further time until that regime is reached, in Γ/k; `None` if it cannot be predicted.
     pub time: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Steady motion as linear theory has it.
+//! Linear stability of steady motion.
 
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -8,11 +8,11 @@ use stickslip_tip::{Model, Wider};
 /// Whether small deviations from steady motion grow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Linear {
-    /// They decay at this rate at least.
+    /// They decay, at least at this rate.
     Stable(Slowest),
-    /// They grow at this rate at most.
+    /// They grow, at most at this rate.
     Unstable(Slowest),
-    /// Round-off hides which.
+    /// Round-off hides the sign.
     Unknown,
 }
 
@@ -21,7 +21,7 @@ pub(crate) enum Linear {
 pub(crate) struct Slowest {
     /// |Re λ|, in k/Γ.
     pub(crate) rate: f64,
-    /// 2π/Im λ, or, of a real root, the time in which it changes by a factor of e; in Γ/k.
+    /// 2π/Im λ; for a real root, the time in which a deviation changes by a factor of e; in Γ/k.
     pub(crate) period: f64,
 }
 
@@ -43,8 +43,8 @@ impl Linear {
     }
 }
 
-/// Where a depth limit has its corner at steady motion there are no exponents; small oscillations grow above another
-/// αc, by about as much as without the limit that far above its own.
+/// Where steady motion lies on the kink of a depth limit there are no exponents. Small oscillations grow above another
+/// αc, at about the same rate as without the limit at the same distance above its own αc.
 fn beside_corner(model: &Model) -> Option<Spectrum> {
     let (tip, r) = (model.tip(), model.r());
     let limited = critical(model.wider(), tip, r).ok()?.alpha;

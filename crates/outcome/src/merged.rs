@@ -1,15 +1,15 @@
-//! Visits side by side, taken together: a tip that is stuck makes hundreds within a width.
+//! Merging of neighbouring visits: a stuck tip makes hundreds of them within a width.
 
 use std::collections::BTreeMap;
 use stickslip_tip::elementary::sin_cos;
 
-/// Length of a cell in widths of a Gaussian, and the places in it that stand for all others. The polynomial through f' at
-/// them is off by at most 2 (h/4)^m/m! max|f^(m+1)|: some 1e-18 for a Gaussian of width 1.
+/// Length of a cell in widths of a Gaussian, and the number of nodes in it. The error of the polynomial through f' at
+/// these nodes is at most 2 (h/4)^m/m! max|f^(m+1)|: some 1e-18 for a Gaussian of width 1.
 const CELL: f64 = 2.0;
 const PLACES: usize = 24;
 
-/// Weights at few places that make the same of f' as these visits, (where, how long), at all distances: in each cell
-/// with more visits than places, `W_k = Σ_i w_i ℓ_k(x_i)` with Lagrange's polynomials `ℓ_k`.
+/// Weights at few nodes that give the same sum of f' as these visits (position, duration) at all distances. In each
+/// cell with more visits than nodes, `W_k = Σ_i w_i ℓ_k(x_i)` with Lagrange's polynomials `ℓ_k`.
 pub(crate) fn merged(visits: Vec<(f64, f64)>, width: f64) -> Vec<(f64, f64)> {
     let length = CELL * width;
     let mut cells: BTreeMap<i64, Vec<(f64, f64)>> = BTreeMap::new();
@@ -28,7 +28,8 @@ pub(crate) fn merged(visits: Vec<(f64, f64)>, width: f64) -> Vec<(f64, f64)> {
     cells.into_iter().flat_map(together).collect()
 }
 
-/// At Chebyshev's points, by the barycentric formula: Berrut & Trefethen, SIAM Rev. 46, 501 (2004).
+/// Lagrange's polynomials at Chebyshev points, by the barycentric formula: Berrut & Trefethen, SIAM Rev. 46, 501
+/// (2004).
 fn at_places(center: f64, length: f64, visits: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let angle = |k: usize| std::f64::consts::PI * (k as f64 + 0.5) / PLACES as f64;
     let place = |k| center + 0.5 * length * sin_cos(angle(k)).1;
@@ -53,7 +54,7 @@ mod tests {
     use super::*;
     use stickslip_tip::TipFunction;
 
-    /// Judged by the visits one by one, those of a tip that creeps: ever longer and closer together.
+    /// Comparison with the sum over single visits, for a creeping tip: visits ever longer and closer together.
     #[test]
     fn few_places_make_the_slope_that_all_visits_make() {
         let table: Vec<f64> = (0..80).map(|i| 0.1 * f64::from(i)).collect();

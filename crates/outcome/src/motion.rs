@@ -1,22 +1,22 @@
-//! What a tip comes to at given parameters.
+//! The motion that a tip settles into at given parameters.
 
 use crate::{Outcome, judge_trajectory};
 use stickslip_cycles::{Cycle, CycleError, Settled, settle};
 use stickslip_tip::Model;
 
-/// What a tip comes to when steady motion is disturbed a little.
+/// The motion that a tip settles into after a small disturbance of steady motion.
 #[derive(Debug, Clone)]
 pub enum Motion {
     /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
     Steady,
     /// A stable cycle.
     Cycle(Box<Cycle>),
-    /// What a run ended as, that came near no stable cycle: trapped, or without end in sight.
+    /// The outcome of a run that came close to no stable cycle: trapped, or undecided.
     Run(Box<Outcome>),
 }
 
-/// What the motion at the parameters of the model comes to: by linear stability, by [`stickslip_cycles::cycle`], by
-/// a run.
+/// Finds the motion that the tip settles into at the parameters of the model: by linear stability, by
+/// [`stickslip_cycles::cycle`], or by a run.
 ///
 /// # Errors
 /// A tolerance out of range, or a run that fails.

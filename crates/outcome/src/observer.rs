@@ -1,4 +1,4 @@
-//! What the outcome is read from, gathered as a run goes on: of bounded size, however long the run.
+//! Data from which a run is classified, collected during the run; their size is bounded for runs of any length.
 
 use crate::thinned::Thinned;
 use std::collections::VecDeque;
@@ -6,37 +6,38 @@ use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
 
-/// l within this distance of l0 is steady;
+/// Largest distance of l from l0 in steady motion, in σ;
 const STEADY_WITHIN: f64 = 1e-6;
-/// or within a hundred tolerances, but not beyond this part of the tip's width.
+/// for larger tolerances a hundred tolerances, up to this fraction of the width of the tip.
 const STEADY_TOLERANCES: f64 = 100.0;
 const STEADY_AT_MOST: f64 = 0.03;
-/// Steps kept at the end at most; a slip takes some fifty of them, on noise of a fine grid a thousand.
+/// Largest number of steps kept at the end. A slip takes some fifty; on noise of a fine grid a thousand.
 const LONGEST_TAIL: usize = 1 << 15;
 
-/// Watches the steps of a run go by.
+/// Collects the extrema and the last steps of a run.
 #[derive(Debug, Clone)]
 pub struct Observer {
     r: f64,
     support: Support,
     wider: Wider,
     steady_l: f64,
-    /// l at this distance of l0 is not steady.
+    /// Distance of l from l0 beyond which the motion is not steady.
     far: f64,
-    /// Of tail behind the extrema, so that the ripple behind the tip has all that carved it.
+    /// Length of history kept behind the extrema, so that all contributions to the ripple behind the tip are
+    /// available.
     reaches: f64,
-    /// Start of the run and the latest step, once there is one.
+    /// Start time of the run and the latest step; `None` before the first step.
     span: Option<(f64, Step)>,
     /// Start of the latest step that was not steady.
     unsteady: f64,
     extrema: Extrema,
-    /// Since the last extremum.
+    /// Steps since the last extremum.
     risen: Thinned,
     tail: VecDeque<Step>,
 }
 
 impl Observer {
-    /// Before the first step.
+    /// An observer before the first step.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let Scenario { model, tolerance, .. } = scenario;
@@ -56,7 +57,7 @@ impl Observer {
         }
     }
 
-    /// Takes note of the next step.
+    /// Adds the next step.
     pub fn observe(&mut self, step: &Step) {
         let start = self.span.map_or(step.t, |(start, _)| start);
         self.span = Some((start, *step));
@@ -76,7 +77,7 @@ impl Observer {
         (l - self.steady_l).abs() > self.far
     }
 
-    /// Drops steps that neither the extrema nor the ripple of their last period need.
+    /// Removes steps that neither the extrema nor the ripple of their last period need.
     fn cut_tail(&mut self) {
         let start = |step: &Step| self.r * step.t - step.extension;
         while let Some(earliest) = self.extrema.earliest_needed() {
@@ -94,7 +95,7 @@ impl Observer {
         }
     }
 
-    /// Time of the start of the run.
+    /// Start time of the run.
     pub(crate) fn start(&self) -> Option<f64> {
         self.span.map(|(start, _)| start)
     }
@@ -104,7 +105,7 @@ impl Observer {
         self.far
     }
 
-    /// Since when l has been that near.
+    /// Time since which l has been within this distance of l0.
     pub(crate) fn steady_since(&self) -> f64 {
         self.unsteady
     }

@@ -1,24 +1,24 @@
-//! A periodic motion with the errors of its figures.
+//! A periodic motion with error estimates.
 
 use crate::reference::Reference;
 use stickslip_cycles::Cycle;
 use stickslip_tip::motion;
 
-/// The periodic motion at the end of a run. Lengths in σ, times in Γ/k. An error is the distance to the figure of
-/// the motion that the run goes to, so that this lies within it.
+/// The periodic motion at the end of a run. Lengths in σ, times in Γ/k. Each error estimates the distance from the
+/// corresponding figure of the limiting motion.
 #[derive(Debug, Clone)]
 pub struct Oscillation {
     /// Period of l(t).
     pub period: f64,
-    /// Its error.
+    /// Error of the period.
     pub period_error: f64,
-    /// Wavelength of the surface behind the tip: the way of the support in one period.
+    /// Wavelength of the surface behind the tip: the distance that the support moves in one period.
     pub wavelength: f64,
-    /// Its error.
+    /// Error of the wavelength.
     pub wavelength_error: f64,
-    /// Half peak-to-peak of l, that is of x0 less its steady advance.
+    /// Half the peak-to-peak value of l, that is, of x0 minus its steady advance.
     pub amplitude_x0: f64,
-    /// Its error.
+    /// Error of the amplitude.
     pub amplitude_x0_error: f64,
     /// Maxima of l in one period: 2 after a period doubling.
     pub slips: usize,
@@ -26,12 +26,12 @@ pub struct Oscillation {
     pub drift: f64,
     /// Time at which the last whole period begins.
     pub last_period_from: f64,
-    /// The cycle that the motion is on, where it could be solved for.
+    /// The limit cycle of the motion, if it was found.
     pub cycle: Option<Box<Cycle>>,
 }
 
 impl Oscillation {
-    /// The error of an amplitude of the surface left behind, measured on the run.
+    /// Error of the amplitude of the surface far behind the tip, for an amplitude measured on the run.
     #[must_use]
     pub fn amplitude_u_error(&self, amplitude_u: f64) -> f64 {
         let relative =
@@ -43,7 +43,7 @@ impl Oscillation {
 }
 
 impl Oscillation {
-    /// On a cycle, as far off it as the motion is.
+    /// The oscillation on a cycle, with the distance from the cycle as error.
     pub(crate) fn on(near: Reference) -> Self {
         let (error, measured) = (near.cycle.error(), near.measured);
         let round_off = 4.0 * f64::EPSILON * (measured.last_period_from.abs() + measured.period);
@@ -54,7 +54,7 @@ impl Oscillation {
         Self { cycle, ..Self::with_errors(&measured, period_error, amplitude_error) }
     }
 
-    /// At most `rest`, in l, off where it goes.
+    /// The oscillation without a cycle; `rest` bounds the distance of l from its limit.
     pub(crate) fn within(measured: &motion::Oscillation, rest: f64) -> Self {
         let period_error = 2.0 * rest / measured.amplitude_x0 * measured.period;
         Self::with_errors(measured, period_error, 2.0 * rest)

@@ -1,27 +1,27 @@
-//! The cycle that a motion is on or near, by which it is judged.
+//! The limit cycle on or close to a motion: the reference solution for its classification.
 
 use stickslip_cycles::{Cycle, CycleError, ROUGHEST_RESIDUAL, cycle_near, cycle_within};
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
-/// Residuals of the cycles that runs are judged by, and the tolerance below which a run needs the finer.
+/// Residuals of the reference cycles, and the tolerance below which a run needs the finer one.
 const RESIDUAL: f64 = 1e-9;
 const FINE_RESIDUAL: f64 = 1e-11;
 const FINE_RUN: f64 = 1e-10;
 
-/// A cycle beside a motion.
+/// A limit cycle close to a motion.
 pub(crate) struct Reference {
     pub(crate) cycle: Cycle,
-    /// The motion, measured over as many slips.
+    /// The motion, measured over the same number of slips.
     pub(crate) measured: Oscillation,
-    /// Largest difference of an extremum of l in the last period of the motion.
+    /// Largest difference between an extremum of l in the last period of the motion and that of the cycle.
     pub(crate) off: f64,
-    /// Largest modulus of the multipliers but that of a shift in time.
+    /// Largest modulus of the multipliers except that of a shift in time.
     pub(crate) multiplier: f64,
 }
 
 impl Reference {
-    /// The cycle that Newton's method reaches from the last so many slips of a motion, or else from those before.
+    /// The cycle that Newton's method reaches from this number of last slips of a motion, or else from those before.
     pub(crate) fn of(
         model: &Model,
         tolerance: f64,
@@ -43,7 +43,7 @@ impl Reference {
         finer.and_then(|finer| Self::beside(finer, tail, extrema)).or(Some(near))
     }
 
-    /// A cycle beside a motion.
+    /// A cycle close to a motion.
     pub(crate) fn beside(cycle: Cycle, tail: &Trajectory, extrema: &[Extremum]) -> Option<Self> {
         let measured = Oscillation::with_slips(tail, extrema, cycle.slips())?;
         let off = difference(&cycle, extrema)?;
@@ -51,19 +51,19 @@ impl Reference {
         Some(Self { cycle, measured, off, multiplier })
     }
 
-    /// What is left of a deviation is this part of it less after a period.
+    /// Fraction by which a deviation decreases in a period.
     pub(crate) fn gap(&self) -> f64 {
         1.0 - self.multiplier
     }
 
-    /// How far the motion is from the cycle, relative to its amplitude and period.
+    /// Distance of the motion from the cycle, relative to amplitude and period.
     pub(crate) fn distance(&self) -> f64 {
         let off_period = (self.measured.period / self.cycle.period() - 1.0).abs();
         (self.off / self.cycle.amplitude_x0()).max(off_period)
     }
 
-    /// Periods until the distance is at most `near`. Near onset the square of the amplitude approaches its limit
-    /// as a logistic curve does, however small it was.
+    /// Number of periods until the distance is at most `near`. Close to onset the square of the amplitude approaches
+    /// its limit along a logistic curve, from any amplitude.
     pub(crate) fn periods_until(&self, near: f64) -> f64 {
         let ratio = self.cycle.amplitude_x0() / self.measured.amplitude_x0;
         let away = (ratio * ratio - 1.0).abs().max(2.0 * self.distance());
@@ -71,7 +71,7 @@ impl Reference {
     }
 }
 
-/// The cycle beside a period of a motion, to the residual that can be had: round-off of long periods leaves more.
+/// The cycle close to a period of a motion, to the smallest residual available: in long periods round-off raises it.
 fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
     match cycle_within(model, tail, span, RESIDUAL) {
         Err(CycleError::Rough { reached, .. }) if reached <= ROUGHEST_RESIDUAL => {
@@ -81,7 +81,7 @@ fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
     }
 }
 
-/// Between two maxima a period apart, the highest of the last period and the one before it.
+/// Two maxima a period apart: the highest of the last period and the one before it.
 fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = extrema.iter().filter(|e| e.is_maximum).collect();
     let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
@@ -89,11 +89,11 @@ fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
     Some((start.t, end.t))
 }
 
-/// A maximum within this part of a period from the seam is that of the seam.
+/// A maximum within this fraction of a period of the seam counts as that of the seam.
 const AT_THE_SEAM: f64 = 1e-6;
 
-/// Largest difference between the extrema of the last period of a motion and those of the cycle, in the order in
-/// which they fit best.
+/// Largest difference between the extrema of the last period of a motion and those of the cycle, in the order that
+/// fits best.
 fn difference(cycle: &Cycle, extrema: &[Extremum]) -> Option<f64> {
     let motion = cycle.motion();
     let (start, end) = (motion.start(), motion.end());

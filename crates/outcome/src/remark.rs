@@ -1,11 +1,11 @@
-//! What a reader of the outcome must know besides.
+//! Warnings about an outcome.
 
 use std::fmt;
 
-/// Where round-off, the start, the tolerance or a disturbance decides.
+/// A case in which round-off, the initial condition, the tolerance or a disturbance decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Remark {
-    /// The start is steady motion, which is unstable, and nothing disturbs it.
+    /// The initial condition is unstable steady motion, without any disturbance.
     RoundOffGrows {
         /// Rate of growth, in k/Γ.
         rate: f64,
@@ -15,43 +15,44 @@ pub enum Remark {
         /// Rate of growth at the end, in k/Γ.
         rate: f64,
     },
-    /// A tip without a spring was at rest so long before a force was felt that errors have grown beyond the tolerance.
+    /// A tip without a spring was at rest for so long before a force acted that errors have grown beyond the
+    /// tolerance.
     ErrorsGrowAtRest {
-        /// By this factor.
+        /// Growth factor of the errors.
         growth: f64,
     },
-    /// Steady motion is stable beside the motion that was found.
+    /// Steady motion is stable too, next to the motion that was found.
     SteadyToo,
-    /// Oscillations are born below αc: beside stable steady motion there may be one.
+    /// Oscillations bifurcate below αc: one may be stable next to steady motion.
     OscillationToo,
-    /// A trapped tip creeps for ever beside the motion that was found.
+    /// A trapped tip creeps permanently, next to the motion that was found.
     TrappedToo,
-    /// The tip is stuck, and how long is foretold by the exponentials of its past.
+    /// The tip is stuck; the exponentials in its history predict for how long.
     SlipsAfter {
-        /// In Γ/k.
+        /// Predicted time, in Γ/k.
         time: f64,
     },
-    /// Whether the tip slips again hangs on less than the run is known to.
+    /// Whether the tip slips again depends on differences below the accuracy of the run.
     AtTheBorder,
-    /// The run repeats itself, but not as the equation does.
+    /// The run repeats itself, but differs from the cycle that solves the equation.
     Coarse {
         /// Largest difference of an extremum of l, in σ.
         off: f64,
     },
-    /// Steady motion attracts by less than the errors of steps at this tolerance push away.
+    /// Steady motion is stable, but it attracts less than the step errors at this tolerance repel.
     TooCoarse,
     /// An external force acts at the end of the run.
     ForceActs,
     /// An external force acts after the end of the run.
     ForceToCome {
-        /// When it ends.
+        /// Time at which it ends.
         until: f64,
     },
-    /// The support does not move at one velocity.
+    /// The velocity of the support is not constant.
     OnAPath,
-    /// The surface ahead of the tip is not even.
+    /// The surface ahead of the tip is not flat.
     UnevenAhead {
-        /// Where it ends, in σ.
+        /// Position of its end, in σ.
         until: f64,
     },
 }

@@ -1,7 +1,7 @@
-//! Rest of a tip without a spring: whether a small push grows, and by how much until some time.
+//! A tip without a spring at rest: whether a small displacement grows, and by which factor until a given time.
 //!
-//! A tip that has been at rest since t = 0 sits on what it left, -αθ(t) f(x), θ' = w - θ/T. A small displacement moves it
-//! off that: with I = ∫ w (x(t) - x(t')) e^{-(t-t')/T}dt', v = x',
+//! A tip that has been at rest since t = 0 sits in its own groove, -αθ(t) f(x), θ' = w - θ/T. With I = ∫ w (x(t) -
+//! x(t')) e^{-(t-t')/T}dt' and v = x', a small displacement obeys
 //!
 //! ```text
 //!     M v' + v = α f''(0) I,   I' = θ v - I/T,
@@ -11,16 +11,16 @@
 
 use stickslip_tip::{Model, Wider};
 
-/// Of a model without a spring.
+/// Coefficients of this problem for a model without a spring.
 pub(crate) struct Rest {
     wider: Wider,
-    /// α f''(0), above 0 where rest may be unstable.
+    /// α f''(0), positive where rest may be unstable.
     push: f64,
-    /// α f(0): how fast a tip at rest digs.
+    /// α f(0): the digging rate of a tip at rest.
     digs: f64,
 }
 
-/// Steps that the growth is summed over.
+/// Number of steps in the sum for the growth.
 const STEPS: u32 = 2000;
 
 impl Rest {
@@ -29,12 +29,12 @@ impl Rest {
         Self { wider: *model.wider(), push: model.alpha() * curvature, digs: model.alpha() * f }
     }
 
-    /// The rate at which deviations grow after so long a time at rest; below 0 they decay.
+    /// The rate at which deviations grow after this time at rest; negative if they decay.
     pub(crate) fn rate(&self, time: f64) -> f64 {
         self.rate_on(self.depth(time))
     }
 
-    /// θ after a time at rest.
+    /// θ after this time at rest.
     fn depth(&self, time: f64) -> f64 {
         let heals = self.wider.healing_time;
         match self.wider.depth_limit {
@@ -65,7 +65,8 @@ impl Rest {
         }
     }
 
-    /// ln of what a deviation grows by between two times after the tip came to rest.
+    /// Logarithm of the growth factor of a deviation between two times, counted from the moment when the tip came to
+    /// rest.
     pub(crate) fn growth(&self, from: f64, to: f64) -> f64 {
         let step = (to - from) / f64::from(STEPS);
         let rates = (0..STEPS).map(|i| self.rate(from + step * (f64::from(i) + 0.5)).max(0.0));
@@ -73,7 +74,7 @@ impl Rest {
     }
 }
 
-/// |h|/|αf(0)| where digging and healing are in balance: y = T e^{-dig y/b}.
+/// |h|/|αf(0)| at the balance of digging and healing: y = T e^{-dig y/b}.
 fn settled(dig: f64, limit: f64, healing: f64) -> f64 {
     let (mut low, mut high) = (0.0, healing);
     for _ in 0..60 {

@@ -1,16 +1,16 @@
-//! How the extrema of l change from one period to the next, and where that leads.
+//! Changes of the extrema of l from one period to the next, and their extrapolation.
 
 use stickslip_tip::motion::Extremum;
 
 /// The latest extrema of l, latest first: maxima and minima in turn.
 pub(crate) struct Sequence<'a>(pub(crate) &'a [Extremum]);
 
-/// Periods that the changes are compared over.
+/// Number of periods over which the changes are compared.
 const PERIODS: usize = 6;
 const FEWEST: usize = 4;
-/// A change that falls by less from period to period may not fall at all.
+/// A change that falls by a smaller factor from period to period may not fall at all.
 const FALLS: f64 = 0.95;
-/// Maxima of l in a period, at most.
+/// Largest number of maxima of l in a period.
 pub(crate) const MOST_SLIPS: usize = 8;
 
 impl Sequence<'_> {
@@ -28,8 +28,8 @@ impl Sequence<'_> {
         Some(here.iter().zip(before).map(|(a, b)| a.l - b.l))
     }
 
-    /// The largest factor by which these changes fall from a period to the next, over at least four; `None` where
-    /// they do not fall throughout.
+    /// The largest factor by which these changes fall from one period to the next, over at least four; `None` unless
+    /// all of them fall.
     pub(crate) fn slowest_factor(&self, slips: usize) -> Option<f64> {
         let sizes: Vec<f64> = (0..PERIODS).map_while(|back| self.change(slips, back)).collect();
         let factors = sizes.windows(2).map(|pair| pair[0] / pair[1]);
@@ -37,8 +37,9 @@ impl Sequence<'_> {
         (sizes.len() >= FEWEST && slowest < FALLS).then_some(slowest)
     }
 
-    /// The numbers of maxima that may make a period, the likeliest first: the fewest of which the period repeats
-    /// itself within `near`, else those that repeat themselves best, one, and two where every other slip is alike.
+    /// The candidate numbers of maxima in a period, the likeliest first: the smallest number with which the motion
+    /// repeats itself within `near`; else those with the best repetition, one, and two where every other slip is
+    /// alike.
     pub(crate) fn likely_slips(&self, near: f64) -> Vec<usize> {
         let changes: Vec<(usize, f64)> = (1..=MOST_SLIPS)
             .map_while(|slips| self.change(slips, 0).map(|change| (slips, change)))
@@ -57,7 +58,7 @@ impl Sequence<'_> {
         likely
     }
 
-    /// Half the latest swing of l, and the rate at which the swings have grown over the last periods.
+    /// Half the latest peak-to-peak value of l, and the rate of growth of the oscillation over the last periods.
     pub(crate) fn swing(&self) -> Option<(f64, f64)> {
         let swings: Vec<(f64, f64)> =
             self.0.windows(2).map(|e| (e[0].t, 0.5 * (e[0].l - e[1].l).abs())).collect();

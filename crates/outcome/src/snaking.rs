@@ -1,31 +1,32 @@
-//! A tip that swings across the scan: whether it repeats itself, and how far its figures are from what they go to.
+//! Oscillation of a tip across the scan: whether it is periodic, and the errors of its figures.
 
 use stickslip_tip::planar::{Step, Trajectory};
 
-/// A motion whose largest deviation changes by no more than this part of its amplitude from period to period repeats itself.
+/// A motion is periodic if its largest deviation changes by at most this fraction of its amplitude from period to
+/// period.
 const REPEATS: f64 = 1e-3;
-/// Looks at the velocity within a step: between two of them it changes its sign once at most.
+/// Evaluations of the velocity within a step: between two of them it changes sign at most once.
 const LOOKS: u32 = 8;
-/// Bisections of the time of a turning point: to the last bit of a step.
+/// Number of bisections for the time of a turning point: to the last bit of a step.
 const BISECTIONS: u32 = 50;
-/// What is left of a change is taken to fade no faster than by this factor in a period.
+/// Slowest decay per period that the extrapolation of a change assumes.
 const SLOWEST: f64 = 0.98;
 
-/// The periodic motion across the scan at the end of a run. The motion that it goes to lies within the errors, as far as what
-/// changes from period to period fades geometrically.
+/// The periodic motion across the scan at the end of a run. The limiting motion lies within the errors if the changes
+/// from period to period decay geometrically.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snaking {
-    /// Of y0, in Γ/k; along the scan the tip swings twice in it.
+    /// Period of y0, in Γ/k; the motion along the scan has half this period.
     pub period: f64,
-    /// Its error, in Γ/k.
+    /// Error of the period, in Γ/k.
     pub period_error: f64,
-    /// Half peak-to-peak of y0, in σ.
+    /// Half the peak-to-peak value of y0, in σ.
     pub amplitude: f64,
-    /// Its error, in σ.
+    /// Error of the amplitude of y0, in σ.
     pub amplitude_error: f64,
-    /// Half peak-to-peak of R - x0 over the last period, in σ.
+    /// Half the peak-to-peak value of R - x0 over the last period, in σ.
     pub amplitude_along: f64,
-    /// Change of the largest y0 from the last period but one to the last, over the amplitude.
+    /// Change of the largest y0 from the last period but one to the last, divided by the amplitude.
     pub drift: f64,
 }
 
@@ -36,8 +37,8 @@ struct Turn {
     y: f64,
 }
 
-/// The periodic motion of y0 at the end of a run that was made to a tolerance; `None` where y0 does not swing by more than the
-/// tolerance, has not swung five times, or does not repeat itself.
+/// The periodic motion of y0 at the end of a run with this tolerance; `None` if the amplitude of y0 is not above the
+/// tolerance, y0 has oscillated less than five times, or the motion is not periodic.
 #[must_use]
 pub fn snaking(trajectory: &Trajectory, tolerance: f64) -> Option<Snaking> {
     let (highest, lowest) = turns(trajectory);
@@ -70,7 +71,8 @@ pub fn snaking(trajectory: &Trajectory, tolerance: f64) -> Option<Snaking> {
     })
 }
 
-/// What is still to come of changes of this size that fade as these two, the last first, have.
+/// Sum of a geometric series that begins with the larger of these sizes and decays as two changes did, the last of
+/// which comes first.
 fn left(sizes: [f64; 2], [last, before]: [f64; 2]) -> f64 {
     let fading = (last / before).abs();
     let fading = if fading.is_finite() { fading.min(SLOWEST) } else { SLOWEST };
@@ -105,7 +107,7 @@ fn turn(step: &Step, (mut low, mut high): (f64, f64)) -> Turn {
     Turn { t, y: step.y0(t) }
 }
 
-/// Half peak-to-peak of R - x0 between two times.
+/// Half the peak-to-peak value of R - x0 between two times.
 fn swing_along(trajectory: &Trajectory, from: f64, to: f64) -> f64 {
     const SAMPLES: u32 = 2000;
     let lag = |i: u32| trajectory.lag(from + (to - from) * f64::from(i) / f64::from(SAMPLES));
@@ -115,7 +117,7 @@ fn swing_along(trajectory: &Trajectory, from: f64, to: f64) -> f64 {
     0.5 * (high - low)
 }
 
-/// The largest |y0| at the ends of steps from a time on.
+/// The largest |y0| at the ends of steps from a given time on.
 #[must_use]
 pub fn largest_across(trajectory: &Trajectory, from: f64) -> f64 {
     let late = trajectory.steps().iter().filter(|step| step.end() >= from);

@@ -1,9 +1,9 @@
-//! Steps of a stretch of the run that may last for ever, ever fewer of them.
+//! Steps of a stretch of the run of any length, in decreasing number.
 
 use stickslip_tip::Step;
 use stickslip_tip::state::{Damaged, Reader, State};
 
-/// Every n-th step since some time; n doubles when there are too many.
+/// Every n-th step since a given time; n doubles when the number of steps exceeds its limit.
 #[derive(Debug, Clone)]
 pub(crate) struct Thinned {
     steps: Vec<Step>,
@@ -11,7 +11,7 @@ pub(crate) struct Thinned {
     seen: u64,
 }
 
-/// Kept at most.
+/// Largest number of steps kept.
 const MOST: usize = 512;
 
 impl Default for Thinned {
@@ -21,7 +21,7 @@ impl Default for Thinned {
 }
 
 impl Thinned {
-    /// Begins anew, with the step that follows.
+    /// Removes all steps; the next one is the first again.
     pub(crate) fn clear(&mut self) {
         self.steps.clear();
         (self.every, self.seen) = (1, 0);
@@ -42,7 +42,7 @@ impl Thinned {
         self.seen += 1;
     }
 
-    /// The last one kept that begins by time t.
+    /// The last kept step that begins at or before t.
     pub(crate) fn at(&self, t: f64) -> Option<&Step> {
         self.steps[..self.steps.partition_point(|step| step.t <= t)].last()
     }

@@ -1,4 +1,4 @@
-//! A run that is judged as it goes.
+//! A run that is classified while it proceeds.
 
 use crate::{Observer, Outcome, judge};
 use stickslip_tip::state::State;
@@ -6,7 +6,7 @@ use stickslip_tip::{
     InitialSurface, Run, RunError, Running, Scenario, Step, Trajectory, Work, run,
 };
 
-/// A tip on its way through a scenario, and what its [`Outcome`] is read from: the steps at the end.
+/// A tip on its way through a scenario, with the last steps, from which its [`Outcome`] follows.
 pub struct Watched<'a> {
     scenario: &'a Scenario,
     running: Running<'a>,
@@ -15,7 +15,7 @@ pub struct Watched<'a> {
 }
 
 impl<'a> Watched<'a> {
-    /// At the start of a scenario, over its [`Scenario::initial_surface`].
+    /// A tip at the start of a scenario, on its [`Scenario::initial_surface`].
     ///
     /// # Errors
     /// A parameter out of range.
@@ -25,8 +25,8 @@ impl<'a> Watched<'a> {
         Ok(Self { scenario, running, observer, surface })
     }
 
-    /// Where [`save`](Self::save) was called: every step from there on is the same to the last bit as
-    /// without the interruption.
+    /// Resumes the run where [`save`](Self::save) was called. Every later step is the same to the last bit as without
+    /// the interruption.
     ///
     /// # Errors
     /// As [`new`](Self::new); a state that is not one of this scenario.
@@ -43,7 +43,7 @@ impl<'a> Watched<'a> {
         Ok(Self { scenario, running, observer, surface })
     }
 
-    /// All that the rest of the run, and its outcome, depend on, beside the scenario.
+    /// The complete state: with the scenario, it determines the rest of the run and its outcome.
     #[must_use]
     pub fn save(&self) -> State {
         let mut state = State::default();
@@ -52,7 +52,7 @@ impl<'a> Watched<'a> {
         state
     }
 
-    /// Makes the next step; `None` once the end of the scenario is reached.
+    /// Makes the next step; `None` at the end of the scenario.
     ///
     /// # Errors
     /// The tolerance cannot be met.
@@ -62,7 +62,7 @@ impl<'a> Watched<'a> {
         Ok(step)
     }
 
-    /// The last step made.
+    /// The last step.
     #[must_use]
     pub fn last(&self) -> Option<Step> {
         self.observer.last()
@@ -74,7 +74,7 @@ impl<'a> Watched<'a> {
         self.running.t()
     }
 
-    /// What the motion is, were the run to end here. This takes milliseconds: a cycle may be solved for.
+    /// Classifies the motion up to the present time. This takes milliseconds, as a cycle may be computed.
     ///
     /// # Panics
     /// Before the first step.
@@ -83,33 +83,32 @@ impl<'a> Watched<'a> {
         judge(self.scenario, self.surface, &self.observer)
     }
 
-    /// The steps at the end that the outcome, and the ripple that belongs to it, are read from; `None`
-    /// before the first step.
+    /// The last steps, from which the outcome and the corresponding ripple follow; `None` before the first step.
     #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {
         self.observer.tail()
     }
 
-    /// Counts so far.
+    /// Work counts so far.
     #[must_use]
     pub fn work(&self) -> Work {
         self.running.work()
     }
 
-    /// Name of the memory in use.
+    /// Name of the present memory.
     #[must_use]
     pub fn memory(&self) -> &'static str {
         self.running.memory()
     }
 
-    /// Why that one.
+    /// Reason for the choice of this memory.
     #[must_use]
     pub fn memory_reason(&self) -> String {
         self.running.memory_reason()
     }
 }
 
-/// [`run`], and what became of it.
+/// Runs a scenario like [`run`] and classifies the motion.
 ///
 /// # Errors
 /// As [`run`].
@@ -119,7 +118,7 @@ pub fn run_and_judge(scenario: &Scenario) -> Result<(Run, Outcome), RunError> {
     Ok((run, outcome))
 }
 
-/// What the motion at the end of a trajectory is, which a run of the scenario over the surface has made.
+/// Classifies the motion at the end of a trajectory, computed from this scenario.
 #[must_use]
 pub fn judge_trajectory(
     scenario: &Scenario,

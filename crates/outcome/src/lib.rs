@@ -1,11 +1,10 @@
 //! Classification of a motion into regimes, with error estimates.
 //!
-//! A run shows maxima and minima of l and the steps at its end ([`Observer`]). What they mean is told by theory where
-//! it has an answer: whether steady motion is stable, by the roots of its characteristic equation; how far an
-//! oscillation is from a cycle, and whether and how fast it comes to it, by the cycle itself and its Floquet
-//! multipliers; whether a tip that is stuck will slip again, by the exponentials that its past has set going. Where
-//! there is none (J0 has no cycles), the changes from period to period are extrapolated. `docs/regimes.md` derives
-//! the criteria.
+//! An [`Observer`] collects the maxima and minima of l and the steps at the end of a run. Theory classifies the motion
+//! where it applies. The roots of the characteristic equation decide whether steady motion is stable. A limit cycle and
+//! its Floquet multipliers give the distance of an oscillation from the cycle, and the rate of approach. The exponentials
+//! in the history of a stuck tip decide whether it will slip again. Elsewhere (J0 has no cycles) the changes from period
+//! to period are extrapolated. `docs/regimes.md` derives the criteria.
 
 mod ahead;
 mod creep;
@@ -39,15 +38,15 @@ pub enum Regime {
     Steady,
     /// A periodic motion that repeats itself.
     StickSlip,
-    /// The tip creeps logarithmically in its own pit and will not come out.
+    /// The tip creeps logarithmically in its own pit and never slips.
     Trapped,
-    /// A tip without a spring moves on at one velocity.
+    /// A tip without a spring moves on at a constant velocity.
     Drifting,
-    /// None of these yet: a longer run will tell.
+    /// None of these yet: a longer run is needed to decide.
     Transient,
 }
 
-/// What became of a run.
+/// The regime of a run, with its figures and their errors.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The kind of motion.

@@ -7,24 +7,25 @@ use super::{StabilityError, corner, limits};
 use std::sync::Arc;
 use stickslip_tip::{TipFunction, Wider};
 
-/// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below it.
+/// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below αc.
 ///
-/// Several Ω can belong to one r; all are found by scanning Ω over the band of the tip function, and the one of the
-/// smallest α is returned. For J0 under the basic law, αc = r² and Ω of (47) are exact; the ω of (46), (47) is Ω of
+/// Several Ω can belong to one r. All are found by a scan of Ω over the band of the tip function, and the one with the
+/// smallest α is returned. For J0 in the basic model, αc = r² and Ω of (47) are exact. The ω of (46), (47) is Ω of
 /// section IV.B, so that the frequency in time is rΩ.
 ///
-/// Where the steady tip has the surface at height 0 under it and the depth limit its corner (β = 1 without
-/// healing), small deviations obey no linear law, but a homogeneous one: this is the α at which a small oscillation
-/// keeps its amplitude, whatever it is, and marked [`OnsetKind::NonSmooth`]. There are no roots there.
+/// If the height of the surface under the steady tip is 0, steady motion lies on the kink of |h| in the depth limit (β
+/// = 1 without healing). Small deviations then obey an equation that is homogeneous but not linear. The returned α is
+/// the one at which a small oscillation of any amplitude neither grows nor decays, marked [`OnsetKind::NonSmooth`].
+/// There are no roots there.
 ///
 /// # Errors
-/// r not a positive finite number, a parameter of the law out of range, no spring, [`StabilityError::NoCrossing`], also
-/// where αc is no finite number any more, or [`StabilityError::Unsettled`].
+/// r is not a positive finite number, a parameter of the model is out of range, or there is no spring;
+/// [`StabilityError::NoCrossing`], also if αc is not finite; or [`StabilityError::Unsettled`].
 pub fn critical(law: &Wider, tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
     Boundary::new(law, tip).at(r)
 }
 
-/// The boundary of one law and one tip function: the imaginary axis, scanned once for all r.
+/// The stability boundary of one model and one tip function: the imaginary axis, scanned once for all r.
 #[derive(Debug, Clone)]
 pub struct Boundary {
     law: Wider,
@@ -33,25 +34,25 @@ pub struct Boundary {
 
 #[derive(Debug, Clone)]
 enum Search {
-    /// J0 under the basic law.
+    /// J0 in the basic model.
     ClosedForm,
-    /// The curve (r(Ω), α(Ω)) of (42), (43), under the basic law.
+    /// The curve (r(Ω), α(Ω)) of (42), (43), in the basic model.
     Curve(Arc<Axis>),
-    /// Any law.
+    /// Any model.
     General(Scan),
 }
 
-/// A stretch of the curve on which Ω runs without a gap.
+/// A branch of the boundary curve, continuous in Ω.
 ///
-/// Where there are several, or where one of them turns back in r, only the lowest α at each r bounds
-/// the stable region; the others are further crossings inside the unstable one.
+/// If there are several branches, or if one of them turns back in r, only the lowest α at each r bounds the stable
+/// region; the others are further crossings inside the unstable one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BoundaryBranch {
     /// Ω = ω/r, ascending.
     pub wave_number: Vec<f64>,
-    /// (42)
+    /// r of (42) at each Ω.
     pub r: Vec<f64>,
-    /// (43)
+    /// α of (43) at each Ω.
     pub alpha: Vec<f64>,
 }
 
@@ -70,7 +71,7 @@ impl Boundary {
         Self { law: *law, search }
     }
 
-    /// αc(r), as [`critical`](super::critical), without scanning again where nothing heals.
+    /// αc(r), as [`critical`](super::critical), without another scan unless the surface heals.
     ///
     /// # Errors
     /// As [`critical`](super::critical).
@@ -88,10 +89,11 @@ impl Boundary {
         }
     }
 
-    /// b_c(r), as [`least_depth_limit`](super::least_depth_limit), without scanning again where nothing heals.
+    /// b_c(r), as [`least_depth_limit`](super::least_depth_limit), without another scan unless the surface heals.
     ///
     /// # Errors
-    /// As [`least_depth_limit`](super::least_depth_limit); the basic law, of which Gaussians and J0 are not scanned.
+    /// As [`least_depth_limit`](super::least_depth_limit); the basic model, for which Gaussians and J0 are not
+    /// scanned.
     pub fn least_depth_limit(&self, r: f64) -> Result<f64, StabilityError> {
         match &self.search {
             Search::General(scan) => limits::least_on(scan, &self.law, r),
@@ -99,7 +101,7 @@ impl Boundary {
         }
     }
 
-    /// The first crossing under any law, or where the steady tip is on the corner of |h| what takes its place.
+    /// The first crossing in any model, or the non-smooth onset if the steady tip is on the kink of |h|.
     fn first(&self, scan: &Scan, r: f64) -> Result<Option<Critical>, StabilityError> {
         let mut law = scan.law_at(r);
         let crossings = scan.crossings(&law).into_iter();
@@ -116,11 +118,11 @@ impl Boundary {
         Ok(alpha.is_finite().then(|| Critical::new(alpha, r, kind, first)))
     }
 
-    /// Every crossing at this r under the basic law, by rising α: the first is [`Boundary::at`], the others are where
+    /// All crossings at this r in the basic model, by increasing α. The first is [`Boundary::at`]; at the others
     /// further pairs of roots reach the imaginary axis.
     ///
     /// # Errors
-    /// As [`critical`](super::critical); any other law.
+    /// As [`critical`](super::critical); a model other than the basic one.
     pub fn all_at(&self, r: f64) -> Result<Vec<Critical>, StabilityError> {
         let first = self.at(r)?;
         match &self.search {
@@ -135,7 +137,7 @@ impl Boundary {
     }
 
     /// # Errors
-    /// r or a parameter of the law out of range, or no spring.
+    /// r or a parameter of the model is out of range, or there is no spring.
     fn judge(&self, r: f64) -> Result<(), StabilityError> {
         if !(r.is_finite() && r > 0.0) {
             return Err(StabilityError::R(r));
@@ -146,12 +148,12 @@ impl Boundary {
         Ok(self.law.validate()?)
     }
 
-    /// All stretches of the curve with `slowest` ≤ r ≤ `fastest`, `points` points in all, evenly spaced
-    /// in Ω on each, ends included.
+    /// All branches of the curve with `slowest` ≤ r ≤ `fastest`: `points` points in total, evenly spaced in Ω on each
+    /// branch, ends included.
     ///
     /// # Errors
-    /// [`StabilityError::R`] unless 0 < `slowest` < `fastest`, both finite,
-    /// [`StabilityError::NoCrossing`] if the curve has no such stretch, or any law but the basic one.
+    /// [`StabilityError::R`] unless 0 < `slowest` < `fastest`, both finite; [`StabilityError::NoCrossing`] if the
+    /// curve has no point in this range; a model other than the basic one.
     pub fn branches(
         &self,
         slowest: f64,

@@ -13,25 +13,25 @@ const CLUSTER: f64 = 1e-5;
 
 /// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max.
 ///
-/// No root lies right of it, above it or below it, so that what is certified is all of Re λ ≥ re_min.
-/// For J0 less the cuts |Im λ| = r, Re λ < 0.
+/// No root lies right of, above or below this rectangle, so that the certificate holds for all of Re λ ≥ re_min; for
+/// J0, except the cuts |Im λ| = r, Re λ < 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Region {
     /// Left edge.
     pub re_min: f64,
     /// Right edge.
     pub re_max: f64,
-    /// Upper edge, and the lower one mirrored.
+    /// Upper edge; the lower edge is its mirror image.
     pub im_max: f64,
 }
 
-/// What was counted, by the argument principle, against what a list holds.
+/// Comparison of a list of roots with their number by the argument principle.
 ///
 /// The count is a rounded floating-point number (it must lie within 1e-6 of a whole one) along a path
 /// whose steps follow h', not an enclosure in interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
-    /// Where.
+    /// The region in which roots were counted.
     pub region: Region,
     /// Roots in the region, with multiplicity, by the argument principle.
     pub counted: usize,
@@ -39,7 +39,7 @@ pub struct Certificate {
     pub found: usize,
     /// Largest |h| among them, relative to the sizes of the terms of h.
     pub largest_residual: f64,
-    /// Largest estimate of the error of a listed λ: what round-off in h displaces.
+    /// Largest estimate of the error of a listed λ: its displacement by round-off in h.
     pub largest_error: f64,
 }
 

@@ -1,9 +1,9 @@
-//! The rates p at which a trapped tip may creep, x0 ~ (1/p) ln t: the roots of 1 + (α/r) G(p) = 0 with a
-//! positive real part, all of them.
+//! All rates p at which a trapped tip may creep, x0 ~ (1/p) ln t: the roots of 1 + (α/r) G(p) = 0 with a positive real
+//! part.
 //!
-//! Where the tip hardly moves, the time θ(x) at which it reaches x obeys a linear equation whose solutions are
-//! Σ C e^{px} over these roots (`docs/mathematics.md`, section 8). The one of largest real part wins: a real
-//! one holds the tip for ever, a complex pair makes θ turn, so that every stick ends in a slip.
+//! If the tip hardly moves, the time θ(x) at which it reaches x obeys a linear equation with the solutions Σ C e^{px}
+//! over these roots (`docs/mathematics.md`, section 8). The root of largest real part dominates. If it is real, the
+//! tip is held permanently; if it is one of a complex pair, θ reaches a maximum, so that every stick ends in a slip.
 
 use super::StabilityError;
 use super::certificate::{Certificate, Region};

@@ -19,7 +19,7 @@ pub struct Critical {
     pub period: f64,
     /// L = 2πr/ω = 2π/Ω.
     pub wavelength: f64,
-    /// Whether it is a point of linear theory.
+    /// Whether linear theory holds at this point.
     pub kind: OnsetKind,
     /// A = αw0/r, the indentation of the steady tip per length.
     pub density: f64,
@@ -27,12 +27,13 @@ pub struct Critical {
     pub weight: f64,
 }
 
-/// The law of small deviations at the onset.
+/// The equation of small deviations at the onset: linear or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OnsetKind {
-    /// A linear law: this is the Hopf bifurcation.
+    /// A linear equation: this point is a Hopf bifurcation.
     Smooth,
-    /// A law with the corner of |h| in it: the height under the steady tip is 0. See [`critical`](super::critical).
+    /// A non-smooth equation: the height under the steady tip is 0, on the kink of |h|. See
+    /// [`critical`](super::critical).
     NonSmooth,
 }
 
@@ -45,12 +46,12 @@ impl Critical {
         Self { alpha, r, omega, period, wavelength, kind, density, weight }
     }
 
-    /// Under the basic law, by (43) αc = r/c.
+    /// The critical point in the basic model, by (43): αc = r/c.
     pub(super) fn on_curve(r: f64, AxisPoint { cosine, wave_number, .. }: AxisPoint) -> Self {
         Self::basic(r / cosine, r, wave_number)
     }
 
-    /// Of J0 under the basic law: αc = r², and Ω of (47).
+    /// The critical point of J0 in the basic model: αc = r², and Ω of (47).
     pub(super) fn bessel(r: f64) -> Self {
         Self::basic(r * r, r, bessel_wave_number(r))
     }
@@ -61,12 +62,12 @@ impl Critical {
     }
 }
 
-/// rc(α): the largest r at which a root of (30) reaches the imaginary axis, under the basic law.
+/// rc(α): the largest r at which a root of (30) reaches the imaginary axis, in the basic model.
 ///
-/// Coming from fast motion, which is stable, this is where stability is lost.
+/// As r decreases from large values, where steady motion is stable, it becomes unstable here.
 ///
 /// # Errors
-/// `alpha` not a positive finite number, no crossing at any r, or any other law.
+/// `alpha` is not a positive finite number, there is no crossing at any r, or the model is not the basic one.
 pub fn critical_r(law: &Wider, tip: &TipFunction, alpha: f64) -> Result<Critical, StabilityError> {
     if !law.is_papers() {
         return Err(StabilityError::PapersLawOnly("the r at which a given α is critical"));
@@ -89,7 +90,7 @@ pub(super) fn by_cosine(a: &AxisPoint, b: &AxisPoint) -> std::cmp::Ordering {
     a.cosine.total_cmp(&b.cosine)
 }
 
-/// Why nothing was found, if the search came to its end.
+/// Error of a search without result: `Stopped` after a request to stop, else `none`.
 pub(super) fn unless_stopped(none: StabilityError) -> StabilityError {
     if stop::is_asked() { StabilityError::Stopped } else { none }
 }

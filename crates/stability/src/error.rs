@@ -1,8 +1,8 @@
-//! What can go wrong in a stability computation.
+//! Errors of the linear-stability functions.
 
 use thiserror::Error;
 
-/// Why a stability figure could not be had.
+/// An error of a linear-stability function.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum StabilityError {
     /// r must be finite and > 0.
@@ -11,12 +11,12 @@ pub enum StabilityError {
     /// α must be finite and > 0 here.
     #[error("alpha is {0:?}: the dimensionless indentation rate (13) must be a finite number > 0")]
     Alpha(f64),
-    /// κ_y must be finite and > 0, and no part of r that round-off is larger than.
+    /// κ_y must be finite and > 0, and not so small a fraction of r that round-off hides it.
     #[error(
         "the stiffness across is {0:?}: it must be a finite number above 0, in units of that along, and no less than 1e-9 of r"
     )]
     StiffnessAcross(f64),
-    /// J0 or cos x across the scan.
+    /// Growth exponents across the scan were requested for J0 or cos x.
     #[error("growth exponents across the scan are available for sums of Gaussians only")]
     AcrossGaussiansOnly,
     /// No root reaches the imaginary axis, however large α.
@@ -24,13 +24,13 @@ pub enum StabilityError {
         "steady motion with this tip function at r = {r:?} is stable for every alpha: no root reaches the imaginary axis"
     )]
     NoCrossing {
-        /// The support velocity asked for.
+        /// The requested support velocity.
         r: f64,
     },
     /// No support velocity loses stability at this α.
     #[error("no r makes alpha = {alpha:?} critical for this tip function")]
     NoCriticalR {
-        /// The indentation rate asked for.
+        /// The requested indentation rate.
         alpha: f64,
     },
     /// The bound on Re λ must be finite.
@@ -39,18 +39,17 @@ pub enum StabilityError {
     /// A root lies on the line along which roots are counted.
     #[error("a root lies on the line Re λ = {re:?}, or too close to it to count: move the bound")]
     RootOnContour {
-        /// Where.
+        /// Re λ of this line.
         re: f64,
     },
-    /// α, r and the tip so far apart that the roots cannot be counted, or told from each other, in floating
-    /// point.
+    /// α, r and the size of the tip differ so much that the roots cannot be counted or separated in floating point.
     #[error(
         "the roots at alpha = {alpha:?} and r = {r:?} lie too far apart to be counted: for a tip of height and width 1, alpha/r² should be between 1e-50 and 1e14, and r below 1e12"
     )]
     TooFarApart {
-        /// The indentation rate asked for.
+        /// The requested indentation rate.
         alpha: f64,
-        /// The support velocity asked for.
+        /// The requested support velocity.
         r: f64,
     },
     /// Fewer roots found than counted.
@@ -58,51 +57,51 @@ pub enum StabilityError {
         "{counted} roots were counted but {found} found: they lie too close together, move the bound"
     )]
     RootsMissing {
-        /// By the argument principle.
+        /// Number of roots by the argument principle.
         counted: usize,
-        /// By Newton's method.
+        /// Number of roots by Newton's method.
         found: usize,
     },
     /// The coefficients of the amplitude equation are infinite or vanish.
     #[error("the bifurcation at r = {r:?} is degenerate: its leading order says nothing there")]
     DegenerateOnset {
-        /// The support velocity asked for.
+        /// The requested support velocity.
         r: f64,
     },
-    /// A pulse that is none.
+    /// The amplitude, center or width of a pulse is invalid.
     #[error(
         "pulse number {index}: amplitude, center and width must be finite and the width, {width:?}, above 0"
     )]
     Pulse {
-        /// Counted from 1.
+        /// Number of the pulse, from 1.
         index: usize,
-        /// As given.
+        /// Its width.
         width: f64,
     },
-    /// A pitch that is no distance, or one that crowds more lines within reach than can be summed.
+    /// The pitch is not a positive finite number, or so small that the scan lines within reach are too many to sum.
     #[error(
         "the pitch is {0:?}: the distance of scan lines must be a finite number above 0, and no less than 1e-5 of the reach of the tip across them"
     )]
     Pitch(f64),
-    /// Too many cells of wave numbers and phases: [`crate::Raster::critical`].
+    /// The search of [`crate::Raster::critical`] needs too many cells of wave numbers and phases.
     #[error(
         "the threshold of the raster is not certain: {cells} cells of wave numbers and phases did not suffice to rule out a lower one"
     )]
     Uncertified {
-        /// How many were looked at.
+        /// Number of cells examined.
         cells: usize,
     },
-    /// A raster of J0 or cos x.
+    /// The threshold of a raster was requested for J0 or cos x.
     #[error(
         "thresholds of rasters are available for sums of Gaussians only: the Fourier transform of this tip function is infinite at the wave number 1, and so is the answer of a line to ripples of the lines before it"
     )]
     NoRipples,
-    /// Healing on the way back.
+    /// The threshold of a zigzag was requested for a healing surface.
     #[error(
         "a zigzag over a healing surface has no threshold of its own: the time since the line before passed a place differs along the line, so that no wave e^(iqx) is its own answer; go one way, or leave the healing time out"
     )]
     HealingZigzag,
-    /// Nobody waits for it any more: [`stickslip_tip::stop`].
+    /// A request to stop: [`stickslip_tip::stop`].
     #[error("stopped before it was found")]
     Stopped,
     /// p ∫e^{-ps}(-f')ds is nowhere positive: nothing can hold the tip.
@@ -116,38 +115,38 @@ pub enum StabilityError {
     /// A tip with a spring does not walk.
     #[error("a tip on a spring does not walk: its steady motion is that of the support")]
     Dragged,
-    /// Steady motion on the corner of |h|.
+    /// Steady motion lies on the kink of |h|.
     #[error(
         "steady motion leaves the height under this tip at 0, where the depth limit (61) has the corner of |h|: small deviations obey no linear law there, and have no roots"
     )]
     Corner,
-    /// The harmonics of |h| did not settle.
+    /// The iteration for the harmonics of |h| did not converge.
     #[error(
         "at the depth limit {limit:?} the harmonics of |h| are too large a part of the oscillation for its onset to be found by balancing them: take a larger b"
     )]
     Unsettled {
-        /// b
+        /// The depth limit b.
         limit: f64,
     },
-    /// J0, whose transforms have branch points on the edge of what can be counted.
+    /// The bound is too far left for J0, whose transforms have branch points.
     #[error(
         "for J0 under this law roots are counted right of its branch points only, on Re λ ≥ {least:?}, not from {bound:?}"
     )]
     BranchPoints {
-        /// -1/T, or 0.
+        /// The smallest admissible bound: -1/T, or 0.
         least: f64,
-        /// The bound asked for.
+        /// The requested bound.
         bound: f64,
     },
-    /// A parameter of the wider law.
+    /// A parameter of the extended model is out of range.
     #[error(transparent)]
     Wider(#[from] stickslip_tip::WiderError),
-    /// Something that is had under the paper's law only.
+    /// The quantity is available for the basic model only.
     #[error(
         "{0} is not had under a depth limit, healing or inertia, but under the paper's law only"
     )]
     PapersLawOnly(&'static str),
-    /// A limit asked for where there is none.
+    /// The requested limit does not exist.
     #[error("{0}")]
     NoLimit(&'static str),
 }

@@ -6,15 +6,16 @@
 //!     h(Λ) = rΛ + 1 + (α/r) G(Λ) = 0,    G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy      (30)
 //! ```
 //!
-//! [`critical`] and [`Boundary`] find where the first root reaches the imaginary axis, [`roots`] and
-//! [`leading_roots`] list all roots right of a line with a [`Certificate`] that none is missing,
-//! [`response`] adds them up after a weak pulse, and [`onset`] says what is born at the boundary.
-//! [`trapping_alpha`] is the threshold of motion that never returns to stick-slip, [`creep`] lists all rates at
-//! which it may creep. All but these and [`onset`] take the wider law (a depth limit, healing, inertia) as well:
-//! A tip that gives way across the scan may [snake](Snaking), and lines of it bunch ([`Raster::with_stiffness_across`]).
-//! [`least_depth_limit`] and [`memory_length`] say what leaves nothing unstable, [`walking_speeds`] and [`walk`] what a
-//! tip without a spring does. `docs/stability.md` derives all of it. Nothing here integrates (18) in time, so either
-//! can judge the other.
+//! [`critical`] and [`Boundary`] find where the first root reaches the imaginary axis. [`roots`] and [`leading_roots`]
+//! list all roots right of a line, with a [`Certificate`] that none is missing. [`response`] sums them after a weak
+//! pulse, and [`onset`] gives the oscillation that bifurcates at the boundary. [`trapping_alpha`] is the threshold of
+//! motion that never returns to stick-slip, and [`creep`] lists all possible rates of this creep. All functions but
+//! these three ([`onset`], [`trapping_alpha`], [`creep`]) accept the extended model (a depth limit, healing, inertia)
+//! as well. A tip that is flexible across the scan may [snake](Snaking), and its scan lines may bunch
+//! ([`Raster::with_stiffness_across`]). [`least_depth_limit`] and [`memory_length`] give limits within which steady
+//! motion is always stable; [`walking_speeds`] and [`walk`] treat a tip without a spring. `docs/stability.md` derives
+//! all of it. Nothing here integrates (18) in time, so that linear theory and integration are independent tests of
+//! each other.
 
 mod axis;
 mod bessel_roots;

@@ -1,4 +1,4 @@
-//! What depth limit and what healing leave nothing unstable.
+//! Limits of the depth limit and of the memory length below which steady motion is always stable.
 
 use super::StabilityError;
 use super::crossings::{Scan, beside_resonance, least, wave_numbers};
@@ -8,10 +8,11 @@ use num_complex::Complex64;
 use stickslip_tip::roots::halved_between;
 use stickslip_tip::{TipFunction, Wider};
 
-/// Ladder of s = 1/(rT) on which the memory length is looked for: from so many bands down, by this factor.
+/// Values of s = 1/(rT) in the search for the memory length: they begin at this number of bands and fall by this
+/// factor,
 const BANDS: f64 = 10.0;
 const FACTOR: f64 = 1.05;
-/// And to this part of where it began.
+/// down to this fraction of the first.
 const LEAST: f64 = 1e-6;
 
 /// b_c(r): the depth limit b below which no α makes steady motion unstable, with the healing and the inertia of
@@ -21,13 +22,13 @@ const LEAST: f64 = 1e-6;
 /// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A.
 ///
 /// # Errors
-/// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] where nothing is
-/// unstable at any b.
+/// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] if steady motion is stable at
+/// every b.
 pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
     least_on(&Scan::new(wider, tip), wider, r)
 }
 
-/// The same with the imaginary axis at hand.
+/// b_c(r) on a given imaginary axis.
 pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, StabilityError> {
     let tip = scan.tip();
     if !(r.is_finite() && r > 0.0) {
@@ -114,12 +115,13 @@ fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
 /// The memory length rT below which steady motion is stable at every α, r and M, on a surface that heals without
 /// a depth limit.
 ///
-/// Of N = 0 on the axis the imaginary part is rΩ + A Im G(s + iΩ) = 0, s = 1/(rT): there is no root where
-/// Im G(s + iΩ) ≥ 0 for all Ω. That ends at Ω → 0 where G'(s) changes its sign, with it d l0/dr: then the length
-/// holds for each r by itself. If it ends at some Ω > 0, then at some r only.
+/// On the axis the imaginary part of N = 0 is rΩ + A Im G(s + iΩ) = 0, s = 1/(rT), so that there is no root if Im G(s
+/// + iΩ) ≥ 0 for all Ω. At the memory length this condition ceases to hold. If it does so at Ω → 0, where G'(s) and
+/// with it d l0/dr change their sign, the length is exact for each r separately. If it does so at some Ω > 0, the
+/// length is exact for some r only.
 ///
 /// # Errors
-/// [`StabilityError::NoLimit`] if it never ends.
+/// [`StabilityError::NoLimit`] if the condition holds for all lengths.
 pub fn memory_length(tip: &TipFunction) -> Result<f64, StabilityError> {
     let law = Law::with_density(&Wider::default(), tip, 1.0, 1.0);
     let samples = wave_numbers(tip);

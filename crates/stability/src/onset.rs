@@ -1,4 +1,4 @@
-//! What is born at the boundary: the Hopf bifurcation to leading order.
+//! The oscillation that bifurcates at the stability boundary: the Hopf bifurcation to leading order.
 //!
 //! With l = l0 + A e^{iωt} + c.c. + …, (18) expanded to third order in the differences
 //! l(t-τ) - l(t) and the amplitude equation read off at frequency ω (Lindstedt's method, which on the
@@ -17,7 +17,7 @@ use stickslip_tip::{TipFunction, Wider};
 pub enum Criticality {
     /// Stable and small, for α above αc.
     Supercritical,
-    /// Unstable, for α below αc: beyond αc the tip leaves for a large motion at once.
+    /// Unstable, for α below αc: above αc the tip immediately changes to a large motion.
     Subcritical,
 }
 
@@ -26,13 +26,13 @@ pub enum Criticality {
 pub struct Onset {
     /// The critical point.
     pub critical: Critical,
-    /// Which way it branches.
+    /// The side of the boundary on which the oscillation exists.
     pub criticality: Criticality,
-    /// First Lyapunov coefficient, Re(N/D_λ): |A|' = … + this |A|³. Negative if supercritical.
+    /// First Lyapunov coefficient, Re(N/D_λ): the coefficient of |A|³ in |A|'. Negative if supercritical.
     pub lyapunov: f64,
     /// d(Re λ)/dα of the critical pair.
     pub growth_slope: f64,
-    /// d(a²)/dα with a half the peak-to-peak of l (or x0). Negative if subcritical.
+    /// d(a²)/dα, where a is half the peak-to-peak value of l (or x0). Negative if subcritical.
     pub amplitude_squared_slope: f64,
     /// dT/dα along the branch.
     pub period_slope: f64,
@@ -42,8 +42,8 @@ pub struct Onset {
 
 /// The bifurcation at αc(r).
 ///
-/// Limits: leading order, so figures for α hold within a relative O(α - αc); a critical pair that is
-/// the only one on the axis; for J0 not where 2Ω = 1, the branch point, at which N is infinite.
+/// Limits: the results are of leading order, with a relative error O(α - αc) in quantities that depend on α. The
+/// critical pair must be the only one on the axis. For J0, 2Ω = 1 is excluded: N is infinite at this branch point.
 ///
 /// # Errors
 /// As [`critical`]; [`StabilityError::DegenerateOnset`] where the coefficients are not finite or vanish.

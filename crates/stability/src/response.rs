@@ -13,16 +13,16 @@ use stickslip_tip::{Model, Pulse};
 pub struct ResponseMode {
     /// λ
     pub lambda: Complex64,
-    /// F̃ext(λ)/(K̃'(λ) - 1), summed over the pulses.
+    /// The residue F̃ext(λ)/(K̃'(λ) - 1), summed over the pulses.
     pub residue: Complex64,
 }
 
-/// l(t) - l0 of a steady tip after weak pulses, to first order in them.
+/// l(t) - l0 of a tip in steady motion after weak pulses, to first order in the pulses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
     /// By falling Re λ.
     pub modes: Vec<ResponseMode>,
-    /// With the certificate that no mode right of the last is missing.
+    /// The modes, with the certificate that no mode right of the last is missing.
     pub spectrum: Spectrum,
     pulses: Vec<Pulse>,
     /// 1/(K̃'(λ) - 1) of each mode.
@@ -31,13 +31,12 @@ pub struct Response {
 
 /// The response of steady motion to `pulses`, from at least `count` leading roots.
 ///
-/// What is left out are modes that decay faster: the error falls like e^{Re λ t} of the first of them,
-/// so that the sum is good from shortly after a pulse. Residues take the roots to be simple, which they
-/// are but on curves in the (r, α) plane. For J0 the branch points ±ir add a term that falls like
-/// t^{-3/2}, which is not a mode and left out.
+/// Faster modes are left out: the error decays like e^{Re λ t} of the first of them, so that the sum is accurate from
+/// shortly after a pulse. The residues assume simple roots; the exceptions are curves in the (r, α) plane. For J0 the
+/// branch points ±ir add a term that decays like t^{-3/2}; it is not a mode and is left out.
 ///
 /// # Errors
-/// A pulse with a figure that is not finite or a width ≤ 0; else as [`super::roots`].
+/// A pulse has a value that is not finite or a width ≤ 0; otherwise as [`super::roots`].
 pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Response, StabilityError> {
     for (i, p) in pulses.iter().enumerate() {
         if ![p.amplitude, p.time, p.width].iter().all(|v| v.is_finite()) || p.width <= 0.0 {
@@ -56,8 +55,8 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
 }
 
 impl Response {
-    /// l(t) - l0 at all times up to `until`, those in which pulses last too, to 1e-9 of its largest value; `None` where
-    /// the pulses are too short for so long a time. `model` is that of the response.
+    /// l(t) - l0 at all times up to `until`, also during the pulses, with an error of 1e-9 of its largest value.
+    /// `None` if the pulses are too short compared with `until`. `model` is that of the response.
     #[must_use]
     pub fn while_pulses_last(&self, model: &Model, until: f64) -> Option<Inversion> {
         let rightmost = self.modes.first().map_or(0.0, |mode| mode.lambda.re);
@@ -65,11 +64,11 @@ impl Response {
         Inversion::new(|z| h.response(z).0, &self.pulses, rightmost, until)
     }
 
-    /// l(t) - l0: each mode convolved with the force up to t.
+    /// l(t) - l0 as a sum over modes, each convolved with the force up to t.
     ///
-    /// Before a pulse it vanishes as it should; while one lasts the modes left out count, up to a quarter of the
-    /// response, and [`while_pulses_last`](Self::while_pulses_last) has it. 3 time units after a pulse of width 0.5, ten
-    /// modes give it to 1e-8.
+    /// Before a pulse it is 0, as it must be. During a pulse the missing modes cause errors of up to a quarter of the
+    /// response; use [`while_pulses_last`](Self::while_pulses_last). At 3 time units after a pulse of width 0.5, ten
+    /// modes have an error of 1e-8.
     #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         let mode = |(mode, weight): (&ResponseMode, &Complex64)| {

@@ -54,7 +54,7 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
 /// How many roots lie right of the imaginary axis: 0 where steady motion is stable.
 ///
 /// # Errors
-/// As [`roots`]; on the boundary itself the count is that of a line a little to the left.
+/// As [`roots`]; on the boundary itself, roots are counted right of a line slightly to the left.
 pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
     if has_closed_form(model) {
         return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);
@@ -62,9 +62,9 @@ pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
     Ok(counted(&Characteristic::new(model)?, 0.0)?.count)
 }
 
-/// Checks any list of roots λ against a fresh count of those with Re λ ≥ `bound`.
+/// Checks a list of roots λ against a new count of those with Re λ ≥ `bound`.
 ///
-/// A root left out, listed twice, or displaced shows in [`Certificate::is_complete`].
+/// If a root is missing, listed twice or displaced, [`Certificate::is_complete`] is false.
 ///
 /// # Errors
 /// As [`roots`].

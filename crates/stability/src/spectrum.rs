@@ -1,19 +1,19 @@
-//! Growth exponents and what is known about them.
+//! Growth exponents with their certificate.
 
 use super::certificate::{Certificate, Region};
 use num_complex::Complex64;
 
-/// Roots of (29) and what is known about them.
+/// Roots of (29) with their certificate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// λ by falling real part, both of each conjugate pair (the one above the real axis first).
     pub roots: Vec<Complex64>,
-    /// That none is missing.
+    /// Certificate that none is missing.
     pub certificate: Certificate,
 }
 
 impl Spectrum {
-    /// No roots, and none looked for.
+    /// An empty list, without a search.
     #[must_use]
     pub fn none() -> Self {
         let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };

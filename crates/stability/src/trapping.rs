@@ -1,4 +1,4 @@
-//! Trapping: the logarithmic creep of a tip that the groove it digs holds for ever.
+//! Trapping: the logarithmic creep of a tip that its own groove holds permanently.
 //!
 //! x0 ~ (1/p) ln t solves (10) to leading order in t if α/r = 1/Q(p),
 //! Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds = -G(p). `docs/stability.md` derives it.
@@ -12,11 +12,11 @@ use stickslip_tip::roots::bisected;
 /// Samples of ln p in the search for the largest Q.
 const SAMPLES: u32 = 400;
 
-/// The smallest α at which there is a creep x0 ~ (1/p) ln t: r / max_p Q(p). On a footprint of several peaks it
-/// may not attract there: [`super::Creep::attracting`].
+/// Trapping threshold: the smallest α with a creep x0 ~ (1/p) ln t, r / max_p Q(p). For a footprint with several peaks
+/// the creep need not attract there: see [`super::Creep::attracting`].
 ///
 /// # Errors
-/// `r` not a positive finite number, or Q nowhere positive.
+/// `r` is not a positive finite number, or Q is nowhere positive.
 pub fn trapping_alpha(tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
     if !(r.is_finite() && r > 0.0) {
         return Err(StabilityError::R(r));
@@ -44,7 +44,7 @@ impl Push {
         (-g.value.re, -g.derivative.re)
     }
 
-    /// p and Q at the highest maximum, if that is positive.
+    /// p and Q at the highest maximum of Q, if that is positive.
     fn largest(&self) -> Option<(f64, f64)> {
         let ratio = (self.fastest / self.slowest).powf(1.0 / f64::from(SAMPLES));
         let sample = |i: u32| self.slowest * ratio.powi(i.cast_signed());

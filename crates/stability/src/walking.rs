@@ -1,8 +1,8 @@
-//! Tips without a spring that walk: driven for ever by the slope of what they left themselves.
+//! Walking: the motion of a tip without a spring, driven permanently by the slope of its own groove.
 //!
-//! A steady walk with speed v over its own groove needs v = (α w0/v) φ1(s), s = 1/(vT): v² = α w0 φ1(s). For α < 0
-//! the tip raises the surface and is pushed away from where it was. From rest, v → 0, φ1 → f''(0)v²T²: walking
-//! begins where αT²f''(0) = 1.
+//! A steady walk with speed v over its own groove satisfies v = (α w0/v) φ1(s), s = 1/(vT), that is, v² = α w0 φ1(s).
+//! For α < 0 the tip raises the surface, which pushes it away from its past positions. As v → 0, φ1 → f''(0)v²T²:
+//! walking begins at αT²f''(0) = 1.
 
 use super::characteristic::Characteristic;
 use super::crossings::zeros;
@@ -12,35 +12,35 @@ use super::{Spectrum, StabilityError};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// Speeds are looked for from this part of the largest possible, so many to a decade.
+/// Lower end of the search for speeds, as a fraction of the largest possible one, and samples per decade.
 const SLOWEST: f64 = 1e-7;
 const PER_DECADE: u32 = 60;
-/// The root that a shift of the whole walk has is 0 but for round-off.
+/// Largest round-off of the root 0, which belongs to a shift of the whole walk.
 const NEUTRAL: f64 = 1e-9;
 
 /// A steady walk with the roots of small deviations from it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Walk {
-    /// v
+    /// The speed v.
     pub speed: f64,
     /// w0, the rate of indentation relative to α.
     pub weight: f64,
-    /// λ = vΛ, the neutral root 0 of a shift among them.
+    /// λ = vΛ, including the neutral root 0 of a shift.
     pub spectrum: Spectrum,
 }
 
 impl Walk {
-    /// Roots right of the imaginary axis.
+    /// Number of roots right of the imaginary axis.
     #[must_use]
     pub fn unstable_count(&self) -> usize {
         self.spectrum.roots.iter().filter(|z| z.re > 0.0).count()
     }
 }
 
-/// All speeds v > 0 of steady walks, ascending, between 1e-7 of the largest possible and that.
+/// All speeds v > 0 of steady walks, ascending, from 1e-7 of the largest possible speed up to this speed.
 ///
 /// # Errors
-/// [`StabilityError::Dragged`] with a spring.
+/// [`StabilityError::Dragged`] if the model has a spring.
 pub fn walking_speeds(model: &Model) -> Result<Vec<f64>, StabilityError> {
     if model.wider().spring {
         return Err(StabilityError::Dragged);
@@ -85,16 +85,17 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
     Ok(Walk { speed, weight, spectrum })
 }
 
-/// α below which (it is negative) a tip at rest that heals within T begins to walk: 1/(T²f''(0)).
+/// Threshold of walking, 1/(T²f''(0)), a negative number: for α below it a tip at rest on a surface that heals within
+/// T begins to walk.
 ///
-/// At rest λ(Mλ + 1) = α f''(0) λT/(λ + 1/T), whatever M: the root 0 has company there. A depth limit does not count
-/// at rest, but for the weight of w.
+/// At rest λ(Mλ + 1) = α f''(0) λT/(λ + 1/T): at the threshold 0 is a double root for any M. A depth limit changes
+/// nothing at rest except the weight w.
 #[must_use]
 pub fn walking_alpha(tip: &TipFunction, healing_time: f64) -> f64 {
     1.0 / (healing_time * healing_time * tip.slope_and_curvature(0.0).1)
 }
 
-/// A tip dragged as fast has the same groove, up to its sign.
+/// The model of a dragged tip of the same speed: its groove is the same, except for the sign.
 fn law_at(model: &Model, speed: f64) -> Law {
     let dragged = Wider { spring: true, ..*model.wider() };
     let weight = Model::under(dragged, model.tip().clone(), model.alpha().abs(), speed)
@@ -102,7 +103,7 @@ fn law_at(model: &Model, speed: f64) -> Law {
     Law::with_density(model.wider(), model.tip(), speed, model.alpha() * weight / speed)
 }
 
-/// Of |φ1|: ∫_0^∞|f'|, or 1 for J0 and cos x.
+/// Bound on |φ1|: ∫_0^∞|f'|, or 1 for J0 and cos x.
 fn slope_bound(tip: &TipFunction) -> f64 {
     match tip {
         TipFunction::Gaussians(sum) => sum.terms().iter().map(|g| 2.0 * g.amplitude.abs()).sum(),

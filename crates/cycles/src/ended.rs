@@ -1,30 +1,30 @@
-//! How a run ended, as far as a search for cycles must know. What its motion is, is for `stickslip-outcome` to judge.
+//! State of a run at its end, as far as the search for cycles needs it. `stickslip-outcome` classifies the motion.
 
 use stickslip_tip::motion::{Oscillation, latest_extrema};
 use stickslip_tip::{Run, Scenario};
 
-/// A run that came near no stable cycle.
+/// A run that came close to no stable cycle.
 #[derive(Debug, Clone)]
 pub struct Tried {
-    /// What was run.
+    /// The scenario of the run.
     pub scenario: Scenario,
     /// The run.
     pub run: Run,
 }
 
-/// What the end of a run shows.
+/// State of a run at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
-    /// l repeats itself.
+    /// l is periodic.
     Repeating,
-    /// l has only risen in the second half of the run: the groove holds the tip, for long or for ever.
+    /// l has only risen in the second half of the run: the groove holds the tip, for a long time or permanently.
     Stuck,
     /// Neither.
     Unsettled,
 }
 
 impl Tried {
-    /// What its end shows.
+    /// The state at the end of this run.
     #[must_use]
     pub fn ended(&self) -> Ended {
         let trajectory = &self.run.trajectory;

@@ -1,4 +1,4 @@
-//! Why a cycle could not be had.
+//! Errors of the limit-cycle functions.
 
 use crate::Ended;
 use stickslip_stability::StabilityError;
@@ -6,37 +6,37 @@ use stickslip_tip::RunError;
 use stickslip_tip::memory::FitError;
 use thiserror::Error;
 
-/// Why there is no cycle to give.
+/// An error of a limit-cycle function.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CycleError {
-    /// A residual that cannot be reached, or is none.
+    /// The residual is out of range.
     #[error(
         "the tolerance must lie between {min:e}, below which round-off takes over, and {max:e}; {0:e} does not",
         min = super::TOLERANCES.0, max = super::TOLERANCES.1
     )]
     Tolerance(f64),
-    /// Nothing drags the tip.
+    /// The model has no spring, so that nothing drags the tip.
     #[error(
         "cycles are those of a tip on a spring, behind a support: l repeats itself; without one there is none"
     )]
     NoSpring,
-    /// A footprint whose past is no state of few numbers.
+    /// The footprint never fades: its history is no state of a few numbers.
     #[error(
         "cycles need a footprint that fades; this one does not (J0 falls like 1/√x, cos x not at all)"
     )]
     NeverFades,
-    /// A footprint with more detail than a sum of exponentials can follow.
+    /// The footprint has too much detail for a sum of exponentials.
     #[error(
         "the past of the tip cannot be told well enough for cycles to a tolerance of {allowed:e}: {}",
         instead(*reached)
     )]
     Rough {
-        /// The tolerance asked for.
+        /// The requested tolerance.
         allowed: f64,
-        /// What the best sum of exponentials allows.
+        /// The smallest tolerance that the best sum of exponentials permits.
         reached: f64,
     },
-    /// f' cannot be fitted.
+    /// The fit of f' failed.
     #[error(transparent)]
     Fit(FitError),
     /// Steady motion is stable, and the small cycle exists only on the other side of αc.
@@ -44,56 +44,56 @@ pub enum CycleError {
         "there is no small cycle at alpha = {alpha:?}: the one that is born at alpha = {critical:?} (r = {r:?}) exists only above that, and below it steady motion is stable"
     )]
     NoSmallCycle {
-        /// As asked.
+        /// The requested α.
         alpha: f64,
-        /// As asked.
+        /// The requested r.
         r: f64,
         /// αc(r).
         critical: f64,
     },
-    /// Nobody waits for it any more: [`stickslip_tip::stop`].
+    /// A request to stop: [`stickslip_tip::stop`].
     #[error("stopped before a cycle was found")]
     Stopped,
-    /// Runs did not come near a cycle.
+    /// No run came close to a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
         Ended::told(*ended)
     )]
     NoCycleReached {
-        /// As asked.
+        /// The requested α.
         alpha: f64,
-        /// As asked.
+        /// The requested r.
         r: f64,
-        /// What the longest run ended as.
+        /// Result of the longest run.
         ended: Option<Ended>,
     },
-    /// Newton's method did not converge from the cycle given.
+    /// Newton's method did not converge from the given cycle.
     #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
     NotConverged {
-        /// As asked.
+        /// The requested α.
         alpha: f64,
-        /// As asked.
+        /// The requested r.
         r: f64,
     },
-    /// The eigenvalues of the monodromy matrix cannot be had.
+    /// The eigenvalues of the monodromy matrix are not available.
     #[error(
         "the cycle at alpha = {alpha:?}, r = {r:?} is beyond what its Floquet multipliers can be computed for"
     )]
     Multipliers {
-        /// As asked.
+        /// The requested α.
         alpha: f64,
-        /// As asked.
+        /// The requested r.
         r: f64,
     },
-    /// The tip steps back farther than the past can be told by exponentials.
+    /// The tip moves back farther than the sum of exponentials is valid.
     #[error("the tip steps back by {retreat:.3}, more than the {most:.3} that cycles allow for")]
     Retreat {
-        /// Farthest step back, in σ.
+        /// Largest backward motion, in σ.
         retreat: f64,
-        /// Farthest that holds.
+        /// Largest backward motion for which the sum is valid, in σ.
         most: f64,
     },
-    /// No critical point.
+    /// There is no critical point.
     #[error(transparent)]
     Stability(#[from] StabilityError),
     /// A run failed.
@@ -111,7 +111,7 @@ impl From<FitError> for CycleError {
     }
 }
 
-/// What would do where a sum of exponentials allows for no smaller tolerance than this.
+/// Advice for a sum of exponentials that permits no smaller tolerance than this.
 fn instead(reached: f64) -> String {
     // To one digit, up: what is less will not do.
     let unit = 10_f64.powf(reached.log10().floor());
@@ -126,7 +126,7 @@ fn instead(reached: f64) -> String {
 mod tests {
     use super::*;
 
-    /// 1.2e-9 was said as 1e-9, which had just been refused.
+    /// Advice for 1.2e-9 must not be 1e-9, which is below it.
     #[test]
     fn a_tolerance_that_is_advised_is_enough() {
         for (reached, advised) in [(1.2e-9, "2e-9 or"), (2.0e-8, "2e-8 or"), (9.4e-6, "1e-5 or")] {

@@ -65,31 +65,31 @@ use stickslip_tip::memory::displacement;
 use stickslip_tip::motion::latest_extrema;
 use stickslip_tip::{Model, Support, Trajectory};
 
-/// Residuals of (18) that can be asked for.
+/// Smallest and largest admissible residual of (18).
 pub const TOLERANCES: (f64, f64) = (1e-11, 1e-4);
-/// What commands ask for.
+/// Default residual of the commands.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
-/// A multiplier this close to the unit circle is on it, as far as one can tell.
+/// A multiplier this close to the unit circle cannot be distinguished from one on it.
 const ON_THE_CIRCLE: f64 = 1e-7;
-/// Multipliers below this modulus are those of the exponentials rather than of f.
+/// Multipliers of smaller modulus belong to the exponentials rather than to f.
 const LEAST_MULTIPLIER: f64 = 1e-6;
 
-/// An extremum within this part of a period from the seam is that of the seam.
+/// An extremum within this fraction of a period of the seam counts as that of the seam.
 const AT_THE_SEAM: f64 = 1e-6;
-/// Of [`Cycle::error`].
+/// Coefficients of [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
-/// Residuals beyond which ends of steps are no longer that much better than what lies between them.
+/// Residual above which the ends of steps are no longer much more accurate than the points between them.
 const COARSE: f64 = 1e-7;
 const ERROR_PER_GAP: f64 = 0.01;
 const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
-/// Under a depth limit heights err too, and by more than slopes: measured beside the non-smooth onset (β = 1, b = 5,
-/// α = 1.076) from 1e-4 to 1e-9, at most a third of this.
+/// The same under a depth limit, where heights contribute a larger error than slopes: measured close to the non-smooth
+/// onset (β = 1, b = 5, α = 1.076) from 1e-4 to 1e-9, the error is at most a third of this.
 const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
-/// Beyond this amplitude, in widths of the tip, errors grow as it does: a slip begins when a creeping tip gets free, which
-/// depends on its velocity, and that is the less the farther it lags behind.
+/// Amplitude, in widths of the tip, above which errors grow in proportion to it. A slip begins when a creeping tip
+/// escapes from its groove, which depends on its velocity, and this is smaller the farther the tip lags behind.
 const SHORT_SLIPS: f64 = 2.0;
-/// So many times that where f is told by a lattice of exponents.
+/// Additional factor if f is fitted by a lattice of exponents.
 const ON_LATTICE: f64 = 40.0;
 
 /// A periodic solution of (18). Lengths in σ, times in Γ/k.
@@ -101,7 +101,7 @@ pub struct Cycle {
     multipliers: Vec<Complex<f64>>,
     extremes: (f64, f64),
     slips: usize,
-    /// Once it was asked for.
+    /// Computed at the first request.
     amplitude_u: OnceLock<f64>,
 }
 
@@ -132,32 +132,33 @@ impl Cycle {
         Ok(Self { model, closed, motion, multipliers, extremes, slips, amplitude_u })
     }
 
-    /// Footprint, α and r.
+    /// The model: footprint, α and r.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// T
+    /// Period T.
     #[must_use]
     pub fn period(&self) -> f64 {
         self.closed.orbit.period
     }
 
-    /// rT, the wavelength of the surface left behind.
+    /// rT, the wavelength of the surface far behind the tip.
     #[must_use]
     pub fn wavelength(&self) -> f64 {
         self.model.r() * self.period()
     }
 
-    /// Half peak-to-peak of l, that is of x0 less its steady advance.
+    /// Half the peak-to-peak value of l, that is, of x0 minus its steady advance.
     #[must_use]
     pub fn amplitude_x0(&self) -> f64 {
         0.5 * (self.extremes.1 - self.extremes.0)
     }
 
-    /// Half peak-to-peak of the surface left far behind, (35), in kσ²/a. Where it heals, u at the distance D behind the
-    /// support is U(x) e^{-D/(rT)} with a periodic U, and this is half peak-to-peak of U: at most `f64::MAX`.
+    /// Half the peak-to-peak value of the surface far behind the tip, (35), in kσ²/a. If the surface heals, u at the
+    /// distance D behind the support is U(x) e^{-D/(rT)} with a periodic U, and this is half the peak-to-peak value of
+    /// U, at most `f64::MAX`.
     #[must_use]
     pub fn amplitude_u(&self) -> f64 {
         let amplitude = || self.ripple().amplitude();
@@ -166,8 +167,8 @@ impl Cycle {
             .get_or_init(|| Some(amplitude()).filter(|u| u.is_finite()).unwrap_or(f64::MAX))
     }
 
-    /// u(x) far behind the tip, (35), a periodic function of x; x0(t) is that of [`motion`](Self::motion). Where the surface
-    /// heals that is 0.
+    /// u(x) far behind the tip, (35), a periodic function of x for the x0(t) of [`motion`](Self::motion). It is 0 if
+    /// the surface heals.
     #[must_use]
     pub fn surface_behind(&self, x: &[f64]) -> Vec<f64> {
         if self.model.wider().healing_time.is_some() {
@@ -187,7 +188,7 @@ impl Cycle {
         self.extremes
     }
 
-    /// Maxima of l in one period.
+    /// Number of maxima of l in one period.
     #[must_use]
     pub fn slips(&self) -> usize {
         self.slips
@@ -199,16 +200,17 @@ impl Cycle {
         &self.motion
     }
 
-    /// The Floquet multipliers above 1e-6 in modulus, the largest first: by how much small deviations grow in a period.
-    /// One of them is 1, that of a shift in time. Those of the sum that stands for f, which another sum has not, are
-    /// left out; of a footprint with much detail only those above 0.01 are surely all there.
+    /// The Floquet multipliers above 1e-6 in modulus, the largest first: the factors by which small deviations grow in
+    /// a period. One of them is 1, that of a shift in time. Spurious multipliers of the sum of exponentials, which a
+    /// second sum does not reproduce, are left out. For a footprint with much detail the list is complete only above
+    /// 0.01.
     #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
         &self.multipliers[..count]
     }
 
-    /// The multipliers without that of a shift in time.
+    /// The multipliers except that of a shift in time.
     pub fn nontrivial_multipliers(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
         let distance = |m: &Complex<f64>| (m - 1.0).norm();
         let nearest = (0..self.multipliers.len()).min_by(|a, b| {
@@ -218,7 +220,7 @@ impl Cycle {
         others.filter(move |(i, _)| Some(*i) != nearest).map(|(_, m)| *m)
     }
 
-    /// Whether every small deviation but a shift in time dies out.
+    /// Whether every small deviation except a shift in time decays.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.nontrivial_multipliers().all(|m| m.norm() < 1.0 + ON_THE_CIRCLE)
@@ -230,7 +232,7 @@ impl Cycle {
         self.closed.residual
     }
 
-    /// The largest modulus of the multipliers but that of a shift in time.
+    /// The largest modulus of the multipliers except that of a shift in time.
     #[must_use]
     pub fn leading_multiplier(&self) -> f64 {
         self.nontrivial_multipliers().map(|m| m.norm()).fold(0.0, f64::max)
@@ -238,12 +240,13 @@ impl Cycle {
 
     /// Estimate of the error of the period (in Γ/k) and of the amplitude of x0 (in σ).
     ///
-    /// Both are had at the ends of steps, which err by far less than the residual would make them; a slow
-    /// multiplier makes more of that. What the sum misses that stands for f displaces the tip everywhere, and adds
-    /// up in the same way; what a lattice of exponents misses of a table changes its curvature by more than its slope.
-    /// Measured against residuals of 1e-11 from αc + 1e-5 to relaxation, with a margin of ten; what comes of the sum
-    /// with one of two and a half. Long slips make more of either, by as much as they are long: of 29 cycles with
-    /// amplitudes from 0.02 to 785 at residuals from 3e-10 to 1e-5 the worst erred by two thirds of what is told.
+    /// Both are evaluated at the ends of steps, where the error is far smaller than the residual suggests; a slow
+    /// multiplier amplifies it. The residual of the sum of exponentials displaces the tip everywhere, and these
+    /// displacements are amplified in the same way. For a table fitted by a lattice of exponents, the residual of the
+    /// curvature is larger than that of the slope. The coefficients come from a comparison with cycles at a residual
+    /// of 1e-11, from αc + 1e-5 to relaxation oscillations, with a safety factor of ten, and of two and a half for the
+    /// contribution of the sum. Long slips increase both errors in proportion to their length: of 29 cycles with
+    /// amplitudes from 0.02 to 785 at residuals from 3e-10 to 1e-5, the largest error was two thirds of the estimate.
     #[must_use]
     pub fn error(&self) -> f64 {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);
@@ -257,30 +260,30 @@ impl Cycle {
         (widths / SHORT_SLIPS).max(1.0) * (of_steps + of_the_sum)
     }
 
-    /// How far what the sum misses of f' may displace the tip, in σ.
+    /// Displacement of the tip that the residual of the sum for f' may cause, in σ.
     fn displacement(&self) -> f64 {
         displacement(&self.model, self.closed.equation.fine.certificate().slope)
     }
 
-    /// The same of the amplitude of the surface left behind, in kσ²/a.
+    /// The corresponding error of the amplitude of the surface far behind the tip, in kσ²/a.
     #[must_use]
     pub fn amplitude_u_error(&self) -> f64 {
         let relative = self.error() / self.amplitude_x0() + self.error() / self.period();
         3.0 * relative * self.amplitude_u()
     }
 
-    /// Steps of the mesh.
+    /// Number of steps of the mesh.
     #[must_use]
     pub fn steps(&self) -> usize {
         self.closed.orbit.stages.len()
     }
 
-    /// In the unit of [`solve::MOST_WORK`].
+    /// Work, in the unit of [`solve::MOST_WORK`].
     fn work(&self) -> f64 {
         self.closed.equation.work((self.iterations() * self.steps()) as f64)
     }
 
-    /// Linearisations that it took.
+    /// Number of linearisations in the solution.
     #[must_use]
     pub fn iterations(&self) -> usize {
         self.closed.iterations
@@ -296,11 +299,11 @@ impl std::fmt::Debug for Cycle {
     }
 }
 
-/// A cycle whose l swings by less than this is none.
+/// A cycle in which l varies by less than this is steady motion.
 const LEAST_AMPLITUDE: f64 = 1e-9;
 
 impl Closed {
-    /// Whether Newton's method has fallen to steady motion, of which every period is one.
+    /// Whether Newton's method has converged to steady motion, for which every period is one.
     fn is_steady(&self) -> bool {
         let r = self.equation.r;
         let motion = self.orbit.trajectory(r);

@@ -1,4 +1,4 @@
-//! The surface that a cycle leaves far behind the tip.
+//! The surface of a cycle far behind the tip.
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
@@ -7,16 +7,16 @@ use stickslip_tip::{TipFunction, Trajectory};
 
 /// One wavelength of u far behind the tip, (35), as a Fourier series.
 ///
-/// u(x) = -α ∫ f(x - x0(t))dt over all times, and x0 advances by the wavelength Λ = rT in each period T, so that
-/// by Poisson's formula u(x) = -(α/Λ) `Σ_k f̂(q_k) e^{i q_k x} ∫_0^T e^{-i q_k x0(t)}dt`, `q_k` = 2πk/Λ. The sum ends
-/// where f̂ does.
+/// u(x) = -α ∫ f(x - x0(t))dt over all times, and x0 advances by the wavelength Λ = rT in each period T, so that by
+/// Poisson's formula u(x) = -(α/Λ) `Σ_k f̂(q_k) e^{i q_k x} ∫_0^T e^{-i q_k x0(t)}dt`, `q_k` = 2πk/Λ. The sum ends
+/// where f̂ is negligible.
 ///
-/// Where the surface heals, u at the distance D behind the support is U(x) e^{-D/(rT)}, and U is the same series with
-/// f̂(q - i/(rT)) for f̂(q) and e^{(R - x0)/(rT)} for the weight of a visit.
+/// If the surface heals, u at the distance D behind the support is U(x) e^{-D/(rT)}. U is the same series with f̂(q -
+/// i/(rT)) instead of f̂(q) and with the weight e^{(R - x0)/(rT)} of a visit.
 #[derive(Debug, Clone)]
 pub(super) struct Ripple {
     wavelength: f64,
-    /// That of k = 0.
+    /// Coefficient of k = 0.
     mean: f64,
     /// Coefficients of `e^{i q_k x}`, k ≥ 1; those of -k are their conjugates.
     coefficients: Vec<Complex<f64>>,
@@ -25,7 +25,7 @@ pub(super) struct Ripple {
 const POINTS_PER_HARMONIC: usize = 8;
 
 impl Ripple {
-    /// Of one period of the motion, each visit with its weight w under a depth limit.
+    /// The series for one period of the motion, each visit with its weight w under a depth limit.
     pub(super) fn new(tip: &TipFunction, alpha: f64, period: &Trajectory) -> Self {
         let (positions, weights, exponent) = match period.wider().healing_time {
             None => {
@@ -66,7 +66,7 @@ impl Ripple {
         self.mean + self.at(x).0
     }
 
-    /// u less its mean, its slope and its curvature.
+    /// u minus its mean, the slope of u and its curvature.
     fn at(&self, x: f64) -> (f64, f64, f64) {
         let mut sums = (0.0, 0.0, 0.0);
         let wave_number = TAU / self.wavelength;
@@ -81,7 +81,7 @@ impl Ripple {
         sums
     }
 
-    /// Half peak-to-peak.
+    /// Half the peak-to-peak value.
     pub(super) fn amplitude(&self) -> f64 {
         let points = POINTS_PER_HARMONIC * self.coefficients.len().max(1);
         let spacing = self.wavelength / points as f64;
@@ -94,7 +94,7 @@ impl Ripple {
         0.5 * (self.extremum(1.0, best(1.0), spacing) + self.extremum(-1.0, best(-1.0), spacing))
     }
 
-    /// u less its mean at many points.
+    /// u minus its mean at many points.
     fn heights(&self, x: &[f64]) -> Vec<f64> {
         let mut heights = Vec::with_capacity(x.len() + LANES);
         for x in x.chunks(LANES) {
@@ -111,7 +111,7 @@ impl Ripple {
         heights
     }
 
-    /// Largest `sign` · u near the best of points so far apart: Newton's method for its zero slope.
+    /// Largest `sign` · u close to the best of points at this spacing: Newton's method for zero slope.
     fn extremum(&self, sign: f64, start: f64, spacing: f64) -> f64 {
         let height = |x: f64| sign * self.at(x).0;
         let mut x = start;
@@ -126,7 +126,7 @@ impl Ripple {
     }
 }
 
-/// Points that waves are taken at side by side.
+/// Number of points that are evaluated together.
 const LANES: usize = 8;
 
 /// `e^{ikφ}` of some phases, for k = 0, 1, …
@@ -137,7 +137,7 @@ struct Waves {
 }
 
 impl Waves {
-    /// φ of these places, at most as many as there are lanes; of idle ones 0.
+    /// Phases φ at these points, at most as many as there are lanes; 0 in unused lanes.
     fn at(places: &[f64], wave_number: f64) -> Self {
         let mut once = ([1.0; LANES], [0.0; LANES]);
         for (i, x) in places.iter().enumerate() {

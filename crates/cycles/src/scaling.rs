@@ -1,4 +1,4 @@
-//! How amplitude and wavelength leave their values at onset: the laws of the paper's Figs. 2, 3 and 5.
+//! Amplitude and wavelength as functions of the distance from onset: the laws of the paper's Figs. 2, 3 and 5.
 //!
 //! Near the critical point the square of the amplitude and the wavelength are linear in the distance from it.
 
@@ -7,54 +7,55 @@ use stickslip_stability::{Onset, critical, critical_r, onset_at};
 use stickslip_tip::motion::{Oscillation, latest_extrema};
 use stickslip_tip::{Model, Scenario, TipFunction, Wider, run};
 
-/// A law near onset, measured at some distances from it.
+/// A scaling law close to onset, fitted at several distances from it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scaling {
     /// The critical value of the parameter that varies.
     pub critical: f64,
-    /// By rising distance.
+    /// The points, by increasing distance.
     pub points: Vec<ScalingPoint>,
-    /// The line through amplitude² of x0.
+    /// Straight line for the squared amplitude of x0.
     pub amplitude_x0_squared: Line,
-    /// The line through amplitude² of the surface left behind; `None` from runs, that do not tell it.
+    /// Straight line for the squared amplitude of the surface far behind the tip; `None` for runs, which do not
+    /// contain it.
     pub amplitude_u_squared: Option<Line>,
-    /// The line through the wavelength.
+    /// Straight line for the wavelength.
     pub wavelength: Line,
 }
 
-/// One distance.
+/// Amplitudes and wavelength at one distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScalingPoint {
-    /// Of the parameter from its critical value.
+    /// Distance of the parameter from its critical value.
     pub distance: f64,
-    /// Half peak-to-peak of l.
+    /// Half the peak-to-peak value of l.
     pub amplitude_x0: f64,
-    /// Half peak-to-peak of u far behind.
+    /// Half the peak-to-peak value of u far behind the tip.
     pub amplitude_u: Option<f64>,
-    /// rT
+    /// Wavelength rT.
     pub wavelength: f64,
 }
 
-/// intercept + slope · distance
+/// The straight line intercept + slope · distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     /// Value at the critical point.
     pub intercept: f64,
-    /// Per distance.
+    /// Change per unit distance.
     pub slope: f64,
 }
 
-/// What amplitudes and wavelengths are measured on.
+/// Source of the amplitudes and wavelengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measured {
-    /// [`cycle`], to this residual.
+    /// Cycles from [`cycle`], with this residual.
     Cycles(f64),
-    /// Runs to this tolerance, which start near the cycle and last until what is left of the start has decayed.
+    /// Runs with this tolerance, which start close to the cycle and last until the initial deviation has decayed.
     Runs(f64),
 }
 
-/// The scaling laws in `over` at the value `other` of the parameter that does not vary, from motions at these
-/// distances from the critical point (below zero where oscillation lies below it, as it does in r).
+/// The scaling laws for the parameter `over` at the value `other` of the fixed parameter, from motions at these
+/// distances from the critical point. A distance is negative if oscillations exist below the critical value, as for r.
 ///
 /// # Errors
 /// No critical point, or a distance at which there is no small motion.
@@ -106,7 +107,7 @@ fn of_cycle(model: &Model, distance: f64, tolerance: f64) -> Result<ScalingPoint
     })
 }
 
-/// So many e-foldings of what is left of the start.
+/// Duration of a run, in e-foldings of the initial deviation.
 const FOLDINGS: f64 = 14.0;
 
 fn of_run(
@@ -141,7 +142,7 @@ fn of_run(
 }
 
 impl Line {
-    /// By least squares.
+    /// The straight line, by least squares.
     fn through(points: &[(f64, f64)]) -> Self {
         let n = points.len() as f64;
         let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

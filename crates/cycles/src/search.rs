@@ -1,4 +1,4 @@
-//! Cycles found from nothing, or from a motion near them.
+//! Search for cycles, without a guess or from a motion close to one.
 
 use super::asked::{dragged, embedding, judge};
 use super::embedding::Embedding;
@@ -12,24 +12,25 @@ use std::ops::ControlFlow;
 use stickslip_stability::{Critical, StabilityError, onset_at};
 use stickslip_tip::{Model, Trajectory, stop};
 
-/// Halves of a cycle that differ by less, in σ, are the same.
+/// Two halves of a cycle with a smaller difference, in σ, are the same.
 const REPEATS_WITHIN: f64 = 1e-7;
 
-/// What a search for the motion that attracts a tip set going from beside steady motion came to.
+/// The motion that a tip settles into after a small disturbance of steady motion.
 #[derive(Debug, Clone)]
 pub enum Settled {
     /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
     Steady,
     /// A stable cycle.
     Cycle(Box<Cycle>),
-    /// A run that came near no stable cycle: trapped, or without end in sight.
+    /// A run that came close to no stable cycle: trapped, or undecided.
     Run(Box<Tried>),
 }
 
-/// What the motion at the parameters of the model comes to: by linear stability, by [`cycle`], by a run.
+/// Finds the motion that the tip settles into at the parameters of the model: by linear stability, by [`cycle`], or by
+/// a run.
 ///
-/// Next to trapping l grows as long as the period, and its round-off may leave more of (18) than `tolerance`. Where that is
-/// no more than 1e-7 the cycle is told all the same; its residual and its errors say how well it is known.
+/// Close to trapping l grows with the period, and its round-off may raise the residual of (18) above `tolerance`. A
+/// cycle with a residual of at most 1e-7 is returned even then; its residual and its errors state its accuracy.
 ///
 /// # Errors
 /// A tolerance out of range, or a run that fails.
@@ -50,15 +51,15 @@ pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
     })
 }
 
-/// The cycle at the parameters of the model that is found from nothing: the one that is born at αc, where
-/// Newton's method finds it from its leading order and it is stable, else the one that a run settles into.
-/// An unstable one is what there is where neither is stable.
+/// The cycle at the parameters of the model, found without a guess. If the cycle that bifurcates at αc is stable and
+/// Newton's method finds it from its leading order, it is returned; otherwise the cycle that a run settles into. If
+/// neither is stable, an unstable cycle is returned.
 ///
-/// (18) holds on it to `tolerance` at every time; its period and amplitudes are more accurate than that, as
-/// collocation converges faster at the ends of its steps.
+/// The residual of (18) on it is at most `tolerance` at all times. Its period and amplitudes are more accurate than
+/// that, as collocation converges faster at the ends of steps.
 ///
 /// # Errors
-/// A tolerance out of range, a footprint that never fades, or no cycle near what was tried.
+/// A tolerance out of range, a footprint that never fades, or no cycle close to any guess.
 pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let equation = embedding(model, tolerance)?;
     let (alpha, r) = (model.alpha(), model.r());
@@ -103,11 +104,11 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     unless_stopped(found)?.ok_or(none)
 }
 
-/// The cycle at the parameters of the model that is nearest to one period of a motion, which begins with a
+/// The cycle at the parameters of the model that is nearest to one period of a motion. The period must begin with a
 /// maximum of l.
 ///
 /// # Errors
-/// As [`cycle`]; or Newton's method does not converge.
+/// As [`cycle`]; Newton's method does not converge.
 pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<Cycle, CycleError> {
     let equation = embedding(model, tolerance)?;
     let (start, length) = (period.start(), period.end() - period.start());
@@ -120,8 +121,7 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, lost))
 }
 
-/// As [`cycle_near`], for the stretch of a motion between two times, a period apart, at which l is at its
-/// maximum.
+/// As [`cycle_near`], for the part of a motion between two times one period apart, at both of which l has its maximum.
 ///
 /// # Errors
 /// As [`cycle_near`].
@@ -138,8 +138,8 @@ pub fn cycle_within(
     unless_stopped(found)?.map_err(|error| error.told(tolerance, lost))
 }
 
-/// The small cycle that is born at αc, on the side of it where it exists; `None` where its leading order leads
-/// Newton's method to none.
+/// The small cycle that bifurcates at αc, on the side of αc where it exists; `None` if Newton's method finds no cycle
+/// from its leading order.
 ///
 /// # Errors
 /// A tolerance out of range, a footprint that never fades, or no critical point.
@@ -149,39 +149,39 @@ pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, Cycle
     Ok(guess.and_then(|guess| solve(&equation, guess, tolerance).ok()))
 }
 
-/// What a search came to, if it came to its end.
+/// The result of a search, or an error after a request to stop.
 fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
     if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
 }
 
-/// Guesses that close, but not to the residual asked for.
+/// Number of guesses with a cycle of too large a residual after which the search ends.
 const MOST_COARSE: usize = 3;
 
-/// What was found above αc.
+/// Results of a search above αc.
 struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
-    /// The run, if one was needed.
+    /// The run, if one was made.
     ended: Option<Tried>,
-    /// There is a cycle, but none to the residual asked for.
+    /// A guess with a cycle whose residual is above the tolerance.
     coarse: Option<Coarse>,
 }
 
-/// The largest residual of a cycle that a motion is still judged by: its ends of steps are much better than it.
+/// The largest residual of a cycle that serves for classification: at the ends of its steps the error is much smaller.
 pub const ROUGHEST_RESIDUAL: f64 = 1e-7;
 
-/// A guess that closes, but not to the residual asked for.
+/// A guess close to a cycle whose residual cannot be reduced to the tolerance.
 #[derive(Clone)]
 struct Coarse {
     equation: Embedding,
     guess: Orbit,
     allowed: f64,
-    /// What can be had.
+    /// The residual that can be reached.
     reached: f64,
 }
 
 impl Coarse {
-    /// The cycle to the residual that can be had, if it is stable.
+    /// The cycle to the residual that can be reached, if it is stable.
     fn stable(self) -> Option<Cycle> {
         let Self { equation, guess, reached, .. } = self;
         let found = (reached <= ROUGHEST_RESIDUAL).then(|| solve(&equation, guess, reached));
@@ -234,14 +234,15 @@ impl Search {
     }
 }
 
-/// The first cycle on the way from onset, and the first step on it, as shares of the way.
+/// Positions of the first cycle on the branch from onset and of the first step, as fractions of the distance to the
+/// requested α.
 const FIRST_SHARE: f64 = 0.02;
 const FIRST_STEP: f64 = 0.05;
 const GROWTH: f64 = 1.5;
-/// Steps that may fail; each that does is tried again at half its length.
+/// Number of steps that may fail; each failed step is repeated with half its length.
 const MOST_FAILURES: usize = 4;
 
-/// The cycle that the one born at αc becomes as α rises from there, where it does not turn back on the way.
+/// The cycle on the branch from αc at the requested α, if the branch does not turn back before.
 fn followed_from_onset(
     equation: &Embedding,
     model: &Model,
@@ -272,11 +273,11 @@ fn followed_from_onset(
     Some(cycle)
 }
 
-/// Cycles of a branch that is followed to the α asked for.
+/// Largest number of cycles on a branch to the requested α.
 const MOST_ON_THE_WAY: usize = 300;
 
-/// The same under a wider law, where nothing says beforehand where the small cycle is: the branch from onset, if it
-/// leads to this α without having led away from it first.
+/// The same in the extended model, where the position of the small cycle is not known: the cycle on the branch from
+/// onset, if the branch leads to this α without first leading away from it.
 fn branch_from_onset(model: &Model, critical: Critical, tolerance: f64) -> Option<Cycle> {
     let settings = Continuation {
         to: model.alpha(),
@@ -296,7 +297,7 @@ fn branch_from_onset(model: &Model, critical: Critical, tolerance: f64) -> Optio
     (branch.end == End::Reached).then_some(branch.last)
 }
 
-/// A guess at the small cycle on this side of onset, where its leading order is known.
+/// A guess for the small cycle on this side of onset, if its leading order is known.
 fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit> {
     if !model.wider().is_papers() {
         return None;
@@ -305,7 +306,7 @@ fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit
     from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
 }
 
-/// The cycle near a guess, once around it: a guess at two slips may close after one.
+/// The cycle near a guess, with its smallest period: a guess of two slips may have the period of one.
 fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, NotClosed> {
     let closed = close(equation.clone(), guess, Condition::GIVEN, tolerance)?;
     if closed.is_steady() {

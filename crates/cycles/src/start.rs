@@ -1,4 +1,4 @@
-//! Where Newton's method starts from when nothing is known: the oscillation that is born at αc, or a run.
+//! Initial guesses for Newton's method: the oscillation that bifurcates at αc, or a run.
 
 use super::embedding::Embedding;
 use super::mesh::{MOST_STEPS, equidistributed, graded};
@@ -13,13 +13,14 @@ use stickslip_tip::step::longest_displacement;
 use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
 
 const FEWEST_STEPS: f64 = 18.0;
-/// Amplitude to which the leading order is a guess, in widths.
+/// Largest amplitude at which the leading order is used as a guess, in widths.
 const LARGEST_MODE: f64 = 1.0;
-/// Where lobes are narrow the motion does not see their width: an eighth of its wavelength, in Gaussians one.
+/// Wavelength of the motion over the width that scales it. Where lobes are narrow the motion does not depend on their
+/// width: there an eighth of the wavelength takes its place, which for Gaussians is about one width.
 const WIDTHS_PER_WAVELENGTH: f64 = 9.0;
 
-/// The linear mode with the amplitude and period of leading order in α - αc; `None` where that is
-/// imaginary, or so large that Newton's method might find any cycle from there.
+/// The linear mode with the amplitude and period of leading order in α - αc; `None` if the amplitude is imaginary, or
+/// so large that Newton's method might converge to another cycle.
 pub(super) fn from_onset(equation: &Embedding, onset: &Onset) -> Option<Orbit> {
     let above = equation.alpha - onset.critical.alpha;
     let square = onset.amplitude_squared_slope * above;
@@ -55,24 +56,24 @@ pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -
     (steps <= MOST_STEPS).then_some(steps)
 }
 
-/// Whether a small cycle is to be expected here.
+/// Whether a small cycle is expected here.
 pub(super) fn small_cycle_exists(equation: &Embedding, onset: &Onset) -> bool {
     let above = equation.alpha > onset.critical.alpha;
     above == (onset.criticality == Criticality::Supercritical)
 }
 
-/// When a run is looked at, from its start; where the oscillation that is born has a longer period than
-/// [`USUAL_PERIOD`], as many times as late.
+/// Times from the start at which a run is examined; they are proportional to the period of the bifurcating oscillation
+/// if it is longer than [`USUAL_PERIOD`].
 const LOOKS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
 const USUAL_PERIOD: f64 = 10.0;
-/// A run of more steps is cut off.
+/// Largest number of steps of a run.
 const MOST_STEPS_OF_A_RUN: usize = 200_000;
 const TOLERANCE_OF_A_RUN: f64 = 1e-6;
-/// What sets the tip going, in widths.
+/// Initial displacement of the tip, in widths.
 const KICK: f64 = 0.3;
 
-/// Offers the last period of a run, the longer it lasts, until `take` is content; what was run. The kick is in these
-/// widths, and `born` the period of the oscillation that is born at onset.
+/// Passes the last period of a run to `take` at increasing times, until `take` returns true; returns the run. The kick
+/// is in these widths, and `born` is the period of the oscillation that bifurcates at onset.
 pub(super) fn from_run(
     model: &Model,
     (width, born): (f64, f64),
@@ -105,7 +106,7 @@ pub(super) fn from_run(
     Ok(Tried { scenario, run })
 }
 
-/// Whether the last period of a run is taken. One that was offered before is not again: a tip that is stuck has no other.
+/// Whether to pass on the last period of a run. The same period is not passed on twice: a stuck tip has no other.
 fn offer(
     trajectory: &Trajectory,
     offered: &mut Vec<(f64, f64)>,
@@ -120,7 +121,7 @@ fn offer(
     periods.into_iter().map(|(from, to)| part(trajectory, from, to)).any(take)
 }
 
-/// Between two maxima a period apart: the highest within the period, and the one before it.
+/// Two maxima a period apart: the highest within the period, and the one before it.
 fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
     let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
@@ -129,7 +130,7 @@ fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
     Some((start.t, end.t))
 }
 
-/// A period of a run, with steps as long as those of the run.
+/// One period of a run, with the steps of the run.
 pub(super) fn part(trajectory: &Trajectory, from: f64, to: f64) -> Orbit {
     let period = to - from;
     let steps = trajectory.steps().iter().filter(|step| step.t < to && step.end() > from);

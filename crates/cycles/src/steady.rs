@@ -1,19 +1,19 @@
-//! Whether steady motion is stable, and where it ceases to be.
+//! Linear stability of steady motion, and its limit.
 
 use stickslip_stability::{Critical, StabilityError, critical, unstable_count};
 use stickslip_tip::{Model, TipFunction};
 
-/// Of a model.
+/// Linear stability at the parameters of a model.
 pub(super) struct SteadyMotion {
-    /// αc(r); `None` where there is none, or it cannot be found.
+    /// αc(r); `None` if it does not exist or cannot be found.
     pub(super) critical: Option<Critical>,
-    /// Whether small deviations from steady motion die out.
+    /// Whether small deviations from steady motion decay.
     pub(super) is_stable: bool,
 }
 
 impl SteadyMotion {
     /// # Errors
-    /// r out of range; under a wider law, roots that cannot be counted.
+    /// r out of range; in the extended model, roots that cannot be counted.
     pub(super) fn of(model: &Model) -> Result<Self, StabilityError> {
         let (wider, tip, r) = (model.wider(), model.tip(), model.r());
         let critical = match critical(wider, tip, r) {

@@ -6,7 +6,7 @@ use super::crossings::Crossing;
 use std::f64::consts::PI;
 use stickslip_tip::{TipFunction, Wider, stop};
 
-/// A point of the stability boundary with the oscillation that is born there.
+/// A point of the stability boundary, with the oscillation that bifurcates there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Critical {
     /// αc; (43) under the basic law.

@@ -1,4 +1,4 @@
-//! The transform of a pulse.
+//! Laplace transform of a pulse.
 
 use num_complex::Complex64;
 use std::f64::consts::PI;

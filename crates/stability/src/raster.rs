@@ -1,9 +1,9 @@
-//! Linear stability of a raster: many scan lines beside each other, each in the grooves of those before it.
+//! Linear stability of a raster: parallel scan lines, each affected by the grooves of earlier lines.
 //!
-//! Line n, at y = n d, moves over the grooves of the earlier lines. It deviates by A_n e^{iωt} from even motion, ω = qr, and
-//! its weight is w0(1 + B_n e^{iωt}). With f(x,y) = Σ_l g_l(x) h_l(y), a = αw0, s = 1/(rT), p = s + iq, what is left of a
-//! groove after a line c = e^{-X/(rT)}, one-sided transforms φ, φ1, G of f, f', f'' and ĝ_l(p) = ∫ g_l e^{-px}dx over all x,
-//! small deviations obey
+//! Line n, at y = n d, moves over the grooves of the earlier lines. It deviates by A_n e^{iωt} from steady motion, ω =
+//! qr, and its weight is w0(1 + B_n e^{iωt}). Let f(x,y) = Σ_l g_l(x) h_l(y), a = αw0, s = 1/(rT) and p = s + iq. A
+//! groove decays by the factor c = e^{-X/(rT)} per line; φ, φ1, G are the one-sided transforms of f, f', f'', and
+//! ĝ_l(p) = ∫ g_l e^{-px}dx over all x. Small deviations obey
 //!
 //! ```text
 //!     P (A_n, B_n) = (a/r) u Σ_j Σ_l c^j h_l(jd) ĝ_l(p) v·(A_{n-j}, B_{n-j}),    u = (p, β),   v = (-p, 1)
@@ -12,29 +12,31 @@
 //!         | -(aβ/r)(φ1(s) - φ1(p) + sE)                    1 - (aβ/r) φ(p) |
 //! ```
 //!
-//! with E = Σ_j Σ_l c^j h_l(jd) ĝ_l(s) of the even grooves beside, u0 = -(a/r)(φ(s) + E) the height under the tip, w0 =
-//! e^{-|u0|/b}, and β = ±1/b as u0 is above 0 or below. Under the basic law (s = β = M = 0, c = 1) this is
+//! with E = Σ_j Σ_l c^j h_l(jd) ĝ_l(s) of the steady grooves of the earlier lines, the height u0 = -(a/r)(φ(s) + E)
+//! under the tip, w0 = e^{-|u0|/b}, and β = 1/b if u0 is above 0, -1/b if below. In the basic model (s = β = M = 0, c
+//! = 1) this is
 //!
 //! ```text
 //!     D(q) A_n = (α/r) q² Σ_j Σ_l h_l(jd) ĝ_l(q) A_{n-j},      D(q) = 1 + irq + (α/r) G(iq)
 //! ```
 //!
-//! A line leaves one number, v·(A, B), and so ripples change from line to line as by a recurrence: A_n ∝ zⁿ grows where
-//! |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}: crests qx + κy = const., κ = φ/d, that stand
-//! oblique to the scan lines. On the way back of a zigzag q changes its sign: what is a line's own becomes its complex
-//! conjugate. α = a e^{|u0|/b} rises with a. `docs/stability.md` derives it.
+//! Each line affects the later ones by one number, v·(A, B), so that ripples change from line to line by a recurrence:
+//! A_n ∝ zⁿ grows if |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}. Its crests qx + κy =
+//! const., κ = φ/d, are oblique to the scan lines. On the retrace of a zigzag q changes its sign: the coefficients of
+//! a line alone become their complex conjugates. α = a e^{|u0|/b} increases with a. `docs/stability.md` derives it.
 //!
-//! A tip that gives way across the lines, y' = -u_y + κ_y (Y_n - y), deviates there by C_n e^{iωt} too. Even motion is then
-//! displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart. Under the basic law
+//! If the tip is flexible across the lines, y' = -u_y + κ_y (Y_n - y), it also deviates by C_n e^{iωt} in y. Steady
+//! motion is then displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart.
+//! In the basic model
 //!
 //! ```text
 //!     D(q) A_n = (α/r) Σ_j Σ_l ĝ_l(q) [q² h_l(jd) A_{n-j} - iq h_l'(jd) C_{n-j}]
 //!     [irq + κ_y + (α/r)(S(iq) - S(0) - E'')] C_n = -(α/r) Σ_j Σ_l ĝ_l(q) [iq h_l'(jd) A_{n-j} + h_l''(jd) C_{n-j}]
 //! ```
 //!
-//! S the transform of `f_yy(x,0)` over x > 0, E'' = Σ_j Σ_l h_l''(jd) ĝ_l(0); `plane.rs` has all of the wider law. On a soft
-//! spring lines fall into the grooves of those before them, and bunch: with X(z) = Σ_j Σ_l h_l''(jd) ĝ_l(0) (1 - z^{-j}) and
-//! small q, (κ_y + irq) r/α = X, so that for κ_y → 0
+//! where S is the transform of `f_yy(x,0)` over x > 0 and E'' = Σ_j Σ_l h_l''(jd) ĝ_l(0); `plane.rs` contains the
+//! extended model. On a soft spring the tip is pulled into the grooves of earlier lines, so that lines bunch. With
+//! X(z) = Σ_j Σ_l h_l''(jd) ĝ_l(0) (1 - z^{-j}) and small q, (κ_y + irq) r/α = X, so that for κ_y → 0
 //!
 //! ```text
 //!     α = κ_y r/max_z Re X,      q = (κ_y/r) Im X/Re X
@@ -72,7 +74,7 @@ use stickslip_tip::roots::zero_between;
 use stickslip_tip::{Footprint, TipFunction, Wider};
 use waves::Waves;
 
-/// Lines that pass over each other's grooves.
+/// A raster of parallel scan lines with overlapping grooves.
 #[derive(Debug, Clone)]
 pub struct Raster {
     footprint: Footprint,
@@ -83,32 +85,32 @@ pub struct Raster {
     /// c
     left: f64,
     heights: Heights,
-    /// u0 = -a times this.
+    /// The depth -u0/a.
     depth: f64,
     terms: Terms,
 }
 
-/// Crests at less than so many degrees to the scan lines are nearer to them than to the diagonal.
+/// Crests at less than this angle to the scan lines, in degrees, are closer to the lines than to the diagonal.
 const FLATTEST: f64 = 22.5;
-/// Thresholds of a kind are looked for at T above this part of the largest.
+/// Smallest T in the search for thresholds of a kind, as a fraction of the largest T.
 const LEAST_OF_KIND: f64 = 0.01;
-/// Grooves that change a line by less than this leave it alone.
+/// Grooves that change a line by less than this are negligible.
 const ALONE: f64 = 1e-13;
-/// A T = r/a below this part of what a tip could have is none: nothing grows.
+/// A T = r/a below this fraction of the largest possible one counts as 0: nothing grows.
 const LEAST: f64 = 1e-6;
-/// α = a e^{|u0|/b} is infinite where |u0|/b is larger.
+/// α = a e^{|u0|/b} is infinite if |u0|/b is larger.
 const LARGEST_EXPONENT: f64 = 700.0;
-/// A height under the tip below this part of those that cancel in it is 0.
+/// A height under the tip below this fraction of its terms, which cancel, counts as 0.
 const LEVEL: f64 = 1e-9;
 
 impl Raster {
-    /// Lines a pitch d apart, dragged at r, of whose grooves so much is left after a line as `left` says: e^{-X/(rT)},
-    /// 1 where nothing heals.
+    /// Lines with the pitch d at the velocity r. After each line the grooves decay by the factor `left`: e^{-X/(rT)},
+    /// or 1 without healing.
     ///
     /// # Errors
-    /// r or the pitch not a positive finite number, or a pitch so small that the lines within reach cannot be summed. Under a
-    /// wider law than the basic one also a parameter out of range, no spring, J0 and cos x, and a height of 0 under the tip,
-    /// where |h| has its corner.
+    /// r or the pitch is not a positive finite number, or the pitch is so small that the lines within reach cannot be
+    /// summed. In the extended model also: a parameter is out of range, there is no spring, the footprint is J0 or cos
+    /// x, or the height under the tip is 0, on the kink of |h|.
     pub fn new(
         footprint: &Footprint,
         law: Wider,
@@ -144,11 +146,11 @@ impl Raster {
         Ok(Self { footprint, waves, r, pitch, law, left, heights, depth, terms })
     }
 
-    /// The same with a tip that gives way across the lines, on a spring κ_y in units of that along them. The inertia is that
-    /// along the lines.
+    /// The same lines with a tip that is flexible across them, on a spring κ_y in units of the spring along them.
+    /// Inertia acts along the lines only.
     ///
     /// # Errors
-    /// κ_y not a positive finite number; J0 and cos x.
+    /// κ_y is not a positive finite number; J0 and cos x.
     pub fn with_stiffness_across(mut self, stiffness: f64) -> Result<Self, StabilityError> {
         judge_stiffness(stiffness, self.r)?;
         if !is_gaussian(&self.footprint) {
@@ -164,14 +166,13 @@ impl Raster {
         Ok(self)
     }
 
-    /// The first ripple that does not fade from line to line: the smallest α at which, for some q, a wave that fades at all
-    /// smaller α has |z| = 1.
+    /// Threshold of ripples: the smallest α at which, for some q, a wave that decays at all smaller α has |z| = 1.
     ///
-    /// Phases are those of all z on the circle, on a zigzag too. The search ends on no sample: all wave numbers and phases are
-    /// bounded, and the threshold itself is a root to round-off. See [`RasterCertificate`].
+    /// The search covers the phases of all z on the circle, on a zigzag too. It does not depend on samples: all wave
+    /// numbers and phases are bounded, and the threshold itself is a root to round-off. See [`RasterCertificate`].
     ///
     /// # Errors
-    /// [`StabilityError::NoCrossing`] where no ripple grows, however large α; [`StabilityError::HealingZigzag`];
+    /// [`StabilityError::NoCrossing`] if no ripple grows at any α; [`StabilityError::HealingZigzag`];
     /// [`StabilityError::NoRipples`] for J0 and cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
     pub fn critical(&self, path: RasterPath) -> Result<RasterCritical, StabilityError> {
         let lines = self.lines(path)?;
@@ -196,11 +197,12 @@ impl Raster {
         Ok(critical)
     }
 
-    /// The lowest threshold of each kind, by rising α: the first is [`Raster::critical`], the only one that is certain.
+    /// The lowest threshold of each kind of wave, by increasing α. The first is [`Raster::critical`], the only
+    /// certified one.
     ///
-    /// Where the tip gives way across the lines, waves of several kinds have bands of their own, in each of which T = r/α is
-    /// largest among its neighbours. A kind without such a band is left out. That of a threshold is the smallest α of its kind
-    /// is not certain but for the first: their `tolerance` is 1, their `cells` 0; the waves of its q are counted for each.
+    /// If the tip is flexible across the lines, each of several kinds of waves has its own band, with a local maximum
+    /// of T = r/α. A kind without such a band is left out. Only the first threshold is certified to be the smallest α
+    /// of its kind. For the others `tolerance` is 1 and `cells` is 0; the waves of its q are counted for each.
     ///
     /// # Errors
     /// As [`Raster::critical`].
@@ -220,7 +222,7 @@ impl Raster {
         Ok(thresholds)
     }
 
-    /// What there is to say of the wave at a place, but for its being the first.
+    /// The threshold at a given wave, without the certificate that it is the first.
     fn described(&self, lines: &Lines, place: Place, path: RasterPath) -> RasterCritical {
         let counted = (!lines.is_alone()).then(|| count::beside(lines, place));
         let certificate = RasterCertificate {
@@ -247,7 +249,7 @@ impl Raster {
         }
     }
 
-    /// φ of z = e^{iφ} = 1/w; on a zigzag that between both ways.
+    /// φ of z = e^{iφ} = 1/w; on a zigzag the phase between trace and retrace.
     fn phase(lines: &Lines, place: Place) -> f64 {
         if !lines.is_zigzag() {
             return wrapped(-place.theta);
@@ -281,7 +283,7 @@ impl Raster {
         }
     }
 
-    /// T below which nothing is looked for: α would be infinite, or far beyond all scales of the tip.
+    /// Lower end of the search for T: below it α would be infinite, or far beyond all scales of the tip.
     fn least_t(&self, lines: &Lines) -> f64 {
         let finite = self
             .law
@@ -314,10 +316,10 @@ fn beside(waves: &Waves, heights: &[Vec<f64>]) -> f64 {
     each.iter().zip(heights).map(|(g, heights)| g * heights.iter().sum::<f64>()).sum()
 }
 
-/// A spring across that is told from none: S(s) - S(p) has a round-off of 1e-16.
+/// Smallest distinguishable ratio of a spring across to r: S(s) - S(p) has a round-off of 1e-16.
 const LEAST_STIFFNESS: f64 = 1e-9;
 
-/// Refuses a κ_y that is none, or so small a part of r that nothing is left of it.
+/// An error for a κ_y that is not positive and finite, or so small compared with r that round-off hides it.
 pub(super) fn judge_stiffness(stiffness: f64, r: f64) -> Result<(), StabilityError> {
     if stiffness.is_finite() && stiffness >= LEAST_STIFFNESS * r {
         return Ok(());
@@ -325,8 +327,8 @@ pub(super) fn judge_stiffness(stiffness: f64, r: f64) -> Result<(), StabilityErr
     Err(StabilityError::StiffnessAcross(stiffness))
 }
 
-/// The largest T and its q at which a single line that gives way across keeps a deviation across, and how many cells were
-/// gone through; `None` where it fades at any T above [`LEAST`] of what it could be.
+/// The largest T, and its q, at which a single flexible line has an undamped deviation across, and the number of cells
+/// examined; `None` if it decays at any T above [`LEAST`] of its largest possible value.
 pub(super) fn single_across(
     footprint: &Footprint,
     fading: f64,
@@ -345,7 +347,7 @@ fn is_gaussian(footprint: &Footprint) -> bool {
     footprint.layers().iter().all(|layer| of_gaussians(&layer.along))
 }
 
-/// Between -π and π.
+/// The same phase between -π and π.
 fn wrapped(phase: f64) -> f64 {
     phase - 2.0 * PI * (phase / (2.0 * PI)).round()
 }

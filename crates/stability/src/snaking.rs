@@ -1,23 +1,23 @@
-//! Snaking: a single line whose tip gives way across the scan.
+//! Snaking: instability of a single line with a tip that is flexible across the scan.
 //!
-//! A spring κ_y holds the tip on its line y = 0. A small y e^{λt} beside the steady motion x0 = rt is pushed by the groove
-//! that the tip made where it had another y: with a = αw0, s = 1/(rT),
+//! A spring κ_y holds the tip on its line y = 0. A small deviation y ∝ e^{λt} from the steady motion x0 = rt is driven
+//! by the groove that the tip made at other y. With a = αw0, s = 1/(rT),
 //!
 //! ```text
 //!     y'(t) = a ∫_0^∞ f_yy(rτ,0) e^{-τ/T} [y(t) - y(t-τ)] dτ - κ_y y(t)
 //!     N(λ) = λ + κ_y + (a/r) [S(λ/r + s) - S(s)] = 0,       S(p) = ∫_0^∞ f_yy(x,0) e^{-px}dx
 //! ```
 //!
-//! f is even in y: neither the force along the scan nor the height under the tip changes at first order, so that a depth
-//! limit enters by w0 alone, its corner does not matter, and inertia along the scan does not either. For f = f(x)
-//! exp(-y²/(2v²)), S = -φ/v². At λ = 0 N = κ_y > 0, so that roots cross the axis in pairs λ = ±iω, Ω = ω/r,
+//! f is even in y, so that neither the force along the scan nor the height under the tip changes at first order. A
+//! depth limit therefore enters only through w0, and neither its kink nor inertia along the scan matters. For f = f(x)
+//! exp(-y²/(2v²)), S = -φ/v². At λ = 0 N = κ_y > 0, so that roots cross the axis in pairs λ = ±iω, Ω = ω/r, where
 //!
 //! ```text
 //!     r/a = Im[S(s) - S(s + iΩ)]/(rΩ),       κ_y = rΩ Re[S(s) - S(s + iΩ)]/Im[S(s) - S(s + iΩ)]
 //! ```
 //!
-//! Where nothing heals, α/r² under the basic law is therefore a function of κ_y/r alone. A footprint of which f_yy(x,0)
-//! rises from x = 0 on never snakes, as ∫ f_yy sin Ωx dx < 0 for all Ω then: a Gaussian, for one.
+//! Without healing, α/r² in the basic model is therefore a function of κ_y/r alone. A footprint whose f_yy(x,0)
+//! increases from x = 0 on never snakes, because ∫ f_yy sin Ωx dx < 0 for all Ω; the Gaussian is an example.
 
 use super::StabilityError;
 use super::characteristic::Characteristic;
@@ -31,9 +31,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use stickslip_tip::{Footprint, Model, ModelError, TipFunction, Wider, stop};
 
-/// A threshold is the least to so much of itself: that of the search.
+/// Relative accuracy to which the search certifies a threshold as the lowest.
 const TOLERANCE: f64 = 1e-10;
-/// Distance from a threshold, as a part of it, of the two α at which roots are counted.
+/// Relative distance from a threshold of the two α at which roots are counted.
 const MARGIN: f64 = 1e-6;
 
 /// A single line of a footprint f(x,y) at a velocity r, with a spring κ_y across the scan.
@@ -47,43 +47,44 @@ pub struct Snaking {
     stiffness: f64,
 }
 
-/// Where a single line begins to snake. Lengths in σ, times in Γ/k.
+/// Threshold of the snaking of a single line. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SnakingCritical {
-    /// α_y, the smallest α with a deviation across that does not fade.
+    /// α_y, the smallest α with an undamped deviation across the scan.
     pub alpha: f64,
     /// r
     pub r: f64,
-    /// κ_y in units of the spring along the scan.
+    /// κ_y, in units of the spring along the scan.
     pub stiffness: f64,
     /// ω = rΩ
     pub omega: f64,
     /// 2πr/ω
     pub wavelength: f64,
-    /// What shows that it is the threshold.
+    /// Evidence that this is the threshold.
     pub certificate: SnakingCertificate,
 }
 
-/// Evidence that no deviation across grows below the threshold, and that one does above.
+/// Evidence that no deviation across the scan grows below the threshold, and that one grows above it.
 ///
-/// A search over all Ω ruled out roots on the imaginary axis at all α below the threshold by more than `tolerance`; roots to
-/// the right of it were counted by the argument principle at two α. Floating-point arithmetic with bounds, not intervals.
+/// A search over all Ω excludes roots on the imaginary axis for all α below the threshold by more than `tolerance`;
+/// roots right of the axis are counted by the argument principle at two α. The certificate rests on floating-point
+/// arithmetic with bounds, not on interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SnakingCertificate {
-    /// By how much of itself a lower threshold could at most be lower.
+    /// Largest relative distance by which a lower threshold could lie below this one.
     pub tolerance: f64,
-    /// Intervals of Ω that the search went through.
+    /// Number of intervals of Ω examined.
     pub cells: usize,
-    /// Distance from the threshold, as a part of it, of the two α.
+    /// Relative distance of the two α from the threshold.
     pub margin: f64,
-    /// Roots with Re λ > 0 below.
+    /// Number of roots with Re λ > 0 at the lower α.
     pub growing_below: usize,
-    /// And above.
+    /// Number of roots with Re λ > 0 at the higher α.
     pub growing_above: usize,
 }
 
-/// Every crossing of the imaginary axis in the plane of κ_y and α, at one r, by rising Ω. At each κ_y that of the smallest α
-/// is the threshold.
+/// All crossings of the imaginary axis in the plane of κ_y and α, at one r, by increasing Ω. At each κ_y the one with
+/// the smallest α is the threshold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SnakingCurve {
     /// Ω = ω/r
@@ -96,7 +97,8 @@ pub struct SnakingCurve {
 
 impl Snaking {
     /// # Errors
-    /// r or κ_y not a positive finite number, a parameter of the law out of range, no spring along the scan.
+    /// r or κ_y is not a positive finite number, a parameter of the model is out of range, or there is no spring along
+    /// the scan.
     pub fn new(
         footprint: &Footprint,
         law: Wider,
@@ -115,14 +117,14 @@ impl Snaking {
         Ok(Self { footprint: footprint.clone(), curvature, law, r, stiffness })
     }
 
-    /// The smallest α at which the line snakes; `None` where it never does, however large α.
+    /// The smallest α at which the line snakes; `None` if it never does.
     ///
-    /// J0 never does: with v of its h(y), λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with Re λ ≥ 0, as φ(p) =
-    /// 1/√(p²+1) has Im φ < 0 where both parts of p are positive, and falls with a real p.
+    /// J0 never snakes. With the width v of its h(y), λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with
+    /// Re λ ≥ 0, because Im φ < 0 for φ(p) = 1/√(p²+1) if both parts of p are positive, and φ decreases with a real p.
     ///
     /// # Errors
-    /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`], and
-    /// what keeps roots from being counted.
+    /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`],
+    /// [`StabilityError::Stopped`], and the errors of the count of roots.
     pub fn critical(&self) -> Result<Option<SnakingCritical>, StabilityError> {
         if *self.footprint.path() == TipFunction::Bessel {
             return Ok(None);
@@ -172,7 +174,7 @@ impl Snaking {
         leading(&h, count).map_err(|error| h.explain(error))
     }
 
-    /// How many roots lie right of the imaginary axis at this α: 0 where the line is straight.
+    /// Number of roots right of the imaginary axis at this α: 0 if the line stays straight.
     ///
     /// # Errors
     /// As [`Snaking::roots`].
@@ -182,8 +184,8 @@ impl Snaking {
         Ok(counted.count)
     }
 
-    /// The curve of all crossings in the plane of κ_y and α, whatever κ_y of this line is: `points` of Ω, evenly spaced over
-    /// the band of the footprint, less those with none.
+    /// The curve of all crossings in the plane of κ_y and α; it does not depend on κ_y of this line. `points` values
+    /// of Ω are evenly spaced over the band of the footprint; those without a crossing are left out.
     ///
     /// # Errors
     /// [`StabilityError::AcrossGaussiansOnly`].
@@ -222,7 +224,7 @@ impl Snaking {
         Ok(Characteristic::of(Law::across(self.law.healing_time, &curvature, at, self.stiffness)))
     }
 
-    /// Refuses what is no sum of Gaussians.
+    /// An error for a footprint that is not a sum of Gaussians.
     fn judge(&self) -> Result<(), StabilityError> {
         let is_gaussian = matches!(self.footprint.path(), TipFunction::Gaussians(_));
         if is_gaussian { Ok(()) } else { Err(StabilityError::AcrossGaussiansOnly) }

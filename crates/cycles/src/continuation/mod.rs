@@ -1,8 +1,8 @@
 //! Branches of cycles: pseudo-arclength continuation in α or r.
 //!
-//! A branch is a curve in the space of the largest l, the period and the parameter, and it is along this
-//! curve that steps are taken, so that folds are points like any other. Where a [test function](signs)
-//! changes sign from one cycle to the next, the special point between them is [located](locate).
+//! A branch is a curve in the space of the largest l, the period and the parameter. Steps are taken along this curve,
+//! so that folds are regular points. If a [test function](signs) changes sign from one cycle to the next, the special
+//! point between them is [located](locate).
 
 mod begin;
 mod locate;
@@ -21,24 +21,24 @@ use place::Place;
 use std::ops::ControlFlow;
 use stickslip_tip::{TipFunction, Wider, stop};
 
-/// How far, and how finely, a branch is followed.
+/// Range and step size of a continuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuation {
-    /// What varies.
+    /// The parameter that varies.
     pub over: Parameter,
-    /// Its last value: the branch ends where it is reached.
+    /// Last value of the parameter: the branch ends there.
     pub to: f64,
     /// Largest residual of (18).
     pub tolerance: f64,
-    /// The branch ends where the period exceeds this: towards trapping it has no bound.
+    /// Largest period, at which the branch ends: the period diverges towards trapping.
     pub longest_period: f64,
     /// Longest step along the branch, in relative changes of l, period and parameter.
     pub longest_step: f64,
-    /// The branch ends with so many cycles.
+    /// Largest number of cycles, at which the branch ends.
     pub most_points: usize,
 }
 
-/// What is kept of a cycle on a branch.
+/// Figures of a cycle on a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// α
@@ -47,17 +47,17 @@ pub struct Point {
     pub r: f64,
     /// T
     pub period: f64,
-    /// Half peak-to-peak of l.
+    /// Half the peak-to-peak value of l.
     pub amplitude_x0: f64,
-    /// Half peak-to-peak of the surface left behind.
+    /// Half the peak-to-peak value of the surface far behind the tip.
     pub amplitude_u: f64,
-    /// Whether small deviations die out.
+    /// Whether small deviations decay.
     pub stable: bool,
-    /// The largest multiplier but that of a shift in time; 0 where none is above 1e-6.
+    /// The largest multiplier except that of a shift in time; 0 if none is above 1e-6.
     pub leading: Complex<f64>,
 }
 
-/// A branch, in the order in which it was followed.
+/// A branch, in the order of the continuation.
 #[derive(Debug, Clone)]
 pub struct Branch {
     /// Its cycles.
@@ -66,11 +66,11 @@ pub struct Branch {
     pub special: Vec<Special>,
     /// The last cycle.
     pub last: Cycle,
-    /// Why it ends there.
+    /// Reason for the end of the branch.
     pub end: End,
 }
 
-/// Why a branch ends.
+/// Reason for the end of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// The parameter has its last value.
@@ -79,28 +79,28 @@ pub enum End {
     LongPeriod,
     /// The cycle has shrunk to steady motion: a Hopf bifurcation.
     Steady,
-    /// The two halves of the cycle have become the same: it joins the branch of half the period.
+    /// The two halves of the cycle have become equal: the branch joins the branch of half the period.
     Halved,
-    /// Enough cycles.
+    /// The largest number of cycles is reached.
     ManyPoints,
-    /// No cycle was found a shortest step further on.
+    /// No cycle was found after a step of the smallest length.
     Lost,
-    /// The observer stopped it.
+    /// The observer ended the continuation.
     Interrupted,
 }
 
 const FIRST_STEP: f64 = 0.005;
-/// Steps to cycles that close, but not to the residual asked for, beyond the first.
+/// Number of further steps to cycles whose residual cannot be reduced to the tolerance, after the first.
 const MOST_COARSE: usize = 2;
 const SHORTEST_STEP: f64 = 1e-8;
 const GROWTH: f64 = 1.5;
-/// A step that turns by more than this, as the cosine, is tried again at half its length.
+/// A step is repeated with half its length if the cosine of the angle between its tangents is smaller.
 const SHARPEST_TURN: f64 = 0.9;
-/// One that turns by less may grow.
+/// The step length may grow if the cosine is larger.
 const STRAIGHT: f64 = 0.98;
 
 impl Default for Continuation {
-    /// α up to infinity: as far as there are cycles of a period below 300.
+    /// α without an upper limit: up to cycles of a period of 300.
     fn default() -> Self {
         Self {
             over: Parameter::Alpha,
@@ -114,11 +114,11 @@ impl Default for Continuation {
 }
 
 impl Continuation {
-    /// The branch that is born where steady motion becomes unstable, at the value `other` of the parameter that
-    /// does not vary. `observe` is shown each cycle, and may stop the branch.
+    /// The branch that bifurcates at onset, at the value `other` of the fixed parameter. `observe` receives each
+    /// cycle, and may end the continuation.
     ///
     /// # Errors
-    /// No such point, or no cycle near it.
+    /// No onset, or no cycle close to it.
     pub fn from_onset(
         &self,
         tip: &TipFunction,
@@ -128,7 +128,7 @@ impl Continuation {
         self.from_onset_under((&Wider::default(), tip), other, observe)
     }
 
-    /// The same under a wider law, in α.
+    /// The same in the extended model, in α.
     ///
     /// # Errors
     /// As [`from_onset`](Self::from_onset).
@@ -145,7 +145,7 @@ impl Continuation {
     /// The branch through a cycle, in the direction of `to`.
     ///
     /// # Errors
-    /// The cycle cannot be solved for again.
+    /// Newton's method does not converge at the given cycle.
     pub fn from_cycle(
         &self,
         cycle: &Cycle,
@@ -154,10 +154,10 @@ impl Continuation {
         self.follow(begin::at_cycle(self, cycle)?, vec![], observe)
     }
 
-    /// The branch of twice the period that begins at a period doubling.
+    /// The branch of twice the period that bifurcates at a period doubling.
     ///
     /// # Errors
-    /// Not a period doubling, or no cycle near it.
+    /// The point is not a period doubling, or there is no cycle close to it.
     pub fn switched(
         &self,
         special: &Special,
@@ -208,7 +208,7 @@ impl Continuation {
         Ok(Branch { points, special, last: place.cycle, end })
     }
 
-    /// The next cycle, and the cosine by which the branch turns; shortens the step until there is one.
+    /// The next cycle, and the cosine of the angle between the tangents; the step is shortened until a cycle is found.
     fn step(&self, place: &Place, length: &mut f64) -> Option<(Place, f64)> {
         let mut coarse = 0;
         while *length >= SHORTEST_STEP && !stop::is_asked() {
@@ -229,7 +229,7 @@ impl Continuation {
         None
     }
 
-    /// The cycle at the last value of the parameter, if that lies between two.
+    /// The cycle at the last value of the parameter, if this value lies between two cycles.
     fn at_the_end(&self, place: &Place, next: &Place) -> Option<Cycle> {
         let (before, after) = (place.parameter(), next.parameter());
         let passed = (before - self.to) * (after - self.to) <= 0.0;

@@ -1,11 +1,11 @@
-//! Points of a branch where something happens to its cycles.
+//! Special points of a branch: bifurcations and folds.
 
 use crate::{Cycle, Parameter};
 
-/// A point where something happens to the cycles of a branch.
+/// A bifurcation or fold on a branch.
 #[derive(Debug, Clone)]
 pub struct Special {
-    /// What.
+    /// Kind of the point.
     pub kind: SpecialKind,
     /// α
     pub alpha: f64,
@@ -13,7 +13,7 @@ pub struct Special {
     pub r: f64,
     /// T
     pub period: f64,
-    /// The cycle there, at a period halving that of half the period; `None` at a Hopf point.
+    /// The cycle at this point; at a period halving, the one of half the period; `None` at a Hopf point.
     pub cycle: Option<Cycle>,
 }
 
@@ -26,11 +26,11 @@ pub enum SpecialKind {
     Fold,
     /// A multiplier passes -1: a branch of twice the period begins.
     PeriodDoubling,
-    /// The branch joins one of half the period, where that doubles it.
+    /// The branch joins a branch of half the period, at a period doubling of the latter.
     PeriodHalving,
     /// A second multiplier passes 1, and the branch does not turn: another branch crosses.
     BranchPoint,
-    /// A complex pair crosses the unit circle: a torus is born.
+    /// A complex pair crosses the unit circle: a torus bifurcates.
     Torus,
 }
 
@@ -40,7 +40,7 @@ impl Special {
         Self { kind, alpha, r, period: cycle.period(), cycle: Some(cycle) }
     }
 
-    /// The parameter.
+    /// The value of the parameter at this point.
     #[must_use]
     pub fn parameter(&self, which: Parameter) -> f64 {
         match which {

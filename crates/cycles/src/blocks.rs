@@ -6,8 +6,8 @@ use stickslip_tip::collocation::STAGES;
 pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 pub(super) type Vector = SVector<f64, STAGES>;
 
-/// The inverse, by Gauss and Jordan's elimination with the largest entry of each column as its pivot; `None` of a singular
-/// matrix. Rows are as wide as the machine's vectors: a third of what a general one takes.
+/// The inverse, by Gauss-Jordan elimination with the largest entry of each column as pivot; `None` for a singular
+/// matrix. Rows are as wide as the SIMD registers of the machine: a third of the time of a general inverse.
 pub(super) fn inverted(matrix: Square) -> Option<Square> {
     // Row by row: the matrix, and beside it what becomes the inverse.
     let mut left: [[f64; STAGES]; STAGES] = matrix.transpose().into();
@@ -41,7 +41,7 @@ pub(super) fn inverted(matrix: Square) -> Option<Square> {
 mod tests {
     use super::*;
 
-    /// Beside the general one of nalgebra.
+    /// Comparison with the general inverse of nalgebra.
     #[test]
     fn an_inverse_is_the_inverse() {
         for seed in 0..50 {

@@ -1,23 +1,24 @@
-//! From the force at the stages of a step to the displacements.
+//! Displacements in a step as a linear function of the force at its stages.
 
 use super::blocks::{Square, Vector};
 use stickslip_tip::Wider;
 use stickslip_tip::collocation::{RADAU, STAGES};
 use stickslip_tip::step::{Inertia, healing_rate};
 
-/// d = `by_force` times the force, hA without inertia, + `glide`; with their derivatives by the length of the step.
+/// d = `by_force` times the force (hA without inertia) + `glide`, with the derivatives with respect to the step
+/// length.
 pub(super) struct Carrying {
     pub(super) by_force: Square,
     pub(super) by_force_rate: Square,
-    /// With inertia: how far the tip would go by itself.
+    /// With inertia: displacement without a force.
     pub(super) glide: Option<Vector>,
     pub(super) glide_rate: Option<Vector>,
-    /// How far at the velocity 1.
+    /// Displacement at the velocity 1.
     pub(super) by_velocity: Option<Vector>,
 }
 
 impl Carrying {
-    /// Of a step of length h that begins with this velocity.
+    /// The matrices of a step of length h that begins with this velocity.
     pub(super) fn new(wider: &Wider, h: f64, velocity: f64) -> Self {
         let a = Square::from_fn(|i, k| RADAU.a[i][k]);
         let Some(mass) = wider.inertia else {

@@ -1,32 +1,31 @@
-//! What a step leaves of its visits, and what is left meanwhile of what was there.
+//! Weights of the visits of a step, and decay of earlier contributions.
 //!
-//! Visit k of a step of length h counts at its stage i as `b_ik w_k`: b = hA, or where the surface heals
-//! b = (1 + hA/T)⁻¹hA; `w_k` = e^{-|η_k|/b} under a depth limit. What was there when the step began is left to
-//! e^{-c_i h/T}.
+//! Visit k of a step of length h has the weight `b_ik w_k` at stage i: b = hA, or b = (1 + hA/T)⁻¹hA if the surface
+//! heals; `w_k` = e^{-|η_k|/b} under a depth limit. Contributions from before the step have decayed by e^{-c_i h/T}.
 
 use stickslip_tip::Wider;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::step::{Depth, Matrix, carving, healing, healing_rate};
 
-/// Heights under the tip at the nodes of a step, and its side of the corner of |h|: 1 above 0, -1 below.
+/// Heights under the tip at the nodes of a step, and its side of the kink of |h|: 1 above 0, -1 below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Heights {
     pub(super) nodes: Stages,
     pub(super) side: f64,
 }
 
-/// Of one step.
+/// Weights and decay of one step.
 #[derive(Debug, Clone)]
 pub(super) struct Carved {
-    /// `b_ik` over `times`.
+    /// `b_ik` divided by `times`.
     bare: Matrix,
-    /// h, or 1 where the surface heals.
+    /// h, or 1 if the surface heals.
     pub(super) times: f64,
     /// ∂`b_ik`/∂h
     bare_rate: Matrix,
-    /// What is left at the nodes.
+    /// Decay factors of earlier contributions at the nodes.
     pub(super) left: Stages,
-    /// Its derivative by h, over itself.
+    /// Logarithmic derivative of the decay with respect to h.
     pub(super) fading: Stages,
     /// w
     weights: Stages,
@@ -35,7 +34,7 @@ pub(super) struct Carved {
 }
 
 impl Carved {
-    /// By a step of length h.
+    /// The weights of a step of length h.
     pub(super) fn new(wider: &Wider, h: f64, heights: Option<&Heights>) -> Self {
         let unit = carving(1.0);
         let (bare, times, bare_rate) = match wider.healing_time {
@@ -60,12 +59,12 @@ impl Carved {
         }
     }
 
-    /// `b_ik w_k` over [`times`](Self::times).
+    /// `b_ik w_k` divided by [`times`](Self::times).
     pub(super) fn weighted(&self) -> Matrix {
         by_columns(&self.bare, &self.weights)
     }
 
-    /// What of these, of ∂/∂h and of ∂/∂`η_k` counts at the end of the step.
+    /// Weights of these contributions, of ∂/∂h and of ∂/∂`η_k` at the end of the step.
     pub(super) fn at_end(&self) -> [Stages; 3] {
         let row = |matrix: &Matrix, factors: &Stages| -> Stages {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])

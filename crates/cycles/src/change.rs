@@ -1,9 +1,9 @@
-//! Changes of all unknowns of a cycle, and directions among them.
+//! Changes of all unknowns of a cycle, and directions in this space.
 
 use stickslip_tip::collocation::Stages;
 
-/// A linear functional of what a branch of cycles is followed by: the largest l, the period and the
-/// parameter.
+/// A linear functional of the quantities that define the position on a branch of cycles: the largest l, the period and
+/// the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Direction {
     pub(super) l: f64,
@@ -30,12 +30,12 @@ impl Direction {
 /// A change of all unknowns.
 #[derive(Debug, Clone)]
 pub(super) struct Change {
-    /// Of the state X at t = 0.
+    /// Change of the state X at t = 0.
     pub(super) state: Vec<f64>,
     pub(super) period: f64,
     pub(super) parameter: f64,
     pub(super) stages: Vec<Stages>,
-    /// Of the heights under the tip, where there is a depth limit.
+    /// Changes of the heights under the tip, under a depth limit.
     pub(super) heights: Vec<Stages>,
 }
 

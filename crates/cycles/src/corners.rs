@@ -1,7 +1,7 @@
-//! The corners of |h| under a depth limit: where the height under the tip passes through 0, a step is to end.
+//! Kink crossings under a depth limit: a step should end where the height under the tip passes through 0.
 //!
-//! A step that ends a time δ beside the corner has w wrong by 2|h|/b for so long. That shifts the force by α times the
-//! product, which falls as δ²: a mesh moved to where the corners have been found is right after a few rounds.
+//! If a step ends a time δ from the crossing, w is wrong by 2|h|/b for this time. This shifts the force by α times the
+//! product, which falls as δ²: after a few rounds of moving the mesh to the crossings the shift is negligible.
 
 use super::carved::Heights;
 use super::embedding::Embedding;
@@ -9,15 +9,15 @@ use super::orbit::Orbit;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::roots::zero_between;
 
-/// Heights below this part of the largest are 0.
+/// Heights below this fraction of the largest count as 0.
 const ROUND_OFF: f64 = 1e-13;
-/// Corners nearer to each other, as a part of the period, are none.
+/// Crossings closer than this, as a fraction of the period, are ignored.
 const CLOSEST: f64 = 1e-7;
-/// What steps beside the corners may shift the force by, over the residual allowed.
+/// Largest shift of the force by steps close to the crossings, in units of the allowed residual.
 const SHARE: f64 = 1e-4;
 
 impl Heights {
-    /// On the side that most of them are on.
+    /// The side of the kink on which most of the heights lie.
     pub(super) fn new(nodes: Stages) -> Self {
         let side = if nodes.iter().sum::<f64>() > 0.0 { 1.0 } else { -1.0 };
         Self { nodes, side }
@@ -25,12 +25,12 @@ impl Heights {
 }
 
 impl Orbit {
-    /// On which side of the corner a step is; 1 where there is none.
+    /// Side of the kink of a step; 1 if there is no depth limit.
     pub(super) fn side(&self, step: usize) -> f64 {
         self.heights.get(step).map_or(1.0, |heights| heights.side)
     }
 
-    /// The corners, as fractions of the period.
+    /// The crossings, as fractions of the period.
     pub(super) fn corners(&self, r: f64) -> Vec<f64> {
         if self.heights.is_empty() {
             return vec![];
@@ -60,8 +60,8 @@ impl Orbit {
         corners
     }
 
-    /// Whether steps end at these corners, to a small part of the residual allowed, and lie on the sides that they are
-    /// taken for.
+    /// Whether steps end at these crossings, within a small fraction of the allowed residual, and lie on their assumed
+    /// sides.
     pub(super) fn meets(&self, corners: &[f64], equation: &Embedding, allowed: f64) -> bool {
         let Some(limit) = equation.wider.depth_limit else { return true };
         let is_right = |h: &Heights| h.nodes.iter().sum::<f64>() * h.side >= 0.0;
@@ -74,8 +74,8 @@ impl Orbit {
         self.heights.iter().all(is_right) && corners.iter().all(is_met)
     }
 
-    /// The mesh with its points beside the corners moved there, and those between along with them; `None` where there
-    /// is not one point for each.
+    /// The mesh with its nearest points moved to the crossings, and the points between them shifted accordingly;
+    /// `None` if there is not one point for each crossing.
     pub(super) fn moved_to(&self, corners: &[f64]) -> Option<Vec<f64>> {
         let places: Vec<usize> = corners.iter().map(|corner| self.nearest(*corner)).collect();
         let last = self.mesh.len() - 1;
@@ -95,7 +95,7 @@ impl Orbit {
         Some(mesh)
     }
 
-    /// The point of the mesh, between its ends, that is nearest.
+    /// The interior point of the mesh that is nearest.
     fn nearest(&self, at: f64) -> usize {
         let after = self.mesh.partition_point(|end| *end < at).clamp(1, self.mesh.len() - 1);
         let is_before = after > 1 && at - self.mesh[after - 1] < self.mesh[after] - at;

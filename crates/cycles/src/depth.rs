@@ -1,11 +1,11 @@
-//! The heights under the tip in a step, linearised: a depth limit makes each visit count by what they are.
+//! Linearised heights under the tip in a step: under a depth limit they determine the weight of each visit.
 //!
 //! ```text
 //!     η_i = -α g_i,    g_i = past_i + Σ_k b_ik w_k f(d_i - d_k)
 //! ```
 //!
-//! Changes of η follow from those of d and of what the past tells: Qδη = δF - Rδd, with F what the right-hand side is
-//! changed by besides.
+//! Changes of η follow from the changes of d and of the history: Qδη = δF - Rδd, where δF is the remaining change of
+//! the right-hand side.
 
 use super::blocks::{Square, Vector};
 use super::carved::{Carved, Heights};
@@ -14,7 +14,7 @@ use super::sensitivity::Sensitivity;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::step::{OwnGroove, OwnHeight};
 
-/// Of one step.
+/// Linearised heights of one step.
 pub(super) struct LinearHeights {
     alpha: f64,
     /// Q⁻¹
@@ -23,15 +23,16 @@ pub(super) struct LinearHeights {
     by_displacement: Square,
     /// ∂v/∂η
     pull: Square,
-    /// g, and its derivative by the length of the step.
+    /// g, and its derivative with respect to the step length.
     groove: Vector,
     groove_rate: Vector,
-    /// η + α g
+    /// Residual η + α g.
     missed: Vector,
 }
 
 impl LinearHeights {
-    /// `told` is the past of g, `slope` that of the groove under the stages; `None` if the equations are singular.
+    /// `told` is the contribution of the history to g, `slope` that to the slope of the groove at the stages; `None`
+    /// if the equations are singular.
     pub(super) fn new(
         equation: &Embedding,
         told: Stages,
@@ -63,32 +64,32 @@ impl LinearHeights {
         })
     }
 
-    /// By how much the slope of the force is less as the heights follow the displacements.
+    /// Reduction of the slope of the force, as the heights follow the displacements.
     pub(super) fn stiffness(&self) -> Square {
         self.pull * self.by_displacement
     }
 
-    /// What a change of g makes of the force.
+    /// Change of the force for this change of g.
     pub(super) fn force(&self, groove: &Vector) -> Vector {
         self.pull * (self.inverse * (groove * -self.alpha))
     }
 
-    /// What the change of g with the length of the step makes of it.
+    /// Change of the force for the change of g with the step length.
     pub(super) fn force_by_length(&self) -> Vector {
         self.force(&self.groove_rate)
     }
 
-    /// What a change of α makes of it by the heights.
+    /// Change of the force with α through the heights.
     pub(super) fn force_by_alpha(&self) -> Vector {
         -(self.pull * (self.inverse * self.groove))
     }
 
-    /// What the heights miss makes of it.
+    /// Change of the force by the residual of the heights.
     pub(super) fn force_missed(&self) -> Vector {
         self.pull * (self.inverse * self.missed)
     }
 
-    /// The changes of the heights, from those of g by the state, and those of the displacements.
+    /// The changes of the heights, from those of g with the state and those of the displacements.
     pub(super) fn follow(
         &self,
         by_state: &[Vector],

@@ -1,4 +1,4 @@
-//! The past as the state of a few exponentials, which makes (18) an ordinary differential equation.
+//! Embedding: the history as a state of a few exponentials, which turns (18) into an ordinary differential equation.
 
 use super::{CycleError, lattice};
 use std::sync::Arc;
@@ -6,16 +6,16 @@ use stickslip_tip::memory::{Fit, FitError, Retreat, accuracy_needed};
 use stickslip_tip::step::Law;
 use stickslip_tip::{Model, TipFunction, Wider, tip_function};
 
-/// (18) with f'(ξ) = `Σ_j Re(w_j e^{s_j ξ})` on the side of the past.
+/// (18) with f'(ξ) = `Σ_j Re(w_j e^{s_j ξ})` behind the tip.
 ///
-/// The state of the tip and its past is X = (e, Re ζ, Im ζ), e = rt - x0 the extension of the spring and
-/// `ζ_j = w_j ∫ e^{s_j (x0(t) - x0(t'))}dt'`: a vector of fixed length, and a cycle is a periodic solution of an
-/// equation for it. With inertia its last component is the velocity; under a depth limit the height under the tip is no
+/// The state of the tip and its history is X = (e, Re ζ, Im ζ), where e = rt - x0 is the extension of the spring and
+/// `ζ_j = w_j ∫ e^{s_j (x0(t) - x0(t'))}dt'`. It is a vector of fixed length, and a cycle is a periodic solution of
+/// its equation. With inertia its last component is the velocity. Under a depth limit the height under the tip is no
 /// further component, but -α `Σ_j Re(ζ_j/s_j)`.
 ///
-/// Three sums stand for f': a `fine` one, in which the equations are solved, a `short` one, in which what is found is
-/// linearised, for multipliers and branches, and on the way there a `rough` one: Newton's method converges all the same,
-/// and a state of half the length costs a quarter.
+/// Three sums represent f'. The equations are solved in the `fine` one. They are linearised in the `short` one for
+/// multipliers and branches, and in the `rough` one during the search: Newton's method converges with it too, and a
+/// state of half the length costs a quarter.
 #[derive(Debug, Clone)]
 pub(super) struct Embedding {
     pub(super) tip: TipFunction,
@@ -24,15 +24,15 @@ pub(super) struct Embedding {
     pub(super) wider: Wider,
     pub(super) fine: Arc<Fit>,
     pub(super) short: Arc<Fit>,
-    /// Takes the place of `short` while a cycle is sought.
+    /// Replaces `short` during the search for a cycle.
     pub(super) rough: Arc<Fit>,
     /// Whether derivatives in the short sum are those of f.
     pub(super) short_is_precise: bool,
-    /// Wave number beyond which f does not vary, as far as steps are concerned.
+    /// Largest wave number of f that matters for the step length.
     pub(super) band: f64,
 }
 
-/// Of the two parameters, the one that is free.
+/// The free parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Parameter {
     /// α at fixed r.
@@ -41,35 +41,36 @@ pub enum Parameter {
     R,
 }
 
-/// Displacement of the tip that the fine sum may bring about, over the residual allowed.
+/// Largest displacement of the tip by the residual of the fine sum, in units of the allowed residual of (18).
 const SHARE_OF_FINE: f64 = 0.1;
-/// Displacement that the short one may bring about: multipliers are as accurate, where they are not
-/// amplified.
+/// Largest displacement by the residual of the short sum: multipliers have the same accuracy, unless they amplify it.
 const ACCURACY_OF_SHORT: f64 = 1e-8;
-/// And the one that Newton's method goes by: from 1e-3 to 1e-6 maps take the same time within a tenth.
+/// Largest displacement by the residual of the rough sum: from 1e-3 to 1e-6 phase diagrams take the same time within a
+/// tenth.
 const ACCURACY_OF_ROUGH: f64 = 1e-4;
-/// Few exponentials are no more than these.
+/// Largest number of exponentials in a sum without a lattice.
 const FEW: usize = 60;
-/// Waves of a lattice of exponents, where no few exponentials follow f'.
+/// Largest number of waves of a lattice of exponents, used if no few exponentials fit f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
 const MOST_WAVES_OF_SHORT: usize = 120;
-/// What a step may miss of f, as a displacement, and the waves that this leaves over those of round-off.
+/// Displacement by the part of f that steps need not resolve, and the ratio of the largest wave number of steps to that
+/// of this accuracy.
 const ACCURACY_OF_STEPS: f64 = 1e-5;
 const WAVES_OF_ROUND_OFF: f64 = 1.5;
 
 impl Embedding {
-    /// For cycles on which (18) leaves a residual of at most `allowed`, or as little as the fit does.
+    /// The equations for cycles with a residual of (18) of at most `allowed`, or the smallest that the fit permits.
     ///
     /// # Errors
-    /// A footprint that never fades, or one too rough for this residual.
+    /// A footprint that never fades, or one with too much detail for this residual.
     pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, CycleError> {
         Self::of_sums(model, allowed, false)
     }
 
-    /// The same in sums that hold far behind the farthest point reached, of more terms.
+    /// The same equations with sums of more terms, valid farther behind the farthest point reached.
     ///
     /// # Errors
-    /// These are such sums already, or there are none good enough.
+    /// These are such sums already, or no such sum is accurate enough.
     pub(super) fn reaching_back(&self, allowed: f64) -> Result<Self, CycleError> {
         let Self { alpha, r, .. } = *self;
         let model = self.model().ok_or(CycleError::NotConverged { alpha, r })?;
@@ -120,17 +121,17 @@ impl Embedding {
         Ok(Self { tip, alpha, r, wider, fine, short, rough, short_is_precise, band })
     }
 
-    /// Whether f is told by exponents on a lattice.
+    /// Whether f is fitted by exponents on a lattice.
     pub(super) fn is_on_lattice(&self) -> bool {
         self.fine.terms().len() > FEW
     }
 
-    /// Half a hump of f, as far as steps are concerned: the width of a Gaussian.
+    /// Half the width of a peak of f, for the step length: the width of a Gaussian.
     pub(super) fn width(&self) -> f64 {
         tip_function::widths(1.0, self.band)
     }
 
-    /// How far back from the farthest point reached the sums still hold.
+    /// Distance behind the farthest point reached up to which the sums are valid.
     pub(super) fn retreat(&self) -> f64 {
         self.fine.retreat().min(self.short.retreat())
     }
@@ -149,7 +150,7 @@ impl Embedding {
         }
     }
 
-    /// The model at the present parameters; `None` where one of them has left its range.
+    /// The model at the present parameters; `None` if one of them is out of range.
     pub(super) fn model(&self) -> Option<Model> {
         Model::under(self.wider, self.tip.clone(), self.alpha, self.r).ok()
     }
@@ -159,7 +160,7 @@ impl Embedding {
         Law { alpha: self.alpha, r: self.r, spring: 1.0 }
     }
 
-    /// What it takes to carry the sensitivities of the state over so many steps.
+    /// Factors for the sensitivities of the state over this number of steps.
     pub(super) fn work(&self, steps: f64) -> f64 {
         let state = self.state_len() as f64;
         steps * state * state

@@ -1,4 +1,4 @@
-//! The heights under the tip on a guess that knows none.
+//! Heights under the tip for a guess that contains none.
 
 use super::carved::Heights;
 use super::embedding::Embedding;
@@ -7,12 +7,12 @@ use super::past::Past;
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::step::OwnHeight;
 
-/// Rounds in which the heights are made to follow from their own weights, and by how much of the way in each.
+/// Number of rounds of the fixed-point iteration for the heights, and its relaxation factor.
 const ROUNDS: usize = 12;
 const SHARE: f64 = 0.5;
 
 impl Orbit {
-    /// Heights where the law asks for them, none where it does not. `None` where nobody waits any more.
+    /// Heights under a depth limit, none otherwise; `None` after a request to stop.
     pub(super) fn take_heights(&mut self, equation: &Embedding) -> Option<()> {
         if equation.wider.depth_limit.is_none() {
             self.heights.clear();
@@ -26,7 +26,7 @@ impl Orbit {
         Some(())
     }
 
-    /// Part of the way to what the weights of the present heights make of them.
+    /// One relaxed step towards the heights that follow from the weights of the present heights.
     fn improve_heights(&mut self, equation: &Embedding) -> Option<()> {
         let carved = self.carved(&equation.wider);
         let past = Past::of(&equation.short, self, &carved)?;

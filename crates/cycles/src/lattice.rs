@@ -1,13 +1,13 @@
-//! Exponents on a lattice, for footprints that no few exponentials follow: narrow lobes, tables.
+//! Exponents on a lattice, for footprints that no few exponentials fit: narrow lobes, tables.
 //!
-//! On [-δ, P - δ], P longer than the reach of f by δ, f'(ξ)e^{aξ} is a Fourier series of period P but for the
-//! images of f' one period on, which are damped by e^{-aP}. So
+//! On [-δ, P - δ], where P exceeds the reach of f by δ, f'(ξ)e^{aξ} equals a Fourier series of period P, apart from
+//! the images of f' one period on, which are damped by e^{-aP}. So
 //!
 //! ```text
 //!     f'(ξ) ≈ Σ_k Re(w_k e^{s_k ξ}),    s_k = -a + 2πik/P,    w_k = (2/P) ∫ f'(ξ) e^{-s_k ξ} dξ
 //! ```
 //!
-//! with half of that for k = 0, and the integral over all ξ is -s·a√(2π)w e^{sc + s²w²/2} of a Gaussian, s = -s_k.
+//! with half of this for k = 0. For a Gaussian the integral over all ξ is -s·a√(2π)w e^{sc + s²w²/2}, s = -s_k.
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
@@ -18,16 +18,17 @@ use stickslip_tip::{Gaussian, TipFunction, stop};
 
 /// P over the reach: δ is at most a quarter of it.
 const PERIOD: f64 = 1.6;
-/// What the images of f' and the waves left out may amount to, over the accuracy wanted.
+/// Largest contribution of the images of f' and of the omitted waves, in units of the required accuracy.
 const SHARE: f64 = 0.2;
 
-/// What is aimed at is loosened by this factor until it is met, up to [`LOOSEST`].
+/// Factor by which the required accuracy is relaxed until it is met, up to [`LOOSEST`].
 const LOOSER: f64 = 30.0;
 const LOOSEST: f64 = 1e-2;
-/// Where a lattice misses what is wanted by more, its waves cancel so much that a looser one is nearer.
+/// If the residual of a lattice exceeds the required one by more than this factor, its waves cancel so strongly that a
+/// lattice of lower accuracy fits better.
 const MISSED: f64 = 3.0;
 
-/// The nearest sum to f' that has no more than so many waves, and is no nearer than wanted.
+/// The best fit of f' with at most this number of waves, no more accurate than required.
 ///
 /// # Errors
 /// A footprint that never fades.
@@ -55,11 +56,12 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
     best.ok_or(FitError::Terms)
 }
 
-/// How far back a lattice is trusted, over the reach, and its period, which leaves the images of f' nothing there.
+/// Length behind the tip over which a lattice is valid, in units of the reach, and its period, for which the images of
+/// f' are negligible there.
 const FAR: f64 = 0.25;
 const FAR_PERIOD: f64 = 2.4;
 
-/// A lattice that holds far behind the farthest point that the tip has been to.
+/// A lattice that is valid far behind the farthest point that the tip has reached.
 ///
 /// # Errors
 /// A footprint that never fades.
@@ -73,7 +75,7 @@ pub(super) fn reaching_back(
     fit.map(Arc::new)
 }
 
-/// The sum of these terms, certified, or one made before.
+/// The sum of these terms with its certificate, or one from the cache.
 fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, FitError> {
     type Known = (TipFunction, f64, Arc<Fit>);
     static KNOWN: Mutex<Vec<Known>> = Mutex::new(vec![]);
@@ -96,7 +98,7 @@ fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, F
     Ok(fit)
 }
 
-/// With as many waves as that takes, or the first `most`.
+/// A lattice with the necessary number of waves, or the first `most` of them.
 fn terms(
     tip: &TipFunction,
     (wanted, periods): (f64, f64),
@@ -131,7 +133,7 @@ fn terms(
     Ok(terms)
 }
 
-/// Beyond, coefficients are not even looked at.
+/// Limit beyond which coefficients are not evaluated.
 const MOST_LOOKED_AT: usize = 20_000;
 
 /// Adds ∫ g(ξ) e^{-s_k ξ} dξ of a Gaussian g for each k.
@@ -151,7 +153,7 @@ fn add(transform: &mut [Complex<f64>], g: &Gaussian, damping: f64, spacing: f64)
     }
 }
 
-/// The largest wave number that f' has waves of, to this accuracy.
+/// The largest wave number in the spectrum of f', to this accuracy.
 pub(super) fn band(tip: &TipFunction, wanted: f64) -> Result<f64, FitError> {
     let waves = terms(tip, (wanted, PERIOD), MOST_LOOKED_AT)?;
     Ok(waves.iter().map(|term| term.exponent.im).fold(0.0, f64::max))

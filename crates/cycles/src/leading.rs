@@ -1,9 +1,10 @@
-//! The leading Floquet multipliers where the past takes hundreds of exponentials: the period map is applied to a few
+//! The leading Floquet multipliers for a history of hundreds of exponentials: the period map is applied to a few
 //! deviations instead of all.
 //!
-//! A block Krylov space grows from what kicks at several times of a period have become at its end: deviations that a
-//! past of the tip leads to. The period map within it (Rayleigh, Ritz) has the leading multipliers long before the
-//! others; what two spaces agree on that follow each other is told.
+//! A block Krylov space is built from the effects, at the end of a period, of kicks at several times in it: these are
+//! deviations that correspond to a history of the tip. The projection of the period map on this space (Rayleigh-Ritz)
+//! has accurate leading multipliers long before the others. Multipliers on which two successive spaces agree are
+//! returned.
 
 use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
@@ -18,20 +19,20 @@ use num_complex::Complex;
 use std::sync::Arc;
 use stickslip_tip::eigenvalues;
 
-/// Kicks, and deviations that are carried through a period side by side.
+/// Number of kicks, and of deviations that are carried through a period together.
 const BLOCK: usize = 8;
-/// Of the space; and by how much it grows between looks at it.
+/// Largest dimension of the space, and its growth factor between evaluations.
 const MOST_DIMENSIONS: usize = 320;
 const GROWTH: f64 = 1.2;
-/// Multipliers are told if the last two spaces looked at differ by no more in them, and by no more than this where they
-/// were to grow on.
+/// Largest difference of a returned multiplier between the last two spaces, and the same if the space were to grow
+/// further.
 const AGREED: f64 = 1e-8;
 const NEARLY: f64 = 1e-4;
-/// Of a deviation that the space holds already, this much is round-off.
+/// Fraction of a deviation in the present space that is round-off.
 const HELD: f64 = 1e-11;
 
-/// In the fine sum, by falling modulus, those above `least` and what else is had with them. `None` where the equations
-/// are singular, or nobody waits any more.
+/// The multipliers in the fine sum, by decreasing modulus: those above `least`, and others if available. `None` if the
+/// equations are singular, or after a request to stop.
 pub(super) fn leading(closed: &Closed, least: f64) -> Option<Vec<Complex<f64>>> {
     let Closed { equation, orbit, .. } = closed;
     let map = PeriodMap::new(equation, orbit);
@@ -68,7 +69,7 @@ pub(super) fn leading(closed: &Closed, least: f64) -> Option<Vec<Complex<f64>>> 
     }
 }
 
-/// The eigenvalues of a matrix, by falling modulus.
+/// The eigenvalues of a matrix, by decreasing modulus.
 pub(super) fn sorted(matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let mut found = eigenvalues(matrix)?;
     // Both of a pair have the same modulus to the last bit, and stay in their order.
@@ -76,9 +77,9 @@ pub(super) fn sorted(matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(found)
 }
 
-/// From deviations of the state at the start of a period to those at its end.
+/// The map from deviations of the state at the start of a period to those at its end.
 struct PeriodMap<'a> {
-    /// Linearised in the fine sum.
+    /// The map linearised in the fine sum.
     equation: Embedding,
     orbit: &'a Orbit,
     carved: Vec<Carved>,
@@ -102,7 +103,7 @@ impl<'a> PeriodMap<'a> {
         self.equation.state_len()
     }
 
-    /// What becomes of deviations, one a column.
+    /// The deviations after a period, one per column.
     fn of(&self, past: &Past, block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         let (mut state, mut room) = (Sensitivity::of(block), Factors::default());
         let carry = |_, step: &LinearStep, share: f64| {
@@ -112,7 +113,7 @@ impl<'a> PeriodMap<'a> {
         Some(state.columns())
     }
 
-    /// At the end of a period, of tips that were moved on by 1 at evenly spread steps of it.
+    /// Deviations at the end of a period after a shift of the tip by 1 at evenly spaced steps.
     fn kicks(&self, past: &Past) -> Option<DMatrix<f64>> {
         let steps = self.orbit.stages.len();
         let mut state = Sensitivity::of(&DMatrix::zeros(self.len(), BLOCK));
@@ -128,13 +129,13 @@ impl<'a> PeriodMap<'a> {
     }
 }
 
-/// Columns side by side.
+/// Two matrices side by side.
 fn beside(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     let columns: Vec<_> = left.column_iter().chain(right.column_iter()).collect();
     if columns.is_empty() { left.clone() } else { DMatrix::from_columns(&columns) }
 }
 
-/// An orthonormal basis of what the space does not hold yet of these.
+/// An orthonormal basis of the part of these columns outside the space.
 fn outside(space: &DMatrix<f64>, columns: DMatrix<f64>) -> DMatrix<f64> {
     let mut basis = space.clone();
     for column in columns.column_iter() {

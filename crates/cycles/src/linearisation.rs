@@ -1,8 +1,8 @@
 //! The collocation equations of a whole cycle, linearised and reduced to its first state.
 //!
-//! The displacements of every step are eliminated as the orbit is followed, so that what is left are the
-//! changes of the first state X, the period T and the free parameter, with X at the end equal to X at the
-//! start, l at a maximum there, and one equation more: a fixed parameter, or a way along the branch.
+//! The displacements of every step are eliminated while the orbit is followed. The remaining unknowns are the changes
+//! of the first state X, the period T and the free parameter. The remaining equations are that X at the end equals X
+//! at the start, that l has a maximum there, and one more: a fixed parameter, or a position along the branch.
 
 use super::carved::Carved;
 use super::change::{Change, Direction};
@@ -18,31 +18,31 @@ use stickslip_tip::memory::Fit;
 use stickslip_tip::step::velocity_at_end;
 use stickslip_tip::stop;
 
-/// An orbit's equations, linearised.
+/// The linearised equations of an orbit.
 pub(super) struct Linearisation {
-    /// rt - x0 at the end less that at the start.
+    /// rt - x0 at the end minus rt - x0 at the start.
     gap: f64,
     end: Sensitivity,
     stages: Vec<Sensitivity>,
     heights: Vec<Sensitivity>,
     phase: Phase,
-    /// What the mesh is judged by.
+    /// Data for the choice of a mesh.
     pub(super) of_steps: Vec<OfStep>,
 }
 
-/// r less the velocity at the start, and its derivatives.
+/// r minus the velocity at the start, and its derivatives.
 struct Phase {
     value: f64,
     by_state: Vec<f64>,
     by_parameter: f64,
 }
 
-/// A step's equations are singular, the orbit is far from a solution; or nobody waits for it any more.
+/// The equations of a step are singular because the orbit is far from a solution, or a request to stop.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singular;
 
 impl Linearisation {
-    /// In the short sum, about an orbit that is to solve the equations in the sum `solved`.
+    /// The linearisation in the short sum, about an orbit that should solve the equations in the sum `solved`.
     pub(super) fn new(
         equation: &Embedding,
         orbit: &Orbit,
@@ -74,7 +74,7 @@ impl Linearisation {
         self.phase.by_state.len()
     }
 
-    /// The change that solves the linearised equations, and moves by nothing in this direction.
+    /// The change that solves the linearised equations and has no component in this direction.
     pub(super) fn correction(&self, fixed: &Direction) -> Option<Change> {
         let n = self.len();
         let mut wanted = DVector::zeros(n + 2);
@@ -88,7 +88,7 @@ impl Linearisation {
         Some(self.change(&found, 1.0))
     }
 
-    /// The change along the branch, by 1 in this direction.
+    /// The change along the branch with the component 1 in this direction.
     pub(super) fn tangent(&self, along: &Direction) -> Option<Change> {
         let n = self.len();
         let mut wanted = DVector::zeros(n + 2);
@@ -97,7 +97,7 @@ impl Linearisation {
         Some(self.change(&found, 0.0))
     }
 
-    /// What a change of the first state alone becomes.
+    /// The changes of all unknowns for a change of the first state alone.
     pub(super) fn carried(&self, state: &[f64]) -> Change {
         let mut unknowns = DVector::zeros(state.len() + 2);
         unknowns.rows_mut(0, state.len()).copy_from_slice(state);

@@ -1,9 +1,9 @@
 //! The Floquet multipliers: eigenvalues of the monodromy matrix.
 //!
-//! The sum of exponentials that stands for f has states that no past of f leads to, and their multipliers,
-//! e^{s rT} or thereabouts. Where these have not faded after a period they are told from those of f by another
-//! sum, which has others; of sums of hundreds, whose [leading](super::leading) multipliers alone are had, those below
-//! them are left out.
+//! The sum of exponentials for f has states that correspond to no history; their multipliers are approximately e^{s
+//! rT}. If these have not decayed after a period, a second sum with other exponents separates them from the
+//! multipliers of f. For sums of hundreds of terms only the [leading](super::leading) multipliers are available, and
+//! those below them are left out.
 
 use super::embedding::Embedding;
 use super::lattice;
@@ -15,19 +15,20 @@ use std::sync::Arc;
 use stickslip_tip::TipFunction;
 use stickslip_tip::memory::{Fit, accuracy_needed};
 
-/// What is left of an exponential after a period need not be told from multipliers if it is below this.
+/// An exponential that decays below this in a period needs no separation from the multipliers.
 const FADED: f64 = 1e-3;
-/// Of hundreds of exponentials the multipliers above this are had.
+/// Smallest multiplier computed for sums of hundreds of exponentials.
 const LEADING: f64 = 1e-2;
-/// Displacement that the other sum may bring about, and its most waves.
+/// Largest displacement by the residual of the second sum, and its largest number of waves.
 const ACCURACY_OF_ANOTHER: f64 = 1e-6;
 const MOST_WAVES_OF_ANOTHER: usize = 160;
-/// Fine sums of so many terms are dealt with as a whole.
+/// Largest number of terms of a fine sum for which all eigenvalues are computed.
 const MOST_TERMS: usize = 64;
-/// Multipliers in both sums differ by no more, absolutely and in parts of them.
+/// Largest difference of a multiplier between the two sums, absolute and relative.
 const SAME: (f64, f64) = (1e-4, 1e-2);
 
-/// By falling modulus, of a pair the one above the real axis first. `None` where there are none to be had.
+/// The multipliers by decreasing modulus; in a pair the one above the real axis comes first. `None` if they are not
+/// available.
 pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     let equation = &closed.equation;
     let healed = equation.wider.left_after(closed.orbit.period);
@@ -53,7 +54,8 @@ pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     Some(found)
 }
 
-/// In the short sum; under a depth limit in the fine one, as heights are forgotten more slowly than slopes.
+/// The multipliers in the short sum; under a depth limit in the fine one, because heights decay more slowly than
+/// slopes.
 fn monodromy(closed: &Closed) -> Option<DMatrix<f64>> {
     let Embedding { wider, fine, .. } = &closed.equation;
     if wider.depth_limit.is_some() && fine.terms().len() <= MOST_TERMS {
@@ -67,7 +69,7 @@ fn another(equation: &Embedding) -> Option<Arc<Fit>> {
     lattice::fit(&equation.tip, wanted, MOST_WAVES_OF_ANOTHER).ok()
 }
 
-/// What is left at this distance of the exponential that lasts longest.
+/// Value at this distance of the exponential with the slowest decay.
 fn slowest_left(fit: &Fit, distance: f64) -> f64 {
     fit.terms().iter().map(|term| (term.exponent.re * distance).exp()).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! The mesh that a cycle needs: steps long where the motion is smooth, short in its slips.
+//! The mesh of a cycle: long steps where the motion is smooth, short ones in its slips.
 
 use super::orbit::Orbit;
 use stickslip_tip::collocation::STAGES;
@@ -6,38 +6,38 @@ use stickslip_tip::step::{defect, interpolation_error, longest_displacement, vel
 
 /// The residual of a collocation polynomial falls as this power of the step.
 const ORDER: f64 = STAGES as f64;
-/// A mesh aims at this fraction of the residual allowed.
+/// Target of a mesh, as a fraction of the allowed residual.
 const AIM: f64 = 0.4;
-/// Neighbours are no more than so many times as dense.
+/// Largest ratio of the densities of neighbouring steps.
 const GRADING: f64 = 2.0;
 const FEWEST: usize = 10;
-/// Steps on either side, one of which shows the residual where a motion rings.
+/// Number of neighbouring steps on either side, at least one of which shows the residual of a resonant motion.
 const AROUND: usize = 2;
-/// A step that is a smaller part of a neighbour is there for a corner of |h|: what it shows is round-off, and says nothing
-/// of the neighbour.
+/// A step shorter than this fraction of a neighbour belongs to a kink crossing: its residual is round-off, and is no
+/// estimate for the neighbour.
 const SLIVER: f64 = 0.02;
-/// Runs take up their stride again after a corner by steps that grow. Those whose residual is below this part of the
-/// largest, or round-off and below that part of what is allowed, are short for no reason of their own.
+/// After a kink crossing the steps of a run grow gradually to their usual length. Steps whose residual is below this
+/// fraction of the largest one, or both round-off and below that fraction of the allowed residual, need not be short.
 const NEGLIGIBLE: f64 = 1e-6;
 const ROUND_OFF: f64 = 1e-12;
 const SMALL: f64 = 1e-3;
 pub(super) const MOST_STEPS: usize = 4000;
-/// A guess may have more, which its mesh does not keep.
+/// Largest number of steps of a guess, which its mesh need not keep.
 pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 
-/// What the linearisation of a step tells a mesh.
+/// Properties of a linearised step that determine the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OfStep {
-    /// Of the groove.
+    /// Stiffness of the groove.
     pub(super) stiffness: f64,
-    /// What the sum over the nodes misses of the [force](super::quadrature) of the step's own groove.
+    /// Quadrature error of the sum over the nodes for the [force](super::quadrature) of the step's own groove.
     pub(super) missed: f64,
 }
 
-/// Largest residual of (18) within each step, estimated from where its polynomial begins, and that of the next: there
-/// the true velocity is that at the end of the step before. Where the groove is stiff, a polynomial that errs by
-/// interpolation errs by `stiffness` times that in the force. What is missed at the nodes adds to neither: it is of another
-/// form, and of the same order.
+/// Largest residual of (18) within each step, estimated from the start of its polynomial and from that of the next:
+/// there the true velocity is that at the end of the step before. If the groove is stiff, an interpolation error of a
+/// polynomial causes an error of the force larger by the factor `stiffness`. The quadrature error at the nodes is not
+/// added: it has another form, and the same order.
 pub(super) fn residuals(orbit: &Orbit, of_steps: &[OfStep]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
@@ -77,21 +77,22 @@ fn is_sliver(lengths: &[f64], n: usize) -> bool {
     lengths[n] < SLIVER * beside
 }
 
-/// What a mesh is to be.
+/// Requirements for a mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Aim {
-    /// The largest residual, of which a mesh aims at a fraction.
+    /// The allowed residual, of which a mesh aims at a fraction.
     pub(super) allowed: f64,
-    /// By this factor less than that, where meshes have not come near it.
+    /// Additional reduction factor, if earlier meshes did not come close to the target.
     pub(super) sharper: f64,
-    /// Whether no step may be longer than it was.
+    /// Whether no step may become longer.
     pub(super) only_finer: bool,
-    /// Whether the motion may ring: where its leading derivative passes through zero a step shows no residual, and the next
-    /// mesh has it elsewhere.
+    /// Whether the motion may be resonant: where its leading derivative passes through zero a step shows no residual,
+    /// and on the next mesh this happens elsewhere.
     pub(super) may_ring: bool,
 }
 
-/// The mesh on which residuals would be evenly below the one allowed, with these corners among its points.
+/// The mesh on which the residuals would be equal and below the allowed one, with these kink crossings among its
+/// points.
 pub(super) fn adapted(
     orbit: &Orbit,
     band: f64,
@@ -125,7 +126,7 @@ pub(super) fn adapted(
     equidistributed(&orbit.mesh, &graded(density), corners)
 }
 
-/// Raises densities that fall too fast from one step to the next, around the period.
+/// Raises densities that decrease too fast from one step to the next, periodically.
 pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     let n = density.len();
     for i in 0..2 * n {
@@ -139,8 +140,9 @@ pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     density
 }
 
-/// Ends of steps that each hold the same share of the density, constant on each step of the old mesh; of as much as
-/// there is between corners, each of which ends a step. They are no more than it takes to see that there are too many.
+/// Ends of steps with equal shares of the density, which is constant on each step of the old mesh; between kink
+/// crossings, each of which ends a step, the shares are equal separately. The list is cut off when it shows that there
+/// are too many steps.
 pub(super) fn equidistributed(mesh: &[f64], density: &[f64], corners: &[f64]) -> Vec<f64> {
     let mut cumulated = vec![0.0];
     let mut total = 0.0;

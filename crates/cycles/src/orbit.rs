@@ -12,22 +12,22 @@ pub(super) struct Orbit {
     pub(super) period: f64,
     /// Ends of the steps as fractions of the period, from 0 to 1.
     pub(super) mesh: Vec<f64>,
-    /// rt - x0 at t = 0, where it is largest.
+    /// Extension rt - x0 of the spring at t = 0, where it is largest.
     pub(super) extension: f64,
     /// Displacement of x0 in each step, at its nodes.
     pub(super) stages: Vec<Stages>,
-    /// Heights under the tip in each step, where there is a depth limit.
+    /// Heights under the tip in each step, under a depth limit.
     pub(super) heights: Vec<Heights>,
 }
 
-/// A motion as a function of time, from 0 to its period: l, and the height under the tip where it is known.
+/// A motion as a function of time, from 0 to its period: l, and the height under the tip if it is known.
 pub(super) struct Profile<L, H> {
     pub(super) l: L,
     pub(super) height: H,
 }
 
 impl Orbit {
-    /// Of the motion l(t) = rt - r - x0, t from 0 to the period.
+    /// The orbit of the motion l(t) = rt - r - x0, t from 0 to the period.
     pub(super) fn of_profile<L: Fn(f64) -> f64, H: Fn(f64) -> Option<f64>>(
         r: f64,
         period: f64,
@@ -53,13 +53,13 @@ impl Orbit {
         self.mesh.windows(2).map(|ends| self.period * (ends[1] - ends[0]))
     }
 
-    /// x0' where it ends, and begins again.
+    /// x0' at the end of the period, which is also its start.
     pub(super) fn velocity(&self) -> f64 {
         let last = self.stages.last().zip(self.lengths().last());
         last.map_or(0.0, |(d, h)| velocity_at_end(d, h))
     }
 
-    /// What each step leaves.
+    /// Weights and decay of each step.
     pub(super) fn carved(&self, wider: &Wider) -> Vec<Carved> {
         let steps = self.lengths().enumerate();
         steps.map(|(n, h)| Carved::new(wider, h, self.heights.get(n))).collect()
@@ -70,7 +70,7 @@ impl Orbit {
         Trajectory::new(r, self.steps(r))
     }
 
-    /// Its steps.
+    /// The steps of one period.
     pub(super) fn steps(&self, r: f64) -> Vec<Step> {
         let mut extension = self.extension;
         let mut before = self.heights.last().map(|last| last.nodes[STAGES - 1]);
@@ -87,7 +87,7 @@ impl Orbit {
         step.collect()
     }
 
-    /// The same motion, to the accuracy of its polynomials, on another mesh.
+    /// The same motion on another mesh, to the accuracy of its polynomials.
     pub(super) fn on_mesh(&self, r: f64, mesh: Vec<f64>) -> Self {
         let motion = self.trajectory(r);
         let profile = Profile { l: |t| motion.l(t), height: |t| motion.height(t) };
@@ -127,7 +127,7 @@ impl Orbit {
         times.map(|t| (motion.l(t) - motion.l(t + half)).abs()).fold(0.0, f64::max)
     }
 
-    /// The farthest that the tip steps back from where it has been.
+    /// The largest backward motion of the tip.
     pub(super) fn retreat(&self) -> f64 {
         let (mut at, mut farthest, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
         for stages in self.stages.iter().chain(&self.stages) {
@@ -152,10 +152,10 @@ impl Orbit {
     }
 }
 
-/// A last step that is a smaller part of the period is joined to the one before it.
+/// A last step below this fraction of the period is joined to the one before it.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// So many steps of equal length.
+/// The ends of this number of equal steps.
 pub(super) fn even_mesh(steps: usize) -> Vec<f64> {
     (0..=steps).map(|i| i as f64 / steps as f64).collect()
 }

@@ -1,4 +1,4 @@
-//! The past of a motion that has gone on for ever, as a sum of exponentials tells it.
+//! The history of a periodic motion, as a sum of exponentials.
 
 use super::carved::Carved;
 use super::orbit::Orbit;
@@ -15,28 +15,28 @@ pub(super) struct Past<'a> {
     terms: &'a [Term],
     /// By step and term.
     numbers: Numbers,
-    /// What is left of it at the nodes of each step.
+    /// Decay factors at the nodes of each step.
     left: Vec<Stages>,
 }
 
-/// Of all steps and terms: some hundred kilobytes, that are made at every linearisation.
+/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation.
 #[derive(Default)]
 struct Numbers {
     /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `e^{-s_j d_i}`
     inverses: Vec<[Complex<f64>; STAGES]>,
-    /// What `ζ_j` takes up.
+    /// Contribution of the step to `ζ_j`.
     spent: Vec<Complex<f64>>,
-    /// `ζ_j`, at the end of the last step too.
+    /// `ζ_j` at the starts of the steps and at the end of the last one.
     zeta: Vec<Complex<f64>>,
 }
 
 thread_local! {
-    /// Room for the next ones on this thread: asked of the system anew, it would take longer than it is written.
+    /// Buffers for reuse on this thread: a new allocation would take longer than writing them.
     static ROOM: RefCell<Vec<Numbers>> = const { RefCell::new(vec![]) };
 }
-/// So many are kept, none of more steps and terms than this.
+/// Number of buffers kept, and their largest number of steps and terms.
 const MOST_KEPT: usize = 2;
 const LARGEST_KEPT: usize = 10_000;
 
@@ -64,7 +64,7 @@ impl Drop for Past<'_> {
     }
 }
 
-/// That of one step.
+/// The history in one step.
 #[derive(Clone, Copy)]
 pub(super) struct PastOfStep<'a> {
     pub(super) terms: &'a [Term],
@@ -72,16 +72,16 @@ pub(super) struct PastOfStep<'a> {
     pub(super) exponentials: &'a [[Complex<f64>; STAGES]],
     /// `e^{-s_j d_i}`
     pub(super) inverses: &'a [[Complex<f64>; STAGES]],
-    /// ζ where the step starts.
+    /// ζ at the start of the step.
     pub(super) zeta: &'a [Complex<f64>],
-    /// ζ where it ends.
+    /// ζ at the end of the step.
     pub(super) after: &'a [Complex<f64>],
-    /// What is left at the nodes of what there was where it starts.
+    /// Decay factors at the nodes for contributions from before the step.
     left: &'a Stages,
 }
 
 impl<'a> Past<'a> {
-    /// `None` where nobody waits for it any more. `carved` is what each step leaves.
+    /// `None` after a request to stop. `carved` contains the weights and the decay of each step.
     ///
     /// Over a step ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
     pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
@@ -115,7 +115,7 @@ impl<'a> Past<'a> {
         Some(past)
     }
 
-    /// ζ at the ends of all steps, from what it is at the start.
+    /// ζ at the ends of all steps, from ζ at the start of the period.
     fn follow(&mut self) {
         let count = self.terms.len();
         let Numbers { exponentials, spent, zeta, .. } = &mut self.numbers;
@@ -148,23 +148,23 @@ fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
 }
 
 impl PastOfStep<'_> {
-    /// By how much the state where the step starts changes if the tip is moved on there by 1, the past staying.
+    /// Change of the state at the start of the step for a shift of the tip by 1 there, with an unchanged history.
     pub(super) fn moved_on(&self) -> impl Iterator<Item = f64> + '_ {
         let moved = || self.zeta.iter().zip(self.terms).map(|(zeta, term)| zeta * term.exponent);
         [-1.0].into_iter().chain(moved().map(|z| z.re)).chain(moved().map(|z| z.im))
     }
 
-    /// Slope of the past groove at the stages, over α.
+    /// Slope of the groove of the history at the stages, divided by α.
     pub(super) fn slope(&self) -> Stages {
         self.sum(|value, _| value.re)
     }
 
-    /// Its curvature.
+    /// Curvature of this groove, divided by α.
     pub(super) fn curvature(&self) -> Stages {
         self.sum(|value, term| (value * term.exponent).re)
     }
 
-    /// Its height: u is -α times that.
+    /// Height of this groove: u is -α times this.
     pub(super) fn height(&self) -> Stages {
         self.sum(|value, term| (value / term.exponent).re)
     }

@@ -1,22 +1,22 @@
-//! What the sum over a step's nodes misses of the groove that the step carves itself.
+//! Quadrature error of the sum over the nodes of a step for the groove of this step.
 //!
-//! At the node `c_i` that groove is h Σ_k `a_ik` g(`c_k`) with g(τ) = f'(`d_i` - d(τ)), right for polynomials of degree 5. Of
-//! others it misses
+//! At the node `c_i` this groove is h Σ_k `a_ik` g(`c_k`) with g(τ) = f'(`d_i` - d(τ)), exact for polynomials of
+//! degree 5. For other g the error is
 //!
 //! ```text
 //!     h g[0, c_1 … c_6] ∫_0^{c_i} Π_k (τ - c_k) dτ
 //! ```
 //!
-//! with the divided difference over one place more, the start of the step. So much, times α, is the residual of (18) there.
-//! Nodes at the ends of steps have none of it; and where the seventh derivative of the motion passes through zero a mesh
-//! would be too long for it if it were not looked at.
+//! with the divided difference over one additional point, the start of the step. Multiplied by α, it is the residual
+//! of (18) there. It vanishes at nodes at the ends of steps. Where the seventh derivative of the motion passes through
+//! zero, this error limits the step length.
 
 use std::sync::LazyLock;
 use stickslip_tip::TipFunction;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::step::OwnGroove;
 
-/// The node where the integral is largest, and what f' is multiplied with: at the start, and at the nodes.
+/// The node where the integral is largest, and the coefficients of f' at the start and at the nodes.
 struct Rule {
     node: usize,
     at_start: f64,
@@ -56,7 +56,7 @@ impl Rule {
     }
 }
 
-/// The most that is missed at a node of the slope of the groove, over α h.
+/// The largest error of the slope of the groove at a node, divided by α h.
 pub(super) fn missed(tip: &TipFunction, d: &Stages, between: &OwnGroove) -> f64 {
     let Rule { node, at_start, at_nodes } = &*RULE;
     let slopes = &between.slopes()[*node];
@@ -68,7 +68,7 @@ pub(super) fn missed(tip: &TipFunction, d: &Stages, between: &OwnGroove) -> f64 
 mod tests {
     use super::*;
 
-    /// Against the integral along a path that bends, by the rule of Simpson on 4,000 parts.
+    /// Comparison with the integral along a curved path, by Simpson's rule with 4,000 intervals.
     #[test]
     fn what_is_missed_is_foretold() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();

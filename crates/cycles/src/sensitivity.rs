@@ -1,12 +1,12 @@
-//! How quantities along the orbit depend on its unknowns: rows of derivatives.
+//! Derivatives of quantities along the orbit with respect to its unknowns, as rows.
 
 use multiversion::multiversion;
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
 
-/// Rows of derivatives with respect to the state X at t = 0, the period and the free parameter, and last
-/// the change that solving the stage equations asks for. Row by row in memory.
+/// Rows of derivatives with respect to the state X at t = 0, the period and the free parameter, and last the change
+/// that solves the stage equations. Row by row in memory.
 #[derive(Debug, Clone)]
 pub(super) struct Sensitivity {
     columns: usize,
@@ -15,7 +15,7 @@ pub(super) struct Sensitivity {
 
 /// Columns beyond those of the state: period, free parameter, correction.
 const CONSTANTS: usize = 3;
-/// Columns are dealt with in blocks that stay in registers.
+/// Number of columns in a block, which stays in registers.
 const LANES: usize = 4;
 
 impl Sensitivity {
@@ -23,7 +23,7 @@ impl Sensitivity {
         Self { columns, entries: vec![0.0; rows * columns.next_multiple_of(LANES)] }
     }
 
-    /// Of a state of this length to itself.
+    /// Derivatives of a state of this length with respect to itself.
     pub(super) fn identity(n: usize) -> Self {
         let mut identity = Self::zeros(n, n + CONSTANTS);
         for i in 0..n {
@@ -32,7 +32,7 @@ impl Sensitivity {
         identity
     }
 
-    /// Of a state with respect to others, each of which moves it by a column.
+    /// Derivatives of a state with respect to unknowns, each of which changes it by a column.
     pub(super) fn of(columns: &DMatrix<f64>) -> Self {
         let mut found = Self::zeros(columns.nrows(), columns.ncols() + CONSTANTS);
         for (k, column) in columns.column_iter().enumerate() {
@@ -45,13 +45,13 @@ impl Sensitivity {
         column.enumerate().for_each(|(i, value)| self.row_mut(i)[k] = value);
     }
 
-    /// The columns again.
+    /// The columns of the derivatives.
     pub(super) fn columns(&self) -> DMatrix<f64> {
         let rows = self.entries.len() / self.stride();
         DMatrix::from_fn(rows, self.columns - CONSTANTS, |i, k| self.row(i)[k])
     }
 
-    /// Entries of a row in memory, the last of them idle.
+    /// Number of entries of a row in memory; the last of them are unused.
     fn stride(&self) -> usize {
         self.columns.next_multiple_of(LANES)
     }
@@ -65,7 +65,7 @@ impl Sensitivity {
         &mut self.entries[i * stride..][..columns]
     }
 
-    /// Row i no longer depends on anything.
+    /// Sets row i to 0.
     pub(super) fn clear(&mut self, i: usize) {
         self.row_mut(i).fill(0.0);
     }
@@ -103,7 +103,7 @@ impl Sensitivity {
     }
 }
 
-/// Compiled for wider vectors too: columns do not know of each other.
+/// Compiled for wider vectors too: columns are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn turn(re: &mut [f64], im: &mut [f64], stride: usize, factors: &[Complex<f64>]) {
     let rows = re.chunks_exact_mut(stride).zip(im.chunks_exact_mut(stride));

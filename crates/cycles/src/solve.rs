@@ -1,4 +1,4 @@
-//! Newton's method for a cycle, on meshes that are refined until its residual is as small as asked.
+//! Newton's method for a cycle, on meshes that are refined until its residual is small enough.
 
 use super::CycleError;
 use super::change::{Change, Direction};
@@ -19,11 +19,11 @@ pub(super) struct Closed {
     pub(super) linearisation: Arc<Linearisation>,
     /// Estimate of the largest residual of (18).
     pub(super) residual: f64,
-    /// Linearisations that it took.
+    /// Number of linearisations in the solution.
     pub(super) iterations: usize,
 }
 
-/// Which unknown is free besides the motion and its period, and what does not change.
+/// The free unknown besides the motion and its period, and the fixed quantity.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Condition {
     pub(super) free: Parameter,
@@ -31,49 +31,50 @@ pub(super) struct Condition {
 }
 
 impl Condition {
-    /// Both parameters given.
+    /// Both parameters are given.
     pub(super) const GIVEN: Self = Self { free: Parameter::Alpha, fixed: Direction::PARAMETER };
 }
 
-/// Why there is no cycle near a guess.
+/// The reason why there is no cycle near a guess.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum NotClosed {
     /// Newton's method did not converge, or the mesh needs too many steps.
     Lost,
-    /// There is one, but no mesh brings its residual down to what is asked: round-off of the sum that stands for f
-    /// does not let it. This much can be had.
+    /// A cycle exists, but no mesh reduces its residual to the allowed one, because of the round-off of the sum for
+    /// f'. This residual can be reached.
     Coarse(f64),
 }
 
 const MOST_ITERATIONS: usize = 15;
 const MOST_MESHES: usize = 8;
-/// And under a wider law: to follow the corners of |h|, and where inertia rings.
+/// The same in the extended model: meshes must follow the kink crossings, and resonant motions.
 const MOST_MESHES_OF_WIDER: usize = 20;
-/// From so many meshes on each aims at this part of the residual of the one before.
+/// Number of meshes after which each aims at this fraction of the residual of the one before.
 const USUAL_MESHES: usize = 4;
 const SHARPER: f64 = 0.5;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
-/// Residuals within a step may exceed the estimate by as much.
+/// Largest estimated residual as a fraction of the allowed one, because the residual within a step may exceed the
+/// estimate.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
-/// What can be had, over the residual at which meshes no longer help.
+/// Residual that can be reached, in units of the residual below which meshes no longer help.
 const MARGIN: f64 = 2.0;
-/// A correction of this size leaves an error of its square.
+/// Largest size of the last correction: its error is of the order of its square.
 const ENOUGH: f64 = 1e-9;
-/// Enough to see how far the mesh must be refined.
+/// Size of a correction that is sufficient for the refinement of the mesh.
 const ENOUGH_FOR_A_MESH: f64 = 1e-6;
-/// Corrections that no longer shrink are round-off if they are below this.
+/// Corrections below this that no longer decrease are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// A correction changes no position by more than this, in widths of the tip, and the period by no more
-/// than that fraction.
+/// Largest change of a position by a correction, in widths of the tip, and largest relative change of the period.
 const LONGEST_CORRECTION: f64 = 1.0;
 const LARGEST_CHANGE_OF_PERIOD: f64 = 0.2;
-/// And no height by more than this, over the depth limit: w depends on them as an exponential does.
+/// Largest change of a height by a correction, in units of the depth limit: w depends on heights exponentially.
 const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
-/// A guess is given up after so many corrections in turn that hardly change and are longer than all that are left together.
+/// Number of successive corrections of nearly equal size, each longer than all remaining ones together can be, after
+/// which a guess is given up.
 const TOO_FAR: usize = 3;
-/// Corrections below this that are no smaller part of the last show that the rough sum does not do: motions that amplify
-/// deviations amplify its errors.
+/// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that
+/// amplify deviations amplify its errors.
 const SLOW: f64 = 0.1;
 const NEAR: f64 = 1e-3;
 
@@ -154,8 +155,8 @@ pub(super) fn close(
 }
 
 impl Aim {
-    /// Where inertia rings, a mesh that does not resolve it says too little of the one that would: after some that fell
-    /// short they only become finer.
+    /// For resonant motions, an insufficient mesh gives no reliable estimate of the necessary one: after several of
+    /// them meshes are only refined.
     fn of_round(round: usize, allowed: f64, has_inertia: bool) -> Self {
         let late = if has_inertia { round.saturating_sub(USUAL_MESHES) } else { 0 };
         let sharper = (0..late).fold(1.0, |sharper, _| SHARPER * sharper);
@@ -168,15 +169,15 @@ struct Newton<'a> {
     equation: &'a mut Embedding,
     orbit: &'a mut Orbit,
     condition: Condition,
-    /// What to go by where the rough sum leads nowhere.
+    /// The alternative sum, if the rough one leads to no solution.
     precise: &'a Arc<Fit>,
 }
 
-/// Where Newton's method ended.
+/// The end of an iteration of Newton's method.
 struct Converged {
-    /// About the last iterate but one.
+    /// Linearisation about the last iterate but one.
     linearisation: Linearisation,
-    /// Linearisations that it took.
+    /// Number of linearisations.
     count: usize,
     /// The last correction.
     size: f64,
@@ -229,7 +230,7 @@ impl Newton<'_> {
     }
 }
 
-/// How much of a correction is made.
+/// Fraction of a correction that is applied.
 fn damping(change: &Change, period: f64, width: f64) -> f64 {
     let by_size = LONGEST_CORRECTION * width / change.size();
     let by_period = LARGEST_CHANGE_OF_PERIOD * period / change.period.abs();

@@ -1,4 +1,4 @@
-//! One step of the collocation equations on the modes' state, and its linearisation.
+//! One step of the collocation equations for the state of exponentials, and its linearisation.
 //!
 //! With X = (e, ζ) at the start of a step of length h, displacements d at its nodes and A, b of the method,
 //!
@@ -8,8 +8,8 @@
 //!     e'  = e + r h - d_s,        ζ_j' = e^{s_j d_s} (ζ_j + w_j h Σ_k b_k e^{-s_j d_k})
 //! ```
 //!
-//! A wider law weighs and fades visits ([`Carved`]), carries the force on by another matrix than hA ([`Carrying`]), or
-//! asks for the [heights](LinearHeights) under the tip.
+//! The extended model changes the weights and the decay of visits ([`Carved`]), the matrix hA between force and
+//! displacement ([`Carrying`]), or adds the [heights](LinearHeights) under the tip as unknowns.
 
 use super::blocks::{Square, Vector, inverted};
 use super::carrying::Carrying;
@@ -32,21 +32,21 @@ pub(super) struct LinearStep<'a> {
     carved: &'a Carved,
     d: &'a Stages,
     h: f64,
-    /// The force: the velocity, without inertia.
+    /// The force, which without inertia is the velocity.
     velocity: Vector,
-    /// ∂v/∂d, the heights following.
+    /// ∂v/∂d, including the change of the heights.
     velocity_slope: Square,
-    /// Slope of the groove over α, past and own: ∂v/∂α.
+    /// Slope of the groove divided by α, from history and step: ∂v/∂α.
     groove: Vector,
-    /// Its derivative by h.
+    /// Its derivative with respect to h.
     groove_rate: Vector,
     carrying: Carrying,
     heights: Option<LinearHeights>,
-    /// Of the force by the step's own groove, at most.
+    /// Largest quadrature error of the force of the step's own groove.
     missed: f64,
 }
 
-/// Room for the factors by which rows are carried, kept from step to step.
+/// Buffers for the factors of the rows, reused from step to step.
 #[derive(Default)]
 pub(super) struct Factors {
     /// ∂d/∂X by component of X.
@@ -54,16 +54,16 @@ pub(super) struct Factors {
     /// ∂X'/∂d and ∂X'/∂η by component of X'.
     by_stages: Vec<Stages>,
     by_heights: Vec<Stages>,
-    /// What each ζ is multiplied by.
+    /// The factor of each ζ.
     turns: Vec<Complex<f64>>,
 }
 
-/// What is known of a step: its state at the start, its length, its solution.
+/// The data of a step: its state at the start, its length, its solution.
 #[derive(Clone, Copy)]
 pub(super) struct Solved<'a> {
-    /// rt - x0 where it starts.
+    /// rt - x0 at the start of the step.
     pub(super) extension: f64,
-    /// x0' there.
+    /// x0' at the start of the step.
     pub(super) velocity: f64,
     pub(super) h: f64,
     pub(super) d: &'a Stages,
@@ -72,7 +72,7 @@ pub(super) struct Solved<'a> {
 }
 
 impl<'a> LinearStep<'a> {
-    /// `told` is the past in which the equations are solved, `past` that in which they are linearised.
+    /// `told` is the history in which the equations are solved, `past` the one in which they are linearised.
     pub(super) fn new(
         equation: &'a Embedding,
         (past, told): (PastOfStep<'a>, PastOfStep<'_>),
@@ -121,7 +121,7 @@ impl<'a> LinearStep<'a> {
         }
     }
 
-    /// What a mesh is judged by: 1 + u_xx, the largest within the step, and what its sums miss.
+    /// Data for the mesh: the largest stiffness 1 + u_xx within the step, and its quadrature error.
     pub(super) fn of_step(&self) -> OfStep {
         let diagonal = self.velocity_slope.diagonal();
         let stiffness = diagonal.iter().fold(1.0, |m: f64, s| m.max(s.abs()));
@@ -188,7 +188,7 @@ impl<'a> LinearStep<'a> {
         [(inverse * lengthened + gain * by_length) * share, gain * by_parameter, inverse * missed]
     }
 
-    /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is that of the heights.
+    /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is the derivative of the heights.
     fn stages_by_state(
         &self,
         told: &[Vector],
@@ -212,7 +212,7 @@ impl<'a> LinearStep<'a> {
         into.extend(self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide)));
     }
 
-    /// ∂g/∂X of the heights -α g, by component of X; nothing without a depth limit.
+    /// ∂g/∂X of the heights -α g, by component of X; empty without a depth limit.
     fn heights_by_state(&self) -> Vec<Vector> {
         if self.heights.is_none() {
             return vec![];
@@ -286,9 +286,9 @@ impl<'a> LinearStep<'a> {
     }
 }
 
-/// A matrix times the real parts, and minus the imaginary parts, of all these vectors.
+/// The product of a matrix with the real parts, and minus the imaginary parts, of all these vectors.
 ///
-/// Compiled for wider vectors too: lanes do not know of each other.
+/// Compiled for wider vectors too: lanes are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn products(
     matrix: &Square,
@@ -309,7 +309,7 @@ fn products(
     }
 }
 
-/// Real and imaginary parts of these numbers times factors of each, and one of all.
+/// Real and imaginary parts of these numbers, multiplied by a factor for each and a common one.
 #[inline]
 fn times(
     numbers: &[Complex<f64>; STAGES],
@@ -332,8 +332,8 @@ mod tests {
     use stickslip_tip::step::{Equations, Law};
     use stickslip_tip::{Model, TipFunction};
 
-    /// The integrator's equations, with the past from its memory, on the steps of a cycle: what memory and
-    /// state say of the past agrees, and all that is made of it.
+    /// Comparison with the equations of the integrator and its memory, on the steps of a cycle: the history agrees,
+    /// and all derived quantities.
     #[test]
     fn a_step_of_a_cycle_and_of_the_integrator_are_the_same() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();

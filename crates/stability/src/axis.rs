@@ -1,4 +1,4 @@
-//! The imaginary axis Λ = iΩ: where (42) and (43) live.
+//! The imaginary axis Λ = iΩ, on which (42) and (43) hold.
 //!
 //! With c(Ω) = -∫f'' cos = Ω² f̂(Ω)/2 and s(Ω) = (1/Ω)∫f'' sin they read r = s/c and αc = r/c.
 
@@ -10,13 +10,13 @@ use std::sync::Arc;
 use stickslip_tip::roots::zero_between;
 use stickslip_tip::{TipFunction, stop};
 
-/// Samples per period of the fastest ripple that the reach of the tip allows.
+/// Number of samples per period of the fastest oscillation that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 8.0;
-/// A scan never takes more samples than this.
+/// Largest number of samples of a scan.
 const MOST_SAMPLES: f64 = 2e5;
-/// The c of a table below this fraction of its largest is its round-off.
+/// Values of c of a table below this fraction of the largest one are round-off.
 const ROUNDOFF: f64 = 1e-12;
-/// After so many samples of nothing else the table has no more to say.
+/// Number of successive samples of round-off after which the scan of a table ends.
 const FADED_SPAN: usize = 64;
 
 /// c and s at one Ω, with their derivatives.
@@ -44,7 +44,7 @@ impl AxisPoint {
     }
 }
 
-/// c and s sampled so densely that no crossing hides between two samples.
+/// c and s, sampled so densely that no crossing lies unseen between two samples.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     tip: TipFunction,
@@ -55,7 +55,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Of this footprint, scanned anew only where it has not been lately.
+    /// The scan for this footprint, from the cache if it is recent.
     pub(super) fn of(tip: &TipFunction) -> Arc<Self> {
         static KEPT: Kept<Axis> = Kept::new();
         KEPT.of(tip, || Self::new(tip))
@@ -126,7 +126,8 @@ impl Axis {
         zeros
     }
 
-    /// g, of one sign at both ends, turns between them: a pair of zeros if its extremum has the other.
+    /// If g has the same sign at both ends and an extremum between them, it has a pair of zeros if the sign at the
+    /// extremum is different.
     fn hidden_pair(
         &self,
         g: &impl Fn(&AxisPoint) -> (f64, f64),

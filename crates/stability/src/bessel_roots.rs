@@ -1,4 +1,4 @@
-//! Roots for f = J0: (44), squared to a quartic and sifted by its branch.
+//! Roots for f = J0: (44), squared to a quartic, without the roots of the other branch.
 //!
 //! With s = √(Λ²+1), κ = α/r: p(Λ) = s((r - κ)Λ + 1) + κΛ² = 0, (45). Squared, and divided by Λ⁴
 //! (Λ = 0 is no root), μ = 1/Λ solves μ⁴ + 2aμ³ + (1+a²)μ² + 2aμ + a² - κ² = 0, a = r - κ.
@@ -21,7 +21,7 @@ struct Branch {
     kappa: f64,
 }
 
-/// The roots right of `bound`, or, without one, all of them.
+/// The roots right of `bound`; all of them if it is `None`.
 pub(super) fn spectrum(model: &Model, bound: Option<f64>) -> Result<Spectrum, StabilityError> {
     let branch = Branch::new(model);
     let all = branch.upper_roots();
@@ -91,8 +91,8 @@ impl Branch {
         (s * linear + self.kappa * lambda.norm_sqr()).max(f64::MIN_POSITIVE)
     }
 
-    /// |p| relative to its terms, or, if smaller, what is left of Newton's step relative to Λ: close to a
-    /// branch point no Λ in floating point makes p small.
+    /// |p| relative to its terms or, if smaller, the size of Newton's step relative to Λ: close to a branch point no
+    /// floating-point Λ makes p small.
     fn residual(&self, lambda: Complex64) -> f64 {
         let p = self.at(lambda);
         let step = p.value.norm() / (p.derivative.norm() * lambda.norm());

@@ -1,4 +1,5 @@
-//! Where N cannot vanish: the transforms are bounded, and fall with |p|, while Mv²Λ² + vΛ + κ grows, or for creep stays κ.
+//! Regions without zeros of N: the transforms are bounded and decrease with |p|, while Mv²Λ² + vΛ + κ grows (or for
+//! creep stays κ).
 
 use super::kept::Kept;
 use super::law::Law;
@@ -10,29 +11,30 @@ use stickslip_tip::{Gaussian, TipFunction};
 
 /// Samples of f over its reach, from which its integrals are bounded.
 const SAMPLES: u32 = 1000;
-/// Kept between those sums and the bounds that use them.
+/// Safety factor between these sums and the bounds.
 const MARGIN: f64 = 1.1;
-/// Bounds are looked for by steps of this factor, up to so far.
+/// Factor between successive distances in the search for a bound, and the largest distance.
 const STEP: f64 = 1.1;
 const FARTHEST: f64 = 1e12;
 /// For |p| ≥ 2 the transforms of J0 (Re p ≥ 0) and cos x are below 4/3 of 1/|p|.
 const WAVES: f64 = 4.0 / 3.0;
 
-/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, of each in turn.
+/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, in this order.
 #[derive(Debug, Clone)]
 pub(super) struct Bounds {
     area: [f64; 3],
     decay: [f64; 3],
-    /// Of p, in what each is for Re p < 0 beside a value on the right: 0, 1, 2.
+    /// Power of p in the exponential term of each transform for Re p < 0: 0, 1, 2.
     powers: [i32; 3],
-    /// |p| from which they hold.
+    /// |p| above which these bounds hold.
     from: f64,
-    /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 what φ is beside -φ(-p) fades as e^{w²(Re²-Im²)/2}.
+    /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 the exponential term, φ without -φ(-p), decreases as
+    /// e^{w²(Re²-Im²)/2}.
     terms: Vec<(f64, f64, f64)>,
 }
 
 impl Bounds {
-    /// Of this footprint, summed anew only where they have not been lately.
+    /// The bounds for this footprint, from the cache if they are recent.
     pub(super) fn of(footprint: &OneSided) -> Arc<Self> {
         static ALONG: Kept<Bounds> = Kept::new();
         static ACROSS: Kept<Bounds> = Kept::new();
@@ -76,12 +78,12 @@ impl Bounds {
         Self { area, decay, powers, from: 0.0, terms }
     }
 
-    /// Of φ, φ1, G where |p| ≥ `distance`, Re p ≥ 0.
+    /// Bounds of φ, φ1, G for |p| ≥ `distance`, Re p ≥ 0.
     fn right(&self, distance: f64) -> [f64; 3] {
         [0, 1, 2].map(|i: usize| self.area[i].min(self.decay[i] / distance))
     }
 
-    /// Where Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0.
+    /// Bounds for Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0.
     fn left(&self, left: f64, top: f64) -> [f64; 3] {
         let mut bounds = self.right(top);
         if left >= 0.0 {
@@ -98,13 +100,13 @@ impl Bounds {
         bounds
     }
 
-    /// Beyond this, the bounds of [`Self::left`] fall with Im p.
+    /// The |Im p| beyond which the bounds of [`Self::left`] decrease with Im p.
     fn fading_from(&self) -> f64 {
         let narrowest = self.terms.iter().map(|t| t.2).fold(f64::INFINITY, f64::min);
         (2.0_f64.sqrt() / narrowest).max(self.from)
     }
 
-    /// ∫|f''|; 1 for J0 and cos x, of which it is infinite.
+    /// ∫|f''|; 1 for J0 and cos x, for which it is infinite.
     pub(super) fn curvature(&self) -> f64 {
         if self.area[2].is_finite() { self.area[2] } else { 1.0 }
     }
@@ -130,8 +132,8 @@ impl Bounds {
     }
 }
 
-/// |Mv²Λ² + vΛ + κ| is no less than this where |Λ| ≥ `distance`, Re Λ ≥ 0: the real part of Mv²Λ + v + κ/Λ is at
-/// least v. Without drag κ is left.
+/// Lower bound of |Mv²Λ² + vΛ + κ| for |Λ| ≥ `distance`, Re Λ ≥ 0: the real part of Mv²Λ + v + κ/Λ is at least v.
+/// Without drag only κ remains.
 fn bare_on_the_right(law: &Law, distance: f64) -> f64 {
     if law.drag <= 0.0 {
         return law.spring;
@@ -140,8 +142,8 @@ fn bare_on_the_right(law: &Law, distance: f64) -> f64 {
     inertial.max(law.drag * distance)
 }
 
-/// Nor than this where Re Λ ≥ `left`, |Im Λ| ≥ `top`: |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv Re Λ|,
-/// and the product of the distances from its two zeros.
+/// Lower bound of the same for Re Λ ≥ `left`, |Im Λ| ≥ `top`: |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv
+/// Re Λ|, and the product of the distances from its two zeros.
 fn bare_above(law: &Law, zeros: &[Complex64], left: f64, top: f64) -> f64 {
     if law.drag <= 0.0 {
         return law.spring;
@@ -167,7 +169,7 @@ pub(super) fn quadratic(a: f64, b: f64, c: f64) -> Vec<Complex64> {
     vec![far, near]
 }
 
-/// Whether (Mv²Λ² + vΛ + κ)(1 + Bφ), with the first factor at least `bare`, is more than the rest of N.
+/// Whether |(Mv²Λ² + vΛ + κ)(1 + Bφ)|, with the first factor at least `bare`, exceeds the remaining terms of N.
 fn outweighs(law: &Law, bare: f64, [height, slope, curvature]: [f64; 3]) -> bool {
     let (a, b) = (law.density.abs(), law.limit().abs());
     let still = law.steady.curvature.abs();
@@ -175,7 +177,7 @@ fn outweighs(law: &Law, bare: f64, [height, slope, curvature]: [f64; 3]) -> bool
     bare * (1.0 - b * height) > a * (curvature + still + raised)
 }
 
-/// The first of `least` times powers of [`STEP`] where `holds`.
+/// The first product of `least` and a power of [`STEP`] for which `holds` is true.
 fn first(holds: impl Fn(f64) -> bool, least: f64) -> f64 {
     let mut at = least;
     while !holds(at) && at < FARTHEST {

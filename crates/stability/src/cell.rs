@@ -1,4 +1,4 @@
-//! Zeros of an analytic function in a rectangle, by halving it: the search that cannot miss one.
+//! Zeros of an analytic function in a rectangle, by bisection of the rectangle: a search that misses none.
 
 use super::StabilityError;
 use super::newton::{pair, polish};
@@ -7,20 +7,20 @@ use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Rectangles smaller than this, in units of 1/`length`, hold one multiple zero.
+/// Rectangles smaller than this, in units of 1/`length`, contain one multiple zero.
 const SMALLEST: f64 = 1e-6;
-/// Or smaller than this fraction of how far away they are.
+/// The same for rectangles smaller than this fraction of their distance from the origin.
 const SMALLEST_PART: f64 = 1e-12;
-/// Two zeros in a rectangle smaller than this, in units of 1/`length`, are looked for as a pair: lines
-/// between them would pass too close by.
+/// Two zeros in a rectangle smaller than this, in units of 1/`length`, are sought as a pair: lines between them would
+/// pass too close to them.
 const PAIR: f64 = 1e-3;
-/// Newton's method has arrived where its step is below this fraction of where it is.
+/// Newton's method has converged if its step is below this fraction of |z|.
 const ARRIVED: f64 = 1e-11;
 
 /// A rectangle of the Λ plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// Over which the function may vary: a width of the tip.
+    /// Length over which the function may vary: a width of the tip.
     pub(super) length: f64,
     pub(super) lower_left: Complex64,
     pub(super) upper_right: Complex64,
@@ -37,7 +37,7 @@ impl Cell {
             && (self.lower_left.im..=self.upper_right.im).contains(&z.im)
     }
 
-    /// Zeros inside, with their multiplicity.
+    /// Number of zeros inside, with multiplicity.
     pub(super) fn count(&self, h: &impl Fn(Complex64) -> Scaled) -> Result<usize, StabilityError> {
         let (a, c) = (self.lower_left, self.upper_right);
         let (b, d) = (Complex64::new(c.re, a.im), Complex64::new(a.re, c.im));
@@ -45,7 +45,7 @@ impl Cell {
         whole(turned, 2.0 * PI).ok_or(StabilityError::RootOnContour { re: a.re })
     }
 
-    /// The two halves along the longer side, parted at `fraction` of it.
+    /// The two parts along the longer side, separated at this `fraction` of it.
     fn halves(&self, fraction: f64) -> [Self; 2] {
         let size = self.upper_right - self.lower_left;
         let (mut first, mut second) = (*self, *self);
@@ -93,7 +93,7 @@ impl Cell {
         Ok(zeros)
     }
 
-    /// Halves whose common side no zero lies on, and the number of zeros in the first.
+    /// Two parts with no zero on their common side, and the number of zeros in the first.
     fn counted_halves(
         &self,
         h: &impl Fn(Complex64) -> Scaled,
@@ -110,13 +110,13 @@ impl Cell {
     }
 }
 
-/// Where Newton's method leads, or `center` if it leads elsewhere.
+/// The limit of Newton's method, or `center` if it lies elsewhere.
 fn near(h: &impl Fn(Complex64) -> Scaled, center: Complex64, radius: f64) -> Complex64 {
     let zero = polish(h, center);
     if (zero - center).norm() <= radius { zero } else { center }
 }
 
-/// Whether Newton's method has no way to go from z.
+/// Whether Newton's method has no finite step at z.
 fn is_zero(h: &impl Fn(Complex64) -> Scaled, z: Complex64) -> bool {
     let at = h(z);
     (at.value / at.derivative).norm() <= ARRIVED * z.norm()

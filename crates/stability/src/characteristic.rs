@@ -1,5 +1,5 @@
-//! The characteristic function N(Λ) of [`Law`], λ = vΛ: real on the real axis, with where it cannot vanish and how well
-//! its zeros are known.
+//! The characteristic function N(Λ) of [`Law`], λ = vΛ, which is real on the real axis, with regions without zeros and
+//! error estimates of zeros.
 
 use super::StabilityError;
 use super::bounds::{Bounds, bare_zeros, quadratic};
@@ -10,14 +10,15 @@ use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::{Model, TipFunction};
 
-/// How many widths^{-1} to the left anyone may want to look.
+/// Largest distance to the left in which roots are sought, in inverse widths.
 const WIDENINGS: f64 = 60.0;
-/// Round-off of 1e-16 in f, 1e-11 in f'' of a dense table, is no longer small times e to this.
+/// Exponent of the amplification at which round-off of 1e-16 in f, or 1e-11 in f'' of a dense table, is no longer
+/// small.
 const ROUNDOFF_EXPONENT: f64 = 24.0;
-/// Leading roots are counted so far to the right of the branch points of J0, in parts of s.
+/// Distance right of the branch points of J0 from which leading roots are counted, in units of s.
 const BESIDE_BRANCH_POINTS: f64 = 0.02;
 
-/// N of small deviations from steady motion, or of creep.
+/// N for small deviations from steady motion, or for creep.
 #[derive(Debug, Clone)]
 pub(super) struct Characteristic {
     law: Law,
@@ -26,7 +27,7 @@ pub(super) struct Characteristic {
 }
 
 impl Characteristic {
-    /// Of small deviations from steady motion behind the support.
+    /// N for small deviations from the steady motion behind the support.
     pub(super) fn new(model: &Model) -> Result<Self, StabilityError> {
         if !model.wider().spring {
             return Err(StabilityError::NoSupport);
@@ -65,13 +66,13 @@ impl Characteristic {
         self.length
     }
 
-    /// The number of zeros where they are those of a polynomial.
+    /// The number of zeros, if they are those of a polynomial.
     pub(super) fn degree(&self) -> Option<usize> {
         let cosine = *self.law.footprint.tip() == TipFunction::Cosine;
         cosine.then_some(if self.law.inertia > 0.0 { 4 } else { 3 })
     }
 
-    /// Re Λ left of which roots are not looked for: they are those of round-off.
+    /// Re Λ left of which roots are not sought: they would result from round-off.
     pub(super) fn leftmost(&self) -> f64 {
         let within = match self.law.footprint.tip() {
             // Roots come as close to its branch points as A is small.
@@ -91,7 +92,7 @@ impl Characteristic {
         if is_cut && indents { -self.law.fading } else { f64::NEG_INFINITY }
     }
 
-    /// A line left of all zeros, where nothing is indented and they are few.
+    /// A line left of all zeros, if there is no indentation and they are few.
     pub(super) fn left_of_all(&self) -> Option<f64> {
         let Law { drag, spring, inertia, .. } = self.law;
         let zeros =
@@ -111,8 +112,8 @@ impl Characteristic {
         1.05 * self.bounds.top_bound(&self.law, left, least)
     }
 
-    /// Places near zeros, on or above the real axis: the zeros of Mv²Λ² + vΛ + κ - A G(s), and of that times p plus
-    /// A f''(0), as G(p) = f''(0)/p + O(p^{-3}).
+    /// Points close to zeros, on or above the real axis: the zeros of Mv²Λ² + vΛ + κ - A G(s), and of its product with
+    /// p plus A f''(0), as G(p) = f''(0)/p + O(p^{-3}).
     pub(super) fn likely_roots(&self) -> Vec<Complex64> {
         let Law { density, drag, inertia, fading, .. } = self.law;
         let constant = self.law.spring - density * self.law.steady.curvature;
@@ -138,13 +139,13 @@ impl Characteristic {
         zeros.into_iter().map(|z| Complex64::new(z.re, z.im.abs())).collect()
     }
 
-    /// |N| over the sum of the sizes of its terms.
+    /// |N| divided by the sum of the sizes of its terms.
     pub(super) fn relative_residual(&self, lambda: Complex64) -> f64 {
         self.at(lambda).value.norm() / self.size_of_terms(lambda)
     }
 
-    /// Displacement of a root at Λ by round-off in N: the Newton step, and `roundoff` of its terms / |N'|.
-    /// Beside a double root, where N' is small too, no further than N'' allows.
+    /// Displacement of a root at Λ by round-off in N: the Newton step, and `roundoff` of its terms / |N'|. Close to a
+    /// double root, where N' is small too, N'' limits it.
     pub(super) fn root_error(&self, lambda: Complex64, roundoff: f64) -> f64 {
         let h = self.at(lambda);
         let unknown = h.value.norm() + roundoff * self.size_of_terms(lambda);
@@ -167,13 +168,13 @@ impl Characteristic {
         StabilityError::TooFarApart { alpha: self.law.alpha(), r: self.law.speed }
     }
 
-    /// The reason behind an error: numbers out of all proportion, if they are.
+    /// A more specific error if the parameters differ too much in size.
     pub(super) fn explain(&self, error: StabilityError) -> StabilityError {
         if self.is_out_of_proportion() { self.too_far_apart() } else { error }
     }
 
-    /// Whether the terms of N, of sizes v/width, 1 and A ∫|f''|, are out of all proportion: the first two cancel at
-    /// the root -1/v, the last two near 0, and what is left of them is round-off.
+    /// Whether the terms of N, of sizes v/width, 1 and A ∫|f''|, differ too much: the first two cancel at the root
+    /// -1/v, the last two near 0, and the remainder is round-off.
     fn is_out_of_proportion(&self) -> bool {
         let drag = self.law.drag / self.length;
         let density = self.law.density.abs();

@@ -1,16 +1,16 @@
-//! Onset where the steady tip has the surface at height 0 under it, on the corner of |h| in a depth limit.
+//! Non-smooth onset: the height under the steady tip is 0, on the kink of |h| of a depth limit.
 //!
-//! w - 1 = -|h|/b is of first order in a small deviation, but not linear in it. What small deviations obey is
-//! homogeneous all the same: with a deviation any positive multiple of it. So there is one α, whatever the (small)
-//! amplitude, at which an oscillation neither grows nor fades; the harmonics of |h| take part in it. With
-//! p_n = inΩ + s, ξ = Σξ_n e^{inθ} the deviation and W = -|h|/b,
+//! w - 1 = -|h|/b is of first order in a small deviation, but not linear. The equation of small deviations is
+//! nevertheless homogeneous: any positive multiple of a solution is a solution. So there is one α, for any (small)
+//! amplitude, at which an oscillation neither grows nor decays; it contains the harmonics of |h|. With p_n = inΩ + s,
+//! the deviation ξ = Σξ_n e^{inθ} and W = -|h|/b,
 //!
 //! ```text
 //!     (bare(inΩ) + A(G(p_n) - G(s))) ξ_n = A φ1(p_n) W_n,    h_n = -A(φ1(s) - φ1(p_n)) ξ_n - A φ(p_n) W_n
 //! ```
 //!
-//! solved for A, Ω and the harmonics with ξ_1 = 1, by putting W in and getting it back. That ends where b is so small
-//! that the harmonics of |h| are no small part of it: β = 1, r = 1 between b = 1 and 0.7.
+//! solved for A, Ω and the harmonics with ξ_1 = 1, by fixed-point iteration of W. The iteration diverges if b is so
+//! small that the harmonics of |h| are large: for β = 1, r = 1 between b = 1 and 0.7.
 
 use super::crossings::Crossing;
 use super::law::Law;
@@ -19,17 +19,17 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 use stickslip_tip::roots::zero_between;
 
-/// Harmonics kept. Those of |h| fall like n^{-2} and of h like n^{-3}, and so does what is missed (measured: a
-/// factor of 8.0 from 192 to 384), which twice as many tell.
+/// Number of harmonics. Those of |h| decrease like n^{-2} and those of h like n^{-3}, and so does the truncation error
+/// (measured: a factor of 8.0 from 192 to 384). It is estimated with twice this number.
 const HARMONICS: usize = 128;
 /// Points on a period, between which h changes its sign at most once.
 const POINTS: u32 = 512;
 const MOST_ROUNDS: usize = 200;
-/// A and Ω have settled.
+/// Change of A and Ω below which they have converged.
 const SETTLED: f64 = 1e-13;
 
-/// The A and Ω of the oscillation that keeps its amplitude, from those of the law without a depth limit; `None` where
-/// W does not settle.
+/// The A and Ω of the oscillation of constant amplitude, starting from those without a depth limit; `None` if the
+/// iteration for W does not converge.
 pub(super) fn onset(law: &Law, limit: f64, start: Crossing) -> Option<Crossing> {
     let few = balanced(law, limit, start, HARMONICS)?;
     let many = balanced(law, limit, few, 2 * HARMONICS)?;
@@ -61,7 +61,7 @@ fn balanced(law: &Law, limit: f64, start: Crossing, harmonics: usize) -> Option<
     None
 }
 
-/// φ, φ1, G - G(s) and the bare part at inΩ, each with its derivative.
+/// φ, φ1, G - G(s) and the first factor bare(inΩ), each with its derivative.
 fn parts(law: &Law, lambda: Complex64) -> [Jet; 4] {
     let Values { height, slope, curvature } = law.footprint.plain(lambda + law.fading);
     let groove = (curvature.0 - law.steady.curvature, curvature.1);
@@ -103,7 +103,7 @@ fn heights(law: &Law, pushed: &[Complex64], at: Crossing) -> Vec<Complex64> {
     pushed.iter().enumerate().map(height).collect()
 }
 
-/// The harmonics of |h|: h times its sign, whose own are known from where h vanishes.
+/// The harmonics of |h|: h times its sign, whose harmonics follow from the zeros of h.
 fn magnitude(heights: &[Complex64]) -> Vec<Complex64> {
     let value = |angle: f64| {
         let turn = Complex64::from_polar(1.0, angle);
@@ -127,7 +127,7 @@ fn magnitude(heights: &[Complex64]) -> Vec<Complex64> {
         .collect()
 }
 
-/// Of a function that is `first` = ±1 at 0 and changes its sign at `changes`.
+/// Harmonics of a function that is `first` = ±1 at 0 and changes its sign at `changes`.
 fn harmonics_of_sign(first: f64, changes: &[f64], count: usize) -> Vec<Complex64> {
     let mut mean = first;
     let mut sums = vec![Complex64::ZERO; count];

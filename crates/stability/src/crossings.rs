@@ -1,9 +1,9 @@
-//! Crossings of the imaginary axis by roots, under any law.
+//! Crossings of the imaginary axis by roots, in any model.
 //!
-//! N of `law.rs` is a polynomial c0 + c1 A + c2 A² in A = αw0/r, of first degree unless the surface both heals
-//! and has a depth limit. On the axis, Λ = iΩ, its real and its imaginary part have a common zero A where their
-//! resultant vanishes, which is an equation for Ω alone. α = rA e^{A|φ(s)|/b} rises with A: the first crossing is
-//! that of the smallest A.
+//! N of `law.rs` is a polynomial c0 + c1 A + c2 A² in A = αw0/r. It is of first degree unless the surface both heals
+//! and has a depth limit. On the axis, Λ = iΩ, its real and imaginary parts have a common zero A if their resultant
+//! vanishes: this is an equation for Ω alone. As α = rA e^{A|φ(s)|/b} increases with A, the first crossing is that of
+//! the smallest A.
 
 use super::law::Law;
 use super::one_sided::{OneSided, Transforms};
@@ -13,25 +13,25 @@ use std::sync::Arc;
 use stickslip_tip::roots::zero_between;
 use stickslip_tip::{TipFunction, Wider, stop};
 
-/// Samples per period of the fastest ripple that the reach of the tip allows.
+/// Number of samples per period of the fastest oscillation that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 12.0;
-/// What J0 and cos x, which have no reach, are sampled as if they had.
+/// Reach assumed for J0 and cos x, which have none.
 const WAVES: f64 = 30.0;
-/// Samples a decade outside the band, and decades of them.
+/// Number of samples per decade outside the band, and number of decades.
 const PER_DECADE: u32 = 40;
 const DECADES_BELOW: u32 = 6;
 const DECADES_ABOVE: u32 = 3;
-/// The largest |N| that makes a crossing, relative to its terms.
+/// The largest |N| of a crossing, relative to its terms.
 const LARGEST_RESIDUAL: f64 = 1e-9;
-/// Round-off in G, of closed forms and of tables; a crossing at an A so large that it weighs more than this part of
-/// Mv²Λ² + vΛ + κ is none.
+/// Round-off in G, of closed forms and of tables. A crossing is rejected if its A is so large that this round-off
+/// exceeds this fraction of Mv²Λ² + vΛ + κ.
 const ROUNDOFF: (f64, f64) = (1e-15, 1e-11);
 const LARGEST_NOISE: f64 = 1e-3;
 
 /// Samples of a resonance come as near as this part of its width 1/√M, relative to its Ω.
 const PART_OF_RESONANCE: f64 = 0.1;
 
-/// A and Ω where a root is on the imaginary axis.
+/// A and Ω of a root on the imaginary axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     pub(super) density: f64,
@@ -49,7 +49,7 @@ pub(super) struct Scan {
 #[derive(Debug, Clone)]
 struct Sample {
     wave_number: f64,
-    /// At p = iΩ, where nothing heals; p = iΩ + 1/(rT) of a surface that does depends on r.
+    /// Transforms at p = iΩ if the surface does not heal; otherwise p = iΩ + 1/(rT) depends on r.
     kept: Option<Transforms>,
 }
 
@@ -70,12 +70,12 @@ impl Scan {
         self.footprint.tip()
     }
 
-    /// The law at this r, with A = 1.
+    /// The model at this r, with A = 1.
     pub(super) fn law_at(&self, r: f64) -> Law {
         self.law_under(&self.wider, r)
     }
 
-    /// Another law at this r, with A = 1; the transforms that are kept are its own where it heals alike.
+    /// Another model at this r, with A = 1; it uses the stored transforms if its healing is the same.
     pub(super) fn law_under(&self, wider: &Wider, r: f64) -> Law {
         Law::on(wider, &self.footprint, r, 1.0)
     }
@@ -85,7 +85,7 @@ impl Scan {
         self.samples.iter().map(|sample| (sample.wave_number, sample.kept.as_ref()))
     }
 
-    /// Whether the steady tip is on the corner of |h| in a depth limit.
+    /// Whether the steady tip is on the kink of |h| of a depth limit.
     pub(super) fn has_corner(&self, law: &Law) -> bool {
         Law::has_corner(&self.wider, self.footprint.tip(), &law.steady)
     }
@@ -114,7 +114,7 @@ impl Scan {
     }
 }
 
-/// Ω from far below to far above the band of the footprint, close enough together for what its reach allows.
+/// Ω from far below to far above the band of the footprint, dense enough for its reach.
 pub(super) fn wave_numbers(tip: &TipFunction) -> Vec<f64> {
     let reach = tip.reach().unwrap_or(WAVES);
     let step = TAU / (SAMPLES_PER_PERIOD * reach);
@@ -132,7 +132,7 @@ pub(super) fn wave_numbers(tip: &TipFunction) -> Vec<f64> {
     all
 }
 
-/// Ω at which inertia and the spring resonate, from either side.
+/// Samples of Ω around the resonance of inertia and spring, on both sides.
 pub(super) fn beside_resonance(law: &Law) -> Vec<f64> {
     if law.inertia <= 0.0 {
         return vec![];
@@ -141,7 +141,7 @@ pub(super) fn beside_resonance(law: &Law) -> Vec<f64> {
     beside((law.spring / law.inertia).sqrt(), PART_OF_RESONANCE * width)
 }
 
-/// Samples on either side of Ω, from half of it to this part of it.
+/// Samples on both sides of Ω, from half of it down to this fraction of it.
 fn beside(wave_number: f64, nearest: f64) -> Vec<f64> {
     let part = |n: u32| 0.5 / 10_f64.powf(f64::from(n) / f64::from(PER_DECADE));
     let parts = (0..).map(part).take_while(|part| *part > nearest);
@@ -157,7 +157,7 @@ fn resultant([c0, c1, c2]: [Complex64; 3]) -> f64 {
     cross(c0, c2).powi(2) - cross(c1, c2) * cross(c0, c1)
 }
 
-/// The A at which both parts vanish, where they do so together.
+/// The A at which both parts vanish, if there is a common one.
 fn common([c0, c1, c2]: [Complex64; 3]) -> Vec<f64> {
     if c2.norm() <= 0.0 {
         return vec![-(c0 * c1.conj()).re / c1.norm_sqr()];
@@ -171,7 +171,7 @@ fn common([c0, c1, c2]: [Complex64; 3]) -> Vec<f64> {
     vec![q / a, c / q]
 }
 
-/// Newton's method for N = 0 in A and Ω; `None` where it leads away, or to no zero.
+/// Newton's method for N = 0 in A and Ω; `None` if it does not converge to a zero close by.
 fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
     let mut law = law.clone();
     let (mut density, mut q) = (start.density, start.wave_number);
@@ -200,7 +200,7 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
         .then_some(Crossing { density, wave_number: q })
 }
 
-/// Whether what balances there is more than round-off.
+/// Whether the terms in balance there exceed round-off.
 fn is_told(law: &Law, lambda: Complex64) -> bool {
     let t = law.footprint.at(lambda + law.fading);
     let curvature = (t.curvature.0 / t.unit.0).norm() + law.steady.curvature.abs();
@@ -208,7 +208,7 @@ fn is_told(law: &Law, lambda: Complex64) -> bool {
     law.density * curvature * roundoff < LARGEST_NOISE * law.bare(lambda).0.norm()
 }
 
-/// Zeros of g between samples: by its sign, and where |g| is least among neighbours, in case it dips across 0.
+/// Zeros of g between samples: by sign changes, and at local minima of |g|, in case g crosses 0 twice between samples.
 pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[(f64, f64)]) -> Vec<f64> {
     let mut zeros = vec![];
     for i in 1..samples.len() {
@@ -230,7 +230,7 @@ pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[(f64, f64)]) -> Vec<f64> 
     zeros
 }
 
-/// Where g is least between a and b, by golden sections.
+/// The minimum of g between a and b, by golden-section search.
 pub(super) fn least(g: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));

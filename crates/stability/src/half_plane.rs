@@ -1,4 +1,4 @@
-//! The half-plane right of a line: how many zeros of h it has, and where they are.
+//! The half-plane right of a line: number and positions of the zeros of h in it.
 
 use super::StabilityError;
 use super::cell::Cell;
@@ -11,16 +11,16 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 use stickslip_tip::stop;
 
-/// Contours reach no further than this, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
+/// Largest size of a contour, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
 const FARTHEST: f64 = 1e9;
-/// A root whose error is more than this part of it has another beside it.
+/// A root with a relative error above this has another root close to it.
 const BESIDE: f64 = 1e-10;
-/// Newton's method from a start near a zero takes fewer steps than this.
+/// Largest number of Newton steps from a start close to a zero.
 const SOON: usize = 10;
-/// A left edge on a root is moved this often, a little further each time.
+/// Largest number of shifts of a left edge that passes through a root.
 const MOST_SHIFTS: u32 = 8;
 
-/// Re Λ ≥ `left`, in which all zeros lie in the rectangle up to `right` and `top`.
+/// Re Λ ≥ `left`; all zeros in it lie in the rectangle up to `right` and `top`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HalfPlane {
     left: f64,
@@ -30,7 +30,7 @@ pub(super) struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Counts, moving the edge off a root if need be.
+    /// Counts the zeros; shifts the edge if it passes through one.
     pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         if !(h.right_bound() * h.length() < FARTHEST && (left * h.length()).abs() < FARTHEST) {
             return Err(h.too_far_apart());
@@ -75,8 +75,8 @@ impl HalfPlane {
         Ok(Spectrum { roots, certificate })
     }
 
-    /// Zeros with Im Λ ≥ 0 from a grid of starts, until there are as many as were counted. Most starts that lead to a
-    /// zero do so soon: only if some zeros are missing after that, each is followed for long.
+    /// Zeros with Im Λ ≥ 0 from a grid of starts, until their number equals the count. Most starts that lead to a zero
+    /// do so in a few steps: the iterations are continued only if zeros are missing after that.
     fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
         let starts = self.starts(h);
         let mut upper = Vec::new();
@@ -120,7 +120,7 @@ impl HalfPlane {
         starts
     }
 
-    /// Zeros with Im Λ ≥ 0 by halving a rectangle that reaches a little below the real axis.
+    /// Zeros with Im Λ ≥ 0 by bisection of a rectangle that extends slightly below the real axis.
     pub(super) fn by_halving(&self, h: &Characteristic) -> Result<Vec<Complex64>, StabilityError> {
         let at = |z| h.at(z);
         for below in [0.0137, 0.0291, 0.0533] {
@@ -140,7 +140,7 @@ impl HalfPlane {
     }
 }
 
-/// The half-plane right of a line chosen so that it has at least `count` zeros, if there are so many.
+/// The half-plane right of a line, with at least `count` zeros if so many exist.
 pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if let Some(left) = h.left_of_all() {
         return HalfPlane::counted(h, left)?.spectrum(h);
@@ -157,20 +157,19 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
     }
 }
 
-/// Zeros that `upper` stands for: a conjugate pair each, one if real.
+/// Number of zeros that `upper` represents: two for a conjugate pair, one if it is real.
 fn total(upper: &[Complex64]) -> usize {
     upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
 }
 
-/// A zero that Newton's method found, on or above the real axis, and another that is too close to it for
-/// that method.
+/// A zero on or above the real axis from Newton's method, and another one that is too close to it for that method.
 fn settled(h: &Characteristic, z: Complex64) -> Vec<Complex64> {
     let above = Complex64::new(z.re, z.im.abs());
     let both = both(h, above).map_or_else(|| vec![snapped(h, above)], Vec::from);
     both.into_iter().filter(|z| z.im >= 0.0).collect()
 }
 
-/// z, on the real axis if it belongs there, or of two zeros too close for Newton's method the nearer one.
+/// z, on the real axis if it is real; of two zeros too close for Newton's method, the nearer one.
 fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
     match both(h, z) {
         Some([a, b]) if (a - z).norm() <= (b - z).norm() => a,
@@ -187,7 +186,7 @@ fn has_neighbour(h: &Characteristic, z: Complex64) -> bool {
     h.root_error(z, ROUNDOFF) > BESIDE * z.norm()
 }
 
-/// z, moved onto the real axis if it is a real root but for round-off.
+/// z, moved to the real axis if its imaginary part is round-off.
 fn snapped(h: &Characteristic, z: Complex64) -> Complex64 {
     if z.im.abs() > 1e-6 * z.norm() + h.root_error(z, ROUNDOFF) {
         return z;

@@ -1,39 +1,40 @@
-//! The response to weak pulses while they last, by the inverse Laplace transform.
+//! The response during weak pulses, by the inverse Laplace transform.
 //!
-//! The sum over modes converges slowly there. But the transform of a Gaussian pulse falls like e^{-ω²W²/2}, so that
+//! During a pulse the sum over modes converges slowly. But the transform of a Gaussian pulse falls like e^{-ω²W²/2},
+//! so that the integral
 //!
 //! ```text
 //!     l(t) - l0 = -1/(2π) ∫ F̃ext(σ + iω) e^{(σ + iω)t} / D(σ + iω) dω,    D(λ) = λ + 1 - K̃(λ),
 //! ```
 //!
-//! on a line right of all roots, has a short range, and the trapezoidal rule converges exponentially: with a step of
-//! 2π/P it adds the response at t + nP times e^{-σnP}, n ≥ 1, and to both sides of the range nothing.
+//! on a line right of all roots has a short range, and the trapezoidal rule converges exponentially. With a step of
+//! 2π/P it adds the response at t + nP times e^{-σnP}, n ≥ 1; the truncation of the range is negligible.
 
 use super::pulse::transform;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::Pulse;
 
-/// Nodes on the line, with what the integrand is there but for e^{λt}.
+/// Nodes on the line, with the integrand there except for e^{λt}.
 #[derive(Debug, Clone)]
 pub struct Inversion {
     nodes: Vec<(Complex64, Complex64)>,
 }
 
-/// e^{-8.5²/2} = 2e-16: beyond so many inverse widths the transform of a pulse is nothing.
+/// e^{-8.5²/2} = 2e-16: number of inverse widths beyond which the transform of a pulse is negligible.
 const INVERSE_WIDTHS: f64 = 8.5;
-/// What is added from a period P later is e^{-26} = 5e-12 of itself,
+/// The response a period P later is added with the factor e^{-26} = 5e-12,
 const DECAYED: f64 = 26.0;
-/// and what rounding errors are magnified by e^{13} at the end of a window of P/2.
+/// and rounding errors are amplified by e^{13} at the end of a window of P/2.
 const PERIODS: f64 = 2.0;
-/// So many widths after its center a pulse is over.
+/// Number of widths after its center at which a pulse is over.
 const WIDTHS_OF_PULSE: f64 = 8.5;
-/// More nodes than this are not made.
+/// Largest number of nodes.
 const MOST_NODES: f64 = 100_000.0;
 
 impl Inversion {
-    /// For times up to `until`, D and the pulses given, D having no zero right of `rightmost`; `None` where the pulses
-    /// are too short for so long a time, or there are none.
+    /// The inversion for times up to `until`, for this D and these pulses, if D has no zero right of `rightmost`.
+    /// `None` if the pulses are too short compared with `until`, or if there are none.
     pub(super) fn new(
         characteristic: impl Fn(Complex64) -> Complex64,
         pulses: &[Pulse],

@@ -1,12 +1,12 @@
-//! What follows from a footprint alone, and takes long: kept for the next to ask, on any thread.
+//! Cache of results that depend on a footprint alone and take long to compute, shared by all threads.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_tip::{TipFunction, stop};
 
-/// So many footprints are remembered, those that were asked for last.
+/// Number of footprints in the cache, the most recently used ones.
 const MOST: usize = 4;
 
-/// Something made from a footprint, with the footprints it was made from last.
+/// Results of a function of a footprint, for the most recent footprints.
 pub(super) struct Kept<T>(Mutex<Vec<(TipFunction, Arc<T>)>>);
 
 impl<T> Kept<T> {
@@ -14,7 +14,7 @@ impl<T> Kept<T> {
         Self(Mutex::new(vec![]))
     }
 
-    /// For this footprint, as `make` would make it now.
+    /// The result for this footprint, equal to that of `make`.
     pub(super) fn of(&self, tip: &TipFunction, make: impl FnOnce() -> T) -> Arc<T> {
         // A thread that panicked did not leave half an entry behind.
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! Small deviations from steady motion, their characteristic equation term by term.
+//! The characteristic equation of small deviations from steady motion, term by term.
 //!
 //! With λ = vΛ, p = Λ + s, A = αw0/v and B = ±A/b (minus where the surface under the tip is raised, h0 > 0):
 //!
@@ -6,26 +6,26 @@
 //!     D(Λ) = Mv²Λ² + vΛ + κ + A(G(p) - G(s)) + AB φ1(p)(φ1(s) - φ1(p))/(1 + Bφ(p)) = 0
 //! ```
 //!
-//! The force on the tip is that of a groove shifted by the deviation ξ, and of one less deep where w was less:
-//! w - w0 = ±w0 (h - h0)/b, and h is again that of a groove shifted and less deep, whence the quotient. Times
-//! 1 + Bφ(p) it is, by φ1 = pφ - f(0) and G = pφ1, of first degree in the transforms,
+//! The force on the tip is that of a groove shifted by the deviation ξ, and less deep where w was smaller: w - w0 =
+//! ±w0 (h - h0)/b. The height h is again that of a shifted and less deep groove, which leads to the quotient.
+//! Multiplied by 1 + Bφ(p), with φ1 = pφ - f(0) and G = pφ1, the equation is of first degree in the transforms,
 //!
 //! ```text
 //!     N(Λ) = (Mv²Λ² + vΛ + κ - A G(s))(1 + Bφ(p)) + A φ1(p)(p + B s φ(s)) = 0
 //! ```
 //!
-//! Under the basic law this is (30), rΛ + 1 + (α/r) G(Λ) = 0.
+//! In the basic model this is (30), rΛ + 1 + (α/r) G(Λ) = 0.
 
 use super::one_sided::{Jet, OneSided, Steady, Transforms};
 use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// The numbers in N.
+/// The coefficients of N.
 #[derive(Debug, Clone)]
 pub(super) struct Law {
     pub(super) footprint: Arc<OneSided>,
-    /// v: r, or the speed at which a tip without a spring walks.
+    /// v: r, or the walking speed of a tip without a spring.
     pub(super) speed: f64,
     /// The coefficient of Λ: v, or 0 for creep.
     pub(super) drag: f64,
@@ -43,24 +43,24 @@ pub(super) struct Law {
     pub(super) steady: Steady,
 }
 
-/// Heights below this part of ∫_0^∞|f| e^{-sy}dy are round-off of none.
+/// Heights below this fraction of ∫_0^∞|f| e^{-sy}dy are round-off of 0.
 const NO_HEIGHT: f64 = 1e-13;
 
 impl Law {
-    /// At the steady motion of a tip on its spring.
+    /// N for the steady motion of a tip on its spring.
     pub(super) fn of(model: &Model) -> Self {
         Self::with_density(model.wider(), model.tip(), model.r(), model.steady_density())
     }
 
-    /// Of the logarithmic creep of a trapped tip, in which drag is nothing: 1 + (α/r) G(p) = 0. Λ is its rate p, no
-    /// time, and the speed is 1.
+    /// N for the logarithmic creep of a trapped tip, in which drag is negligible: 1 + (α/r) G(p) = 0. Here Λ is the
+    /// rate p, not a rate in time, and the speed is 1.
     pub(super) fn of_creep(model: &Model) -> Self {
         let density = model.alpha() / model.r();
         Self { drag: 0.0, ..Self::with_density(&Wider::default(), model.tip(), 1.0, density) }
     }
 
-    /// Of deviations across the scan on a spring κ_y, given `f_yy(x,0)`: no deviation of first order there has any of
-    /// along the scan, nor of the height, so that a depth limit enters by A alone.
+    /// N for deviations across the scan on a spring κ_y, given `f_yy(x,0)`. At first order such a deviation changes
+    /// neither the motion along the scan nor the height, so that a depth limit enters only through A.
     ///
     /// ```text
     ///     N(Λ) = rΛ + κ_y + A(S(p) - S(s)) = 0,     S(p) = ∫_0^∞ f_yy(x,0) e^{-px}dx
@@ -75,12 +75,12 @@ impl Law {
         Self { spring: stiffness, ..Self::on(&wider, curvature, r, density) }
     }
 
-    /// At a speed v with A given.
+    /// N at a speed v for a given A.
     pub(super) fn with_density(wider: &Wider, tip: &TipFunction, speed: f64, density: f64) -> Self {
         Self::on(wider, &Arc::new(OneSided::new(tip)), speed, density)
     }
 
-    /// The same, with the transforms of the footprint at hand.
+    /// The same, with given transforms of the footprint.
     pub(super) fn on(wider: &Wider, footprint: &Arc<OneSided>, speed: f64, density: f64) -> Self {
         let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (speed * time));
         let steady = footprint.steady(fading);
@@ -104,7 +104,7 @@ impl Law {
         self.density = density;
     }
 
-    /// Whether a depth limit has its corner, h = 0, at steady motion itself.
+    /// Whether steady motion lies on the kink of a depth limit, h = 0.
     pub(super) fn has_corner(wider: &Wider, tip: &TipFunction, steady: &Steady) -> bool {
         wider.depth_limit.is_some() && !has_height(tip, steady)
     }
@@ -120,7 +120,7 @@ impl Law {
         (lambda * inner + self.spring, inner + lambda * self.inertia)
     }
 
-    /// At p; of nothing at all where nothing is indented, as far left as anyone looks.
+    /// The transforms at p; without indentation they are 0, for any p to the left.
     fn transforms(&self, lambda: Complex64) -> Transforms {
         let nothing = self.density.abs() <= 0.0;
         if nothing { Transforms::NONE } else { self.footprint.at(lambda + self.fading) }
@@ -168,7 +168,7 @@ impl Law {
         self.expanded(lambda, &self.footprint.at(lambda + self.fading))
     }
 
-    /// The same, with the transforms there at hand.
+    /// The same, with given transforms.
     pub(super) fn expanded(&self, lambda: Complex64, t: &Transforms) -> [Complex64; 3] {
         let bare = self.bare(lambda).0;
         let Steady { height, curvature, .. } = self.steady;
@@ -184,7 +184,7 @@ impl Law {
     }
 }
 
-/// Whether φ(s) is any height at all.
+/// Whether φ(s) is a height above round-off.
 fn has_height(tip: &TipFunction, steady: &Steady) -> bool {
     let size = match tip {
         TipFunction::Gaussians(sum) => {

@@ -4,11 +4,11 @@ use super::transform::Scaled;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// Iterations before a start is given up.
+/// Largest number of iterations from one start.
 pub(super) const MOST_ITERATIONS: usize = 40;
 
-/// Newton's method to round-off: until the steps no longer shrink. Beside a double zero they never
-/// settle: of all places on the way, that of the smallest |h|.
+/// Newton's method to round-off: until the steps no longer decrease. Close to a double zero they never converge; the
+/// iterate of smallest |h| is returned.
 pub(super) fn polish(h: impl Fn(Complex64) -> Scaled, start: Complex64) -> Complex64 {
     let mut z = start;
     let mut last = f64::INFINITY;
@@ -36,9 +36,9 @@ pub(super) fn polish(h: impl Fn(Complex64) -> Scaled, start: Complex64) -> Compl
     best
 }
 
-/// Both zeros beside a double one, from where h' vanishes: h ≈ h(m) + h''(m)(z-m)²/2, with h'' by
-/// differences over a small part of `length`⁻¹ = `scale`. h is real on the real axis: where m is real the
-/// zeros are real or conjugate. `None` if there is no such m close by.
+/// Both zeros close to a double one, from the zero m of h': h ≈ h(m) + h''(m)(z-m)²/2, with h'' by differences over a
+/// small part of `length`⁻¹ = `scale`. h is real on the real axis: if m is real the zeros are real or conjugate.
+/// `None` if there is no such m close by.
 pub(super) fn pair(
     h: impl Fn(Complex64) -> Scaled,
     start: Complex64,
@@ -74,8 +74,8 @@ pub(super) fn pair(
     Some(if distinct { zeros.map(|z| polish(&h, z)) } else { zeros })
 }
 
-/// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly),
-/// steps at most `longest`, so many of them. `None` if it does not settle.
+/// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly), with a limited
+/// number of steps of at most `longest`. `None` if it does not converge.
 pub(super) fn another(
     h: impl Fn(Complex64) -> Scaled,
     start: Complex64,

@@ -1,6 +1,6 @@
-//! φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1: the transforms of a
-//! footprint in the characteristic equation. Across the scan `f_yy(x,0)` pushes the tip in place of f'': there the
-//! function is `f_yy(x,0)`, and its own transform stands in the place of G.
+//! One-sided transforms of a footprint in the characteristic equation: φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy
+//! = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1. For deviations across the scan `f_yy(x,0)` replaces f'': the
+//! function is then `f_yy(x,0)`, and its own transform replaces G.
 
 use super::transform::{CurvatureTransform, Scaled, bessel_root};
 use num_complex::Complex64;
@@ -21,7 +21,7 @@ pub(super) struct Transforms {
 }
 
 impl Transforms {
-    /// Of f = 0.
+    /// The transforms of f = 0.
     pub(super) const NONE: Self = {
         let zero = (Complex64::ZERO, Complex64::ZERO);
         let unit = (Complex64::ONE, Complex64::ZERO);
@@ -60,7 +60,7 @@ impl OneSided {
         Self { tip: tip.clone(), apex, curvature, is_across: false }
     }
 
-    /// Of deviations across the scan, given `f_yy(x,0)`.
+    /// The transforms for deviations across the scan, given `f_yy(x,0)`.
     pub(super) fn across(curvature: &TipFunction) -> Self {
         Self { is_across: true, ..Self::new(curvature) }
     }
@@ -70,7 +70,7 @@ impl OneSided {
         self.is_across
     }
 
-    /// f''(0), or `f_yy(0,0)`: G falls as this over p.
+    /// f''(0), or `f_yy(0,0)`: G approaches this over p for large p.
     pub(super) fn peak(&self) -> f64 {
         if self.is_across { self.apex } else { self.tip.slope_and_curvature(0.0).1 }
     }
@@ -92,7 +92,7 @@ impl OneSided {
         if self.is_across { Transforms { curvature: at.height, ..at } } else { at }
     }
 
-    /// As they are, at any p at which they are of ordinary size.
+    /// The transforms without `unit` and scale, for p at which they do not overflow.
     pub(super) fn plain(&self, p: Complex64) -> Values {
         let at = self.at(p);
         let (unit, change) = at.unit;
@@ -179,7 +179,7 @@ fn cosine(p: Complex64) -> Transforms {
 mod tests {
     use super::*;
 
-    /// Simpson's rule on the definition, where e^{-py} has fallen to 1e-17.
+    /// Comparison with Simpson's rule for the definition, up to the point where e^{-py} is 1e-17.
     fn by_simpson(f: impl Fn(f64) -> f64, p: Complex64, reach: f64) -> Complex64 {
         let panels = 40_000;
         let h = reach / f64::from(panels);

@@ -13,13 +13,13 @@ use stickslip_tip::{Model, TipFunction};
 /// The number of roots comes from the argument principle on a rectangle beyond whose other three
 /// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
 /// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
-/// finds fewer than were counted, from halving the rectangle. Each is polished to round-off, or, beside
-/// a double root, had with its neighbour from where h' vanishes. If a root lies on Re λ = `bound`, the
-/// edge is moved a little to the left: see the certificate's region.
+/// finds fewer than were counted, from bisection of the rectangle. Each is polished to round-off; two that
+/// are close to a double root are computed together from the zero of h'. If a root lies on Re λ = `bound`,
+/// the edge is moved slightly to the left: see the region of the certificate.
 ///
 /// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
 /// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
-/// and on it this makes no difference. Under a wider law they are had right of these branch points only.
+/// and on it this makes no difference. In the extended model only roots right of these branch points are available.
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`]; [`StabilityError::NoSupport`] and
@@ -37,9 +37,9 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
 
 /// At least `count` leading roots: all those right of a line chosen so that there are so many.
 ///
-/// Fewer only if there are no more (α = 0: the root -1 alone; J0), beyond Re Λ ≈ -60/width, and for a
-/// table beyond Re Λ = -24/reach, where the round-off of its entries, magnified by e^{-Λy}, would put
-/// roots of its own.
+/// The list is shorter if no more roots exist (α = 0: only the root -1; J0), or if the others lie left of
+/// Re Λ ≈ -60/width, for a table left of Re Λ = -24/reach: there round-off of its entries, amplified by
+/// e^{-Λy}, would cause spurious roots.
 ///
 /// # Errors
 /// As [`roots`].
@@ -51,7 +51,7 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
     leading(&h, count).map_err(|error| h.explain(error))
 }
 
-/// How many roots lie right of the imaginary axis: 0 where steady motion is stable.
+/// Number of roots right of the imaginary axis: 0 if steady motion is stable.
 ///
 /// # Errors
 /// As [`roots`]; on the boundary itself, roots are counted right of a line slightly to the left.

@@ -1,4 +1,4 @@
-//! G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy, the transform that the characteristic equation (30) is made of.
+//! G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy, the transform in the characteristic equation (30).
 
 mod panels;
 
@@ -9,9 +9,9 @@ use std::f64::consts::{PI, SQRT_2};
 use stickslip_tip::Gaussian;
 use stickslip_tip::TipFunction;
 
-/// Sums of more Gaussians than this are integrated by quadrature: a table has hundreds.
+/// Largest number of Gaussians in a closed form; sums of more, such as tables, are integrated by quadrature.
 const MOST_CLOSED_FORMS: usize = 16;
-/// Exponents above this are carried in [`Scaled::log_scale`].
+/// Exponents above this are stored in [`Scaled::log_scale`].
 const LARGEST_EXPONENT: f64 = 300.0;
 /// |Λ| times the largest width below which Λ²f̃ and Λf(0) do not cancel.
 const NEAR_ORIGIN: f64 = 0.5;
@@ -62,7 +62,7 @@ impl CurvatureTransform {
         Self { kind }
     }
 
-    /// Whether G comes from closed forms, so that its real part on the axis is best had from f̂.
+    /// Whether G has a closed form, so that its real part on the axis is most accurate from f̂.
     pub(super) fn is_closed_form(&self) -> bool {
         !matches!(self.kind, Kind::Quadrature(..))
     }
@@ -79,7 +79,7 @@ impl CurvatureTransform {
         }
     }
 
-    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), where Λ is so small that G(Λ) = Λ(Λφ - f(0)) does not tell it.
+    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), for Λ so small that G(Λ) = Λ(Λφ - f(0)) does not determine it.
     pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
         match &self.kind {
             Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
@@ -90,7 +90,7 @@ impl CurvatureTransform {
         }
     }
 
-    /// Σ|terms| of the sum that G(Λ) is, times e^{-`log_scale`}: what round-off in G(Λ) is relative to.
+    /// Σ|terms| of the sum for G(Λ), times e^{-`log_scale`}: the scale of round-off in G(Λ).
     ///
     /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
     /// times what they leave.
@@ -147,7 +147,7 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
 struct Origin {
     radius: f64,
     height: f64,
-    /// Σ of the sizes of what `height` adds up.
+    /// Sum of the sizes of the terms of `height`.
     size: f64,
 }
 

@@ -1,25 +1,25 @@
-//! The argument principle: zeros inside a contour from the turns of h along it.
+//! The argument principle: the number of zeros inside a contour from the change of arg h along it.
 
 use super::StabilityError;
 use super::transform::Scaled;
 use num_complex::Complex64;
 use stickslip_tip::stop;
 
-/// A step may turn h by at most about this angle, as foretold by h' at either end and as found.
+/// Approximate largest change of arg h in a step, both as predicted by h' at either end and as computed.
 const TURN: f64 = 0.7;
-/// The change of h over a step may differ by this part of h from what h' at its ends foretells.
+/// Largest difference between the change of h over a step and its prediction from h' at the ends, relative to h.
 const AGREEMENT: f64 = 0.3;
-/// Steps below this fraction of a contour's side mean that a zero lies on it.
+/// A step below this fraction of a side of the contour means that a zero lies on the side.
 const SHORTEST: f64 = 1e-13;
-/// More steps than this on one side of a contour are given up.
+/// Largest number of steps on one side of a contour.
 const MOST_STEPS: usize = 1_000_000;
 
 /// Change of arg h along the straight line from `from` to `to`, in radians.
 ///
-/// Steps are |h/h'| times 0.7, taken back until h' at the far end agrees, h itself turned and grew no
-/// more than that, and the change of h is that of its slopes. A turn would be missed if h and h' were
-/// the same at both ends of a step and something else between them: where h is known to vary over a
-/// certain length, corners must be no further apart.
+/// Steps are |h/h'| times 0.7. They are shortened until h' at the far end agrees, h itself turns and grows no more
+/// than that, and the change of h agrees with its slopes. A turn would be missed if h and h' were the same at both
+/// ends of a step but different between them: if h may vary over a certain length, the corners of the contour must be
+/// no further apart.
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`] if h vanishes on the line.
@@ -66,12 +66,12 @@ pub(super) fn argument_change(
     Err(StabilityError::RootOnContour { re: (from + direction * at).re })
 }
 
-/// |h/h'|: how far h keeps its argument.
+/// |h/h'|: the distance over which the argument of h changes little.
 fn reach(h: &Scaled) -> f64 {
     h.value.norm() / h.derivative.norm().max(f64::MIN_POSITIVE)
 }
 
-/// Turns of h along the closed or open polygon through `corners`.
+/// Change of arg h along the closed or open polygon through `corners`.
 pub(super) fn argument_along(
     h: impl Fn(Complex64) -> Scaled,
     corners: &[Complex64],

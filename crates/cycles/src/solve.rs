@@ -238,7 +238,7 @@ fn damping(change: &Change, period: f64, width: f64) -> f64 {
 }
 
 impl NotClosed {
-    /// What is told of it where there is a cycle to a looser tolerance; else `lost`.
+    /// The error to return: `Rough` if there is a cycle with a larger residual, else `lost`.
     pub(super) fn told(self, allowed: f64, lost: CycleError) -> CycleError {
         match self {
             Self::Lost => lost,

@@ -14,8 +14,8 @@ const FALLS: f64 = 0.95;
 pub(crate) const MOST_SLIPS: usize = 8;
 
 impl Sequence<'_> {
-    /// Largest change of an extremum from the period of so many maxima that ended `back` periods ago to the one
-    /// before it; `None` where the extrema do not reach so far back.
+    /// Largest change of an extremum between the period of `slips` maxima that ended `back` periods ago and the one
+    /// before it; `None` if the extrema do not extend that far back.
     pub(crate) fn change(&self, slips: usize, back: usize) -> Option<f64> {
         let changes = self.changes(slips, back)?;
         Some(changes.map(f64::abs).fold(0.0, f64::max))

@@ -242,7 +242,7 @@ mod tests {
         TipFunction::table(&x, &f).unwrap()
     }
 
-    /// The branches of the basic law against the code for any law, which shares the transforms with them and no search.
+    /// Comparison of the basic model with the code for any model: both use the same transforms, but different searches.
     #[test]
     fn branches_of_the_basic_law_find_what_the_general_code_finds() {
         let law = Wider::default();

@@ -35,8 +35,8 @@ impl Creep {
         self.roots.iter().rev().filter(|p| p.im.abs() <= 0.0).map(|p| p.re).collect()
     }
 
-    /// The rate that attracts: the root of largest real part, if that is real. Without one no tip is trapped
-    /// for ever.
+    /// The attracting rate: the root of largest real part, if it is real. If it is not, no tip is trapped
+    /// permanently.
     #[must_use]
     pub fn attracting(&self) -> Option<f64> {
         self.roots.first().filter(|p| p.im.abs() <= 0.0).map(|p| p.re)
@@ -46,7 +46,7 @@ impl Creep {
 /// All rates of creep at the α and r of the model, found and counted as [`super::roots`] are.
 ///
 /// # Errors
-/// As [`super::roots`]; a wider law.
+/// As [`super::roots`]; an extended model.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
     if !model.wider().is_papers() || *model.tip() == TipFunction::Cosine {
         return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));

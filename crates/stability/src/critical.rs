@@ -9,9 +9,9 @@ use stickslip_tip::{TipFunction, Wider, stop};
 /// A point of the stability boundary, with the oscillation that bifurcates there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Critical {
-    /// αc; (43) under the basic law.
+    /// αc; (43) in the basic model.
     pub alpha: f64,
-    /// r; (42) under the basic law.
+    /// r; (42) in the basic model.
     pub r: f64,
     /// Frequency ω = rΩ in time.
     pub omega: f64,

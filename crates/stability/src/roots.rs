@@ -35,7 +35,7 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
     counted(&h, bound / model.r())?.spectrum(&h).map_err(|error| h.explain(error))
 }
 
-/// At least `count` leading roots: all those right of a line chosen so that there are so many.
+/// At least `count` leading roots: all those right of a line, which is chosen accordingly.
 ///
 /// The list is shorter if no more roots exist (α = 0: only the root -1; J0), or if the others lie left of
 /// Re Λ ≈ -60/width, for a table left of Re Λ = -24/reach: there round-off of its entries, amplified by
@@ -81,7 +81,7 @@ pub fn certify(
     Ok(Certificate::of(&h, half_plane.region(model.r()), half_plane.count, roots))
 }
 
-/// Whether the roots are those of a quartic: of J0 under the basic law.
+/// Whether the roots are those of a quartic, as for J0 in the basic model.
 fn has_closed_form(model: &Model) -> bool {
     *model.tip() == TipFunction::Bessel && model.wider().is_papers()
 }

@@ -1,9 +1,9 @@
-//! Oscillations that repeat themselves where no cycle is to be had.
+//! Periodic motions for which no cycle is available.
 
 use super::*;
 
 impl End<'_> {
-    /// Where no cycle is to be had, an oscillation whose changes from period to period die out.
+    /// Classifies an oscillation without a cycle, whose changes from period to period decay.
     pub(super) fn extrapolated(
         &self,
         sequence: &Sequence,

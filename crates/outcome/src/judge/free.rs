@@ -6,7 +6,7 @@ use crate::rest::Rest;
 use stickslip_stability::{Spectrum, walk, walking_speeds};
 use stickslip_tip::TipFunction;
 
-/// A tip drifts where its velocity is as near to that of a steady walk as this part of it.
+/// A tip drifts if its velocity is within this relative distance of that of a steady walk.
 const DRIFTS: f64 = 1e-3;
 /// Without theory it drifts where its velocity has changed by less than this part in the last of its run.
 const UNCHANGED: f64 = 1e-4;
@@ -19,13 +19,13 @@ const SPEED_ERROR: f64 = 1e-12;
 /// Of the leading growth exponents one is that of a shift, two may be a pair.
 const ROOTS: usize = 3;
 
-/// What theory says of a tip without a spring.
+/// Stability of the steady motions of a tip without a spring.
 enum Theory {
     /// The stable steady motion whose velocity is nearest.
     Nearest(Attractor),
     /// No steady motion is stable.
     None,
-    /// That is not known.
+    /// Their stability is not known.
     Unknown,
 }
 

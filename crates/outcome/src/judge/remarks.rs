@@ -1,4 +1,4 @@
-//! Where round-off, the start or the tolerance decides.
+//! Warnings: cases in which round-off, the initial condition or the tolerance decides.
 
 use super::*;
 use crate::rest::Rest;

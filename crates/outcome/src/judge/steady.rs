@@ -1,4 +1,4 @@
-//! Whether a tip moves steadily, and what linear theory says of that.
+//! Whether a tip moves steadily, and the linear stability of this motion.
 
 use super::*;
 use stickslip_stability::critical;
@@ -10,10 +10,10 @@ const PUSHED: f64 = 0.6;
 /// at up to 0.24.
 const UNDISTURBED: f64 = 0.5;
 
-/// Nearer to αc than this part of it, roots are asked.
+/// Relative distance from αc below which the roots decide.
 const BESIDE_ONSET: f64 = 1e-6;
 
-/// Under the basic law steady motion is stable up to αc, and nowhere beyond it.
+/// In the basic model steady motion is stable up to αc, and nowhere beyond it.
 fn by_alpha(model: &Model) -> Option<bool> {
     let is_sum = matches!(model.tip(), TipFunction::Gaussians(_));
     if !(is_sum && model.wider().is_papers()) || stop::is_asked() {
@@ -24,7 +24,7 @@ fn by_alpha(model: &Model) -> Option<bool> {
 }
 
 impl End<'_> {
-    /// What linear theory says of steady motion: worth half of a judgement, and not asked of a tip that is trapped.
+    /// Linear stability of steady motion. It takes half the time of a classification, and is not needed for a trapped tip.
     pub(super) fn linear(&self) -> Linear {
         // Nobody waits for what it takes on a table.
         let of = || Linear::of(&self.scenario.model);

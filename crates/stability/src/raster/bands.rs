@@ -1,7 +1,7 @@
 //! Bands of waves: every place at which T is largest among its neighbours, so that waves of their own begin to grow there.
 //!
 //! The zeros of Q with real T, q and θ are curves; along them T rises to several maxima, of ripples and of lines that bunch or
-//! snake. The largest of all is had by the search that is certain (`search.rs`). The others are what Newton's method finds
+//! snake. The largest of all follows from the certified search (`search.rs`). The others are what Newton's method finds
 //! from a lattice of wave numbers and phases: a narrow band may be missed.
 
 use super::determinant::Lines;

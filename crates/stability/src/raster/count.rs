@@ -41,7 +41,7 @@ pub(super) fn growing(lines: &Lines, t: f64, q: f64) -> Option<usize> {
     whole(turned, TAU)
 }
 
-/// Phases from -π to π, closer to each other than sums of so many lines vary.
+/// Phases from -π to π, spaced more closely than the variation of sums of this number of lines.
 fn corners(lines: usize) -> Vec<Complex64> {
     let finest = 0.3 / (lines as f64).max(1.0);
     let mut half = vec![0.0_f64];

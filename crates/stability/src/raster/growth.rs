@@ -24,7 +24,7 @@ struct At {
 }
 
 impl Raster {
-    /// By how much another pass over the same line changes a ripple e^{iqx} of the groove at a given α under the basic law:
+    /// By how much another pass over the same line changes a ripple e^{iqx} of the groove at a given α in the basic model:
     /// 1 + C/D. It grows from pass to pass where this is larger than 1 in modulus.
     #[must_use]
     pub fn repeat_gain(&self, alpha: f64, q: f64) -> Complex64 {

@@ -5,7 +5,7 @@ use stickslip_tip::{Across, Footprint};
 
 /// h_k(jd) below this share of the largest is none.
 const NEGLIGIBLE: f64 = 1e-17;
-/// Lines beyond so many are not summed: the pitch is refused.
+/// Largest number of lines in a sum: if more are needed the pitch is an error.
 const MOST_LINES: usize = 1_000_000;
 /// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter, or its derivative of this order.
 pub(super) fn heights(

@@ -5,11 +5,11 @@ use super::on_cell::Determinant;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Steps of Newton's method.
+/// Largest number of steps of Newton's method.
 const MOST_STEPS: usize = 40;
 /// Part of a cell over which slopes are compared.
 const PART: f64 = 1e-2;
-/// Steps longer than so many cells lead away.
+/// Largest step of Newton's method, in cells.
 const FARTHEST: f64 = 1e3;
 /// Q = 0 to so much of what T changes it.
 const SOLVED: f64 = 1e-12;

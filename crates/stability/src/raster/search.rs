@@ -14,14 +14,14 @@ use super::optimum::{Place, candidate};
 use crate::StabilityError;
 use stickslip_tip::stop;
 
-/// A threshold is the least to so much of itself.
+/// Relative accuracy to which a threshold is certified as the lowest.
 pub(super) const MARGIN: f64 = 1e-10;
-/// Beyond so many cells the search is given up.
+/// Largest number of cells, at which the search is given up.
 const MOST_CELLS: usize = 4_000_000;
 /// Cells of a round in which Newton's method is tried.
 const TRIED: usize = 3;
 
-/// An interval of wave numbers or of phases, and its halves once they were asked for.
+/// An interval of wave numbers or of phases; its halves are computed at the first request.
 struct Interval<F> {
     centre: f64,
     half: f64,
@@ -35,12 +35,12 @@ struct Tree<'a, F> {
     all: Vec<Interval<F>>,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
-    /// Where T is largest, if it is above the floor anywhere.
+    /// The wave with the largest T, if this is above the floor.
     pub(super) place: Option<Place>,
-    /// Cells that were looked at.
+    /// Number of cells examined.
     pub(super) cells: usize,
 }
 

@@ -16,7 +16,7 @@ const PANELS_PER_EXPONENTIAL: usize = 16;
 const LANES: usize = 4;
 /// The quadrature serves |Λ| up to this many bands; beyond, the closed form does.
 const BANDS_SERVED: f64 = 1.5;
-/// The quadrature covers so many widths of each Gaussian: exp(-13²/2) = 2e-37.
+/// Half-range of the quadrature, in widths of each Gaussian: exp(-13²/2) = 2e-37.
 const WIDTHS_INTEGRATED: f64 = 13.0;
 
 /// Terms by their centers, and the largest width.

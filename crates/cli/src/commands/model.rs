@@ -13,14 +13,6 @@ pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Resu
         let message = "nothing drags the tip: there is no steady motion behind a support";
         return Err(Failure::input("--no-spring", message));
     }
-    refuse_endless_past(tip, wider)
-}
-
-/// Rejects a divergent history integral.
-pub(crate) fn refuse_endless_past(
-    tip: &TipArguments,
-    wider: &WiderArguments,
-) -> Result<(), Failure> {
     if tip.tip == Some(TipName::Cosine) && wider.healing_time.is_none() {
         let message =
             "goes on for ever, and so does what it left in steady motion: give --healing-time";

@@ -28,11 +28,9 @@ pub(super) fn found(
     while !context.is_cancelled()
         && let Some(step) = running.step()?
     {
-        let part = (step.end() - span.0) / (span.1 - span.0);
-        // That it is cancelled ends the loop.
-        context.reached(Some(part), &format!("t = {:.6}", step.end())).ok();
         observer.observe(&step.along);
         steps.push(step);
+        context.stepped(span, step.end(), steps.len());
     }
     let Some(last) = steps.last() else { return Ok(None) };
     let (end, seconds) = (last.end(), context.seconds() - began);

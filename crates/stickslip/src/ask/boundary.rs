@@ -37,7 +37,7 @@ pub struct Boundary {
     pub law: Law,
 }
 
-fn default_points() -> usize {
+pub(super) fn default_points() -> usize {
     Boundary::DEFAULT_POINTS
 }
 

@@ -60,6 +60,15 @@ impl Context {
         if self.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
     }
 
+    /// Reports the time t that a run over this span has reached after `steps` steps, at every 32nd: a step takes microseconds.
+    pub(crate) fn stepped(&self, (start, until): (f64, f64), t: f64, steps: usize) {
+        const STEPS_PER_REPORT: usize = 32;
+        if steps.is_multiple_of(STEPS_PER_REPORT) {
+            // A run looks by itself whether it is cancelled.
+            self.reached(Some((t - start) / (until - start)), &format!("t = {t:.6}")).ok();
+        }
+    }
+
     /// Whether the work is to end early.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)

@@ -78,7 +78,7 @@ pub struct Continue {
     pub most_points: usize,
     /// Largest residual that the equation of motion (18) may have at any time, in kσ/Γ; from 1e-11 to 1e-4.
     #[schemars(extend("x-option" = option("E", "Accuracy", 30)))]
-    #[serde(default = "default_tolerance")]
+    #[serde(default = "super::cycle::default_tolerance")]
     pub tolerance: f64,
     /// One period of a motion near the first cycle, from which Newton's method starts.
     #[serde(skip)]
@@ -95,10 +95,6 @@ fn default_longest_step() -> f64 {
 
 fn default_most_points() -> usize {
     2000
-}
-
-fn default_tolerance() -> f64 {
-    cycles::DEFAULT_TOLERANCE
 }
 
 /// Branches of cycles and the question that they answer.

@@ -49,7 +49,7 @@ pub struct Cycle {
     pub start: Option<Trajectory>,
 }
 
-fn default_tolerance() -> f64 {
+pub(super) fn default_tolerance() -> f64 {
     cycles::DEFAULT_TOLERANCE
 }
 

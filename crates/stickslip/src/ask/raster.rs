@@ -76,7 +76,7 @@ pub struct Raster {
     pub pulses: Vec<PulseParameters>,
     /// Largest error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
-    #[serde(default = "default_tolerance")]
+    #[serde(default = "super::run::default_tolerance")]
     pub tolerance: f64,
     /// Memory: the algorithm for the history of a line. All memories give the same motion within the tolerance.
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
@@ -85,10 +85,6 @@ pub struct Raster {
     /// Times of the samples of each line, from its start.
     #[serde(flatten)]
     pub sampling: Sampling,
-}
-
-fn default_tolerance() -> f64 {
-    1e-9
 }
 
 /// A raster and the question that it answers. `remarks` are warnings: a part of the pattern is unknown, or may differ

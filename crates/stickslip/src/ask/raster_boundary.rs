@@ -34,7 +34,7 @@ pub struct RasterBoundary {
     pub pitch_range: [f64; 2],
     /// Number of values, if the range does not contain it; from 2 to 100,000.
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
-    #[serde(default = "default_points")]
+    #[serde(default = "super::boundary::default_points")]
     pub points: usize,
     /// Spacing of the values of that range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
@@ -52,10 +52,6 @@ pub struct RasterBoundary {
     #[schemars(extend("x-option" = option("K", "Raster", 34)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
-}
-
-fn default_points() -> usize {
-    Boundary::DEFAULT_POINTS
 }
 
 /// A boundary of rasters and the question that it answers.

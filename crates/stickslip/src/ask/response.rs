@@ -68,7 +68,7 @@ pub struct Response {
     /// X, in σ: the samples begin at the time at which a run with this start position and a steady start begins, so
     /// that the two can be compared sample by sample.
     #[schemars(extend("x-option" = option("X", "Output", 62)))]
-    #[serde(default = "default_start_position")]
+    #[serde(default = "super::run::default_start_position")]
     pub start_position: f64,
     /// Time of the last sample, in Γ/k.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
@@ -80,10 +80,6 @@ pub struct Response {
 
 fn default_modes() -> usize {
     10
-}
-
-fn default_start_position() -> f64 {
-    14.0
 }
 
 /// A response and the question that it answers.

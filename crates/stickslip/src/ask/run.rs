@@ -96,11 +96,11 @@ pub struct Run {
     pub sampling: Sampling,
 }
 
-fn default_start_position() -> f64 {
+pub(super) fn default_start_position() -> f64 {
     14.0
 }
 
-fn default_tolerance() -> f64 {
+pub(super) fn default_tolerance() -> f64 {
     1e-9
 }
 
@@ -568,10 +568,8 @@ impl Ask for Run {
         while !context.is_cancelled()
             && let Some(step) = running.step().map_err(refused)?
         {
-            let part = (step.end() - span.0) / (span.1 - span.0);
-            // That it is cancelled ends the loop.
-            context.reached(Some(part), &format!("t = {:.6}", step.end())).ok();
             steps.push(step);
+            context.stepped(span, step.end(), steps.len());
         }
         let end = became(&scenario, &initial, &running, context.seconds() - began)?;
         let end = RunEnd { interrupted: running.t() < scenario.until, ..end };

@@ -155,7 +155,7 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
         ("fit --ripple absent.csv", 2, ["absent.csv", "cannot be read"]),
         ("fit --wavelengths two.csv", 2, ["two.csv", "3 are needed"]),
         ("fit --onsets below.csv", 2, ["row 2", "above 0"]),
-        ("fit --ripple two.csv --free gamma", 2, ["--free gamma", "depth-limit"]),
+        ("fit --ripple two.csv --free gamma", 2, ["gamma", "depth-limit"]),
         ("fit --ripple two.csv --free beta --tip gaussian", 2, ["--free beta", "--tip"]),
         ("fit --ripple two.csv --r -1", 2, ["--r -1", "above 0"]),
         ("fit --ripple two.csv", 2, ["two.csv", "too few"]),

@@ -58,7 +58,15 @@ pub use ask::continuation::{
 pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use ask::exponents;
 pub use ask::failure::{Failure, Refused, Typed};
+pub use ask::fit::{
+    AlternativeDocument, DataFitted, Fit, FitDocument, FitFound, FreeName, Measured, NumberFitted,
+    NumberHeld, ScanName,
+};
 pub use ask::lines;
+pub use ask::measured_tip::{
+    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredImage,
+    MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
+};
 pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
 pub use ask::raster_boundary::{
     RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
@@ -91,15 +99,8 @@ pub use documents::figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,
 };
-pub use documents::fit::{
-    AlternativeDocument, DataFitted, FitDocument, FitFound, FitParameters, NumberFitted, NumberHeld,
-};
 pub use documents::history::{FARTHEST, History};
 pub use documents::in_units::{Dimension, InUnits, KnownScales, dimension};
-pub use documents::measured_tip::{
-    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredTipDocument,
-    MeasuredTipFound, MeasuredTipParameters,
-};
 pub use documents::outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, SwingDocument,
     TransientDocument, digits, to_its_digits,

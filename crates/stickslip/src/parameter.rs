@@ -60,6 +60,10 @@ pub enum Kind {
     Ends,
     /// A list of numbers.
     Numbers,
+    /// A list of such names.
+    Names(Vec<(String, String)>),
+    /// A text, such as a unit.
+    Text,
     /// A footprint, as [`Tip`](crate::Tip) reads it.
     Tip,
     /// Any other value, such as a table.
@@ -144,6 +148,13 @@ fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
     }
     if types.contains(&"boolean") {
         return Kind::Switch;
+    }
+    if types.contains(&"string") {
+        return Kind::Text;
+    }
+    if let (true, Some(path)) = (types.contains(&"array"), property["items"]["$ref"].as_str()) {
+        let names = schema.pointer(path.trim_start_matches('#')).map(names_of).unwrap_or_default();
+        return if names.is_empty() { Kind::Other } else { Kind::Names(names) };
     }
     if types.contains(&"array") {
         return match (&property["items"]["type"], &property["maxItems"]) {
@@ -237,6 +248,10 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
             Kind::Integer => value.is_u64(),
             Kind::Switch => value.is_boolean(),
             Kind::Name(names) => names.iter().any(|(name, _)| value.as_str() == Some(name)),
+            Kind::Names(names) => value.as_array().is_some_and(|all| {
+                all.iter().all(|one| names.iter().any(|(name, _)| one.as_str() == Some(name)))
+            }),
+            Kind::Text => value.is_string(),
             Kind::Ends => value
                 .as_array()
                 .is_some_and(|ends| ends.len() == 2 && ends.iter().all(Value::is_number)),
@@ -248,10 +263,11 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
         Kind::Integer => "must be a whole number of 0 or more".into(),
         Kind::Switch => "must be true or false".into(),
         Kind::Ends => "must be two finite numbers".into(),
-        Kind::Name(names) => {
+        Kind::Name(names) | Kind::Names(names) => {
             let names: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
             format!("must be one of {}", names.join(", "))
         }
+        Kind::Text => "must be a text".into(),
         Kind::Numbers => "must be finite numbers".into(),
         Kind::Tip | Kind::Other => String::new(),
     })

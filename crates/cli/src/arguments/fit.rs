@@ -1,9 +1,10 @@
 //! `stickslip fit`.
 
 use super::examples::examples;
-use super::{OutletArguments, TipArguments};
-use clap::{Args, ValueEnum};
+use super::{Options, OutletArguments};
+use clap::Args;
 use std::path::PathBuf;
+use stickslip::Fit;
 
 /// Estimate α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals.
 ///
@@ -15,6 +16,7 @@ use std::path::PathBuf;
 /// explain the data gets no intervals.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(mut_arg("width", |width| width.help("σ in the unit of the data, if known")))]
 pub(crate) struct FitArguments {
     /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
     /// writes it.
@@ -42,45 +44,8 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Data")]
     pub(crate) force_gain: Option<f64>,
 
-    /// Unit of lengths, for files without one and for the result [default: that of the first file].
-    #[arg(long, value_name = "UNIT", help_heading = "Data")]
-    pub(crate) unit: Option<String>,
-
-    /// Reduce the weight of outliers, by Huber's weights.
-    #[arg(long, help_heading = "Data")]
-    pub(crate) robust: bool,
-
-    /// Direction in which the tip moved along the positions of ripples and traces [default: both are tried].
-    #[arg(long, value_name = "DIRECTION", help_heading = "Data")]
-    pub(crate) scan: Option<ScanName>,
-
-    /// --width is σ in the unit of the data, if known.
     #[command(flatten)]
-    pub(crate) tip: TipArguments,
-
-    /// r, if known.
-    #[arg(long, value_name = "R", allow_hyphen_values = true, help_heading = "Known")]
-    pub(crate) r: Option<f64>,
-
-    /// α, if known.
-    #[arg(long, value_name = "A", allow_hyphen_values = true, help_heading = "Known")]
-    pub(crate) alpha: Option<f64>,
-
-    /// Depth limit b of (61), in kσ²/a, if known.
-    #[arg(long, value_name = "B", allow_hyphen_values = true, help_heading = "Known")]
-    pub(crate) depth_limit: Option<f64>,
-
-    /// Healing time T of the surface, in Γ/k, if known.
-    #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Known")]
-    pub(crate) healing_time: Option<f64>,
-
-    /// Inertia of the tip, in Γ²/k, if known.
-    #[arg(long, value_name = "M", allow_hyphen_values = true, help_heading = "Known")]
-    pub(crate) inertia: Option<f64>,
-
-    /// Further parameters to fit: beta, depth-limit, healing-time, inertia.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', help_heading = "Fitted")]
-    pub(crate) free: Vec<String>,
+    pub(crate) options: Options<Fit>,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
@@ -88,15 +53,6 @@ pub(crate) struct FitArguments {
     /// Draw data, model, residuals and the profiles of the likelihood to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
-}
-
-/// A direction along the positions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ScanName {
-    /// Towards larger positions
-    Right,
-    /// Towards smaller positions
-    Left,
 }
 
 const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]

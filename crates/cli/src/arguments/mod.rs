@@ -37,7 +37,7 @@ pub(crate) use continuation::ContinueArguments;
 pub(crate) use cycle::CycleArguments;
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
-pub(crate) use fit::{FitArguments, ScanName};
+pub(crate) use fit::FitArguments;
 pub(crate) use in_units::InUnitsArguments;
 pub(crate) use interval::Interval;
 pub(crate) use model::{ModelArguments, TipArguments, WiderArguments};

@@ -5,7 +5,7 @@ use clap::Args;
 use std::path::PathBuf;
 use stickslip::TipName;
 
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Model")]
 pub(crate) struct TipArguments {
     /// Footprint f(x) of the tip [default: triple-gaussian].

@@ -89,7 +89,12 @@ impl<Q: Questions> FromArgMatches for Options<Q> {
             }
         }
         let refused_range = refused_range::<Q>(matches);
-        let tip = TipArguments::from_arg_matches(matches)?;
+        let has_tip = Q::parameters().iter().any(|parameter| parameter.kind == Kind::Tip);
+        let tip = if has_tip {
+            TipArguments::from_arg_matches(matches)?
+        } else {
+            TipArguments::default()
+        };
         let parameters = matches.get_one("parameters").cloned();
         Ok(Self { given, tip, parameters, refused_range, question: PhantomData })
     }
@@ -147,6 +152,11 @@ fn argument(parameter: &Parameter) -> Arg {
             let names: Vec<PossibleValue> = names.iter().map(value).collect();
             valued.value_parser(PossibleValuesParser::new(names))
         }
+        Kind::Names(names) => {
+            let names = names.iter().map(|(name, _)| name.clone()).collect::<Vec<String>>();
+            valued.value_parser(PossibleValuesParser::new(names)).value_delimiter(',')
+        }
+        Kind::Text => valued,
         Kind::Ends => valued.value_parser(value_parser!(Interval)),
         Kind::Numbers => valued.value_parser(value_parser!(f64)).value_delimiter(','),
         _ => valued.value_parser(value_parser!(f64)),
@@ -191,7 +201,10 @@ fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMa
         _ if is_spacing(name) => json!("logarithmic"),
         Kind::Switch => json!(true),
         Kind::Integer => json!(matches.get_one::<u64>(name)),
-        Kind::Name(_) => json!(matches.get_one::<String>(name)),
+        Kind::Name(_) | Kind::Text => json!(matches.get_one::<String>(name)),
+        Kind::Names(_) => {
+            json!(matches.get_many::<String>(name).into_iter().flatten().collect::<Vec<_>>())
+        }
         Kind::Ends => {
             let Some(interval) = matches.get_one::<Interval>(name) else { return };
             if let Some(points) = interval.counted() {

@@ -1,9 +1,10 @@
 //! `stickslip tip`.
 
-use super::OutletArguments;
 use super::examples::examples;
+use super::{Options, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
+use stickslip::MeasuredTip;
 
 /// Fit a footprint to a measured profile, which may be noisy, tilted, off centre, and in nanometres.
 ///
@@ -21,41 +22,16 @@ pub(crate) struct MeasuredTipArguments {
     #[arg(value_name = "MEASURED.csv")]
     pub(crate) measured: PathBuf,
 
-    /// Unit of the positions, if the file has none: m, um, nm, Å, …
-    #[arg(long, value_name = "UNIT")]
-    pub(crate) unit: Option<String>,
-
-    /// The profile is one half of an even one, about position 0 [default: if it begins at 0 with its apex].
-    #[arg(long, conflicts_with_all = ["both", "centre"])]
-    pub(crate) half: bool,
+    #[command(flatten)]
+    pub(crate) options: Options<MeasuredTip>,
 
     /// The profile has both halves.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "half", help_heading = "Data")]
     pub(crate) both: bool,
 
-    /// Centre of symmetry, in the unit of the positions [default: fitted].
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
-    pub(crate) centre: Option<f64>,
-
     /// σ, with a unit, such as 30nm; 1σ if the positions are in σ [default: fitted].
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Data")]
     pub(crate) sigma: Option<String>,
-
-    /// Number of Gaussians, where a symmetric pair counts as one [default: by Schwarz' criterion].
-    #[arg(long, value_name = "N")]
-    pub(crate) terms: Option<usize>,
-
-    /// Dimensionless support velocity at which onset and trapping threshold are computed.
-    #[arg(long, value_name = "R", default_value_t = 1.0, allow_hyphen_values = true)]
-    pub(crate) r: f64,
-
-    /// Number of resampled profiles for the intervals.
-    #[arg(long, value_name = "N", default_value_t = 400)]
-    pub(crate) resamples: usize,
-
-    /// Seed of the random numbers.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,

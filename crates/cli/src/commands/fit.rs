@@ -1,186 +1,89 @@
 //! `stickslip fit`.
 
+use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
-use crate::arguments::{FitArguments, ScanName, TipArguments};
-use crate::failure::{Failure, Typed};
+use crate::arguments::{FitArguments, TipArguments};
+use crate::failure::Failure;
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
+use serde_json::{Value, json};
 use std::path::Path;
-use stickslip::{Document, FitDocument, FitFound, FitParameters, NumberHeld, TipName};
-use stickslip_measurement::{
-    Data, Fit, FitError, FitRequest, Name, Scan, Shape, Track, Values, fit as fitted,
-};
-use stickslip_stability::critical;
-use stickslip_tip::{Gaussian, TipFunction, Wider};
+use stickslip::{Ask, Fit, FitDocument, Measured, Tip, parameter};
 use stickslip_units::Unit;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
-    let tip_file = arguments.tip.tip_file.as_deref();
-    let mut read = vec![("--tip-file", tip_file)];
+    let FitArguments { options, outlet, plot, .. } = arguments;
+    let mut read = options.files().to_vec();
     read.extend(arguments.ripple.iter().map(|path| ("--ripple", Some(&**path))));
     read.extend(arguments.friction.iter().map(|path| ("--friction", Some(&**path))));
     read.push(("--onsets", arguments.onsets.as_deref()));
     read.push(("--wavelengths", arguments.wavelengths.as_deref()));
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
-    let request = request(arguments)?;
-    let (data, unit) = data(arguments)?;
+    judge_places(outlet, plot.as_deref(), &read)?;
+    let question = question(arguments)?;
+    let job = Job::open::<FitDocument>(outlet, plot.as_deref())?;
+    let refused = |failure| match failure {
+        stickslip::Failure::Refused(refused) if refused.parameter == "data" => {
+            Failure::input(refused.value.unwrap_or_default(), refused.why)
+        }
+        other => refusal(other, &options.tip, &[]),
+    };
+    job.finish(question.ask(&context()).map_err(refused)?)
+}
+
+/// The question of the options, with the data of the files.
+fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
+    let TipArguments { width, .. } = arguments.options.tip;
+    // Here --width is σ, and no width of a footprint.
+    let mut options = arguments.options.clone();
+    options.tip.width = None;
+    let (tip, draws) = tip_and_draws(&options.tip)?;
+    let tip = options.tip.is_given().then_some(Tip(tip));
+    let mut values = options.values()?;
+    let is_free = |name: &str| {
+        values
+            .get("free")
+            .and_then(Value::as_array)
+            .is_some_and(|names| names.contains(&json!(name)))
+    };
+    if is_free("beta") && tip.is_some() {
+        let message =
+            "is that of the triple Gaussian, and free: leave --beta, --tip and --tip-file out";
+        return Err(Failure::input("--free beta", message));
+    }
+    if let Some(width) = width {
+        values.insert("width".into(), json!(width));
+    }
+    let (data, unit) = data(arguments, values.get("unit").and_then(Value::as_str))?;
     if data.is_empty() {
         let message = "give what was measured: one of these at least";
         return Err(Failure::input("--ripple, --friction, --onsets, --wavelengths", message));
     }
-    let data = reduced(data)?;
-    let job = Job::open::<FitDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let given: Vec<Data> = data.iter().map(|(_, data)| data.clone()).collect();
-    let mut found = fitted(&given, &request).map_err(|error| match error {
-        FitError::NoStart | FitError::Stopped => Failure::Run(error.to_string()),
-        error => Failure::input(named(&data), error),
-    })?;
-    if is_assumed(&arguments.tip) && request.shape != Shape::Triple {
-        found.remarks.insert(0, ASSUMED.into());
-    }
-    let tip = fitted_tip(&request, &found)?;
-    let critical_alpha =
-        found.values.get(Name::R).and_then(|r| critical(&Wider::default(), &tip, r).ok());
-    let held = Name::ALL.into_iter().filter_map(|name| {
-        Some(NumberHeld { name: name.word().into(), value: request.known.get(name)? })
-    });
-    let parameters = FitParameters {
-        tip: (&tip).into(),
-        known: held.collect(),
-        robust: arguments.robust,
-        unit,
-        scan: request.scan.map(|scan| scan.word().into()),
-        footprints: request.footprints.len(),
-    };
-    let answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
-    job.finish::<FitDocument>(Document::new(parameters, answer, found.remarks))
+    let question: Fit = parameter::question(values)?;
+    Ok(Fit { draws, data, unit, ..question })
 }
-
-/// Warning for a fit without a given footprint.
-const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
-
-/// Whether no option of the footprint is given.
-fn is_assumed(tip: &TipArguments) -> bool {
-    tip.tip.is_none() && tip.beta.is_none() && tip.tip_file.is_none()
-}
-
-/// The rows by ascending position, averaged if there are more than a few thousand.
-fn reduced(data: Given) -> Result<Given, Failure> {
-    let one = |(source, data): (String, Data)| {
-        let data = data.reduced().map_err(|error| Failure::input(&source, error))?;
-        Ok((source, data))
-    };
-    data.into_iter().map(one).collect()
-}
-
-/// The footprint of the options and, if it was measured, the footprints drawn within its error.
-fn footprints(arguments: &TipArguments) -> Result<(TipFunction, Vec<TipFunction>), Failure> {
-    let (tip, draws) = tip_and_draws(&TipArguments { width: None, ..arguments.clone() })?;
-    let file = arguments.tip_file.as_deref().unwrap_or(Path::new(""));
-    let refused = |error| Failure::input(format!("--tip-file {}: draws", file.display()), error);
-    let drawn = draws.iter().map(|draw| {
-        TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect()).map_err(refused)
-    });
-    Ok((tip, drawn.collect::<Result<_, _>>()?))
-}
-
-/// The names of the files, as given.
-fn named(data: &[(String, Data)]) -> String {
-    data.iter().map(|(source, _)| source.as_str()).collect::<Vec<&str>>().join(", ")
-}
-
-fn fitted_tip(request: &FitRequest, found: &Fit) -> Result<TipFunction, Failure> {
-    match &request.shape {
-        Shape::Known(tip) => Ok(tip.clone()),
-        Shape::Triple => {
-            TipFunction::triple_gaussian(found.values.get(Name::Beta).unwrap_or(1.0), 1.0)
-                .map_err(|error| Failure::Run(error.to_string()))
-        }
-    }
-}
-
-/// Names for `--free`.
-const MORE: [(&str, Name); 4] = [
-    ("beta", Name::Beta),
-    ("depth-limit", Name::DepthLimit),
-    ("healing-time", Name::HealingTime),
-    ("inertia", Name::Inertia),
-];
-
-fn request(arguments: &FitArguments) -> Result<FitRequest, Failure> {
-    let mut free = vec![];
-    for word in &arguments.free {
-        let found = MORE.iter().find(|(name, _)| name == word).map(|(_, name)| *name);
-        free.push(found.ok_or_else(|| {
-            let names = MORE.map(|(name, _)| name).join(", ");
-            Failure::input(
-                format!("--free {word}"),
-                format!("{names} will do; α, r and σ are free unless given"),
-            )
-        })?);
-    }
-    let TipArguments { width, beta, tip: name, .. } = arguments.tip;
-    let mut known = Values::default();
-    for (option, name, value) in [
-        ("--alpha", Name::Alpha, arguments.alpha),
-        ("--r", Name::R, arguments.r),
-        ("--width", Name::Width, width),
-        ("--depth-limit", Name::DepthLimit, arguments.depth_limit),
-        ("--healing-time", Name::HealingTime, arguments.healing_time),
-        ("--inertia", Name::Inertia, arguments.inertia),
-    ] {
-        let Some(value) = value else { continue };
-        if !(value.is_finite() && value > 0.0) {
-            let message = "must be a finite number above 0";
-            return Err(Failure::input(format!("{option} {}", Typed(value)), message));
-        }
-        known.set(name, value);
-    }
-    let is_triple =
-        matches!(name, None | Some(TipName::TripleGaussian)) && arguments.tip.tip_file.is_none();
-    let (shape, footprints) = if free.contains(&Name::Beta) {
-        if !is_triple || beta.is_some() {
-            let message =
-                "is that of the triple Gaussian, and free: leave --beta, --tip and --tip-file out";
-            return Err(Failure::input("--free beta", message));
-        }
-        (Shape::Triple, vec![])
-    } else {
-        let (tip, drawn) = footprints(&arguments.tip)?;
-        (Shape::Known(tip), drawn)
-    };
-    let scan = arguments.scan.map(|scan| match scan {
-        ScanName::Right => Scan::Right,
-        ScanName::Left => Scan::Left,
-    });
-    Ok(FitRequest { shape, known, free, robust: arguments.robust, scan, footprints })
-}
-
-/// Data, each with the name of its file.
-type Given = Vec<(String, Data)>;
 
 /// The measured data, and the unit of lengths.
-fn data(arguments: &FitArguments) -> Result<(Given, Option<String>), Failure> {
-    let mut files = Files::of(arguments)?;
+fn data(
+    arguments: &FitArguments,
+    unit: Option<&str>,
+) -> Result<(Vec<Measured>, Option<String>), Failure> {
+    let mut files = Files::of(unit)?;
     let mut found = vec![];
-    let mut give = |option: &str, path: &Path, data: Data| {
-        found.push((format!("{option} {}", path.display()), data));
-    };
     for path in &arguments.ripple {
-        give("--ripple", path, files.ripple(path, arguments.height_gain)?);
+        found.push(files.ripple(path, arguments.height_gain)?);
     }
     for path in &arguments.friction {
-        give("--friction", path, files.friction(path, arguments.force_gain)?);
+        found.push(files.friction(path, arguments.force_gain)?);
     }
     if let Some(path) = &arguments.onsets {
-        let [velocity, load] = files.series("--onsets", path)?;
-        give("--onsets", path, Data::Onsets { velocity, load });
+        let (source, [velocity, load]) = files.series("--onsets", path)?;
+        found.push(Measured::Onsets { source, velocity, load });
     }
     if let Some(path) = &arguments.wavelengths {
-        let [velocity, load, wavelength] = files.series("--wavelengths", path)?;
-        give("--wavelengths", path, Data::Wavelengths { velocity, load, wavelength });
+        let (source, [velocity, load, wavelength]) = files.series("--wavelengths", path)?;
+        found.push(Measured::Wavelengths { source, velocity, load, wavelength });
     }
     Ok((found, files.lengths.unit().map(str::to_owned)))
 }
@@ -194,9 +97,9 @@ struct Files {
 }
 
 impl Files {
-    fn of(arguments: &FitArguments) -> Result<Self, Failure> {
-        let given = |unit: &String| Common::given(Unit::Length, "--unit", unit);
-        let lengths = arguments.unit.as_ref().map(given).transpose()?;
+    fn of(unit: Option<&str>) -> Result<Self, Failure> {
+        let given = |unit: &str| Common::given(Unit::Length, "--unit", unit);
+        let lengths = unit.map(given).transpose()?;
         Ok(Self {
             lengths: lengths.unwrap_or(Common::of(Unit::Length)),
             forces: Common::of(Unit::Force),
@@ -205,7 +108,7 @@ impl Files {
         })
     }
 
-    fn ripple(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
+    fn ripple(&mut self, path: &Path, gain: Option<f64>) -> Result<Measured, Failure> {
         let named = format!("--ripple {}", path.display());
         let mut sheet = read_measured("--ripple", path, &[2, 3])?;
         if sheet.columns.len() == 3 {
@@ -227,10 +130,10 @@ impl Files {
         } else if gain.is_some() {
             headings[1].unit(Unit::Length).map_err(|error| Failure::input(&named, error))?;
         }
-        Ok(Data::Ripple(Track::new(x, y, gain)))
+        Ok(Measured::Ripple { source: named, x, y, gain })
     }
 
-    fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Data, Failure> {
+    fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Measured, Failure> {
         let named = format!("--friction {}", path.display());
         let Sheet { headings, mut columns, .. } = read_measured("--friction", path, &[2, 3])?;
         scale(&mut columns[0], self.lengths.factor(&named, &headings[0])?);
@@ -250,25 +153,25 @@ impl Files {
         }
         if columns.len() == 3 {
             let [x, y, back] = taken("--friction", path, columns)?;
-            return Ok(Data::Loop(Track::new(x, y, gain), back));
+            return Ok(Measured::Friction { source: named, x, y, back: Some(back), gain });
         }
         let [x, y] = taken("--friction", path, columns)?;
-        Ok(Data::Friction(Track::new(x, y, gain)))
+        Ok(Measured::Friction { source: named, x, y, back: None, gain })
     }
 
-    /// Velocities and loads, and with three columns wavelengths.
+    /// The name of the data, and velocities and loads, with three columns wavelengths.
     fn series<const N: usize>(
         &mut self,
         option: &str,
         path: &Path,
-    ) -> Result<[Vec<f64>; N], Failure> {
+    ) -> Result<(String, [Vec<f64>; N]), Failure> {
         let named = format!("{option} {}", path.display());
         let Sheet { headings, mut columns, .. } = read_measured(option, path, &[N])?;
         let quantities = [&mut self.velocities, &mut self.loads, &mut self.lengths];
         for ((column, heading), quantity) in columns.iter_mut().zip(&headings).zip(quantities) {
             scale(column, quantity.factor(&named, heading)?);
         }
-        taken(option, path, columns)
+        Ok((named, taken(option, path, columns)?))
     }
 }
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use std::path::Path;
 use stickslip::{
     DataFitted, EstimateDocument, FitDocument, KnownScales, MeasuredTipDocument, NumberFitted,
-    NumberHeld, UnitsDocument,
+    UnitsDocument,
 };
 use stickslip_units::Unit;
 
@@ -153,7 +153,7 @@ struct Told {
 #[derive(Deserialize)]
 struct Fitted {
     unit: Option<String>,
-    known: Option<Vec<NumberHeld>>,
+    width: Option<f64>,
 }
 
 fn of_document(path: &Path) -> Result<KnownScales, Failure> {
@@ -185,13 +185,12 @@ fn of_document(path: &Path) -> Result<KnownScales, Failure> {
 impl Telling {
     /// Scales of a fit: σ is the fitted or fixed width; kσ²/a follows from the heights of ripples.
     fn fitted(self) -> Option<KnownScales> {
-        let Fitted { unit, known } = self.parameters?;
+        let Fitted { unit, width } = self.parameters?;
         let metres = Unit::Length.one(&unit?)?;
         let fitted = self.numbers?.into_iter().find(|number| number.name == "width");
         let fitted =
             fitted.map(|NumberFitted { estimate: EstimateDocument { value, .. }, .. }| value);
-        let held = known?.into_iter().find(|number| number.name == "width").map(|held| held.value);
-        let sigma = fitted.or(held)?;
+        let sigma = fitted.or(width)?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
         let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
         Some(KnownScales {

@@ -5,7 +5,7 @@ use super::measured_tip::with_error;
 use crate::error::FigureError;
 use stickslip::{
     ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, Law, ModelParameters,
-    NumberFitted, PanelDocument, StyleName,
+    NumberFitted, PanelDocument, StyleName, TipDocument,
 };
 
 /// Signed root of the likelihood at the ends of a 95 % interval.
@@ -44,9 +44,9 @@ impl Drawn for FitDocument {
 fn models(fit: &FitDocument) -> Vec<ModelParameters> {
     let value = |name: &str| {
         let fitted = fit.numbers.iter().find(|n| n.name == name).map(|n| n.estimate.value);
-        let held = fit.parameters.known.iter().find(|n| n.name == name).map(|n| n.value);
-        fitted.or(held)
+        fitted.or(fit.parameters.known(name))
     };
+    let tip = TipDocument::from(&fit.parameters.tip.clone().unwrap_or_default().0);
     let model = value("alpha").zip(value("r")).map(|(alpha, r)| ModelParameters {
         law: Law {
             depth_limit: value("depth_limit"),
@@ -54,7 +54,7 @@ fn models(fit: &FitDocument) -> Vec<ModelParameters> {
             inertia: value("inertia"),
             no_spring: false,
         },
-        ..ModelParameters::papers(fit.parameters.tip.clone(), alpha, None, r)
+        ..ModelParameters::papers(tip.clone(), alpha, None, r)
     });
     model.into_iter().collect()
 }

@@ -4,10 +4,8 @@
 pub(crate) mod checkpoint;
 pub(crate) mod compare;
 pub(crate) mod figure;
-pub(crate) mod fit;
 pub(crate) mod history;
 pub(crate) mod in_units;
-pub(crate) mod measured_tip;
 pub(crate) mod outcome;
 pub(crate) mod physical;
 pub(crate) mod raster;

@@ -1,10 +1,14 @@
-//! `stickslip/tip`.
+//! The question `tip`: the footprint in a measured profile or image.
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, GaussianDocument, Question};
+use crate::parameter::option;
+use crate::{Ask, Context, Document, Failure, GaussianDocument, Question, Refused};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_measurement::{Across, Candidate, Estimate, MeasuredTip};
+use stickslip_measurement::{
+    Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, TipError, tip,
+};
+use stickslip_units::Unit;
 
 /// A footprint from a measured profile. The document is also a tip file: `gaussians` is f with f(0) = 1, lengths in
 /// σ.
@@ -56,35 +60,178 @@ pub struct MeasuredTipFound {
 }
 
 /// A measured tip and the question that it answers.
-pub type MeasuredTipDocument = Document<MeasuredTipParameters>;
+pub type MeasuredTipDocument = Document<MeasuredTip>;
 
-impl Question for MeasuredTipParameters {
+/// A footprint from a measured profile, which may be noisy, tilted and off centre, or from an image.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct MeasuredTip {
+    /// Name of the data, such as that of their file.
+    pub source: String,
+    /// Unit of the positions: m, um, nm, Å, …; that of the data by default.
+    #[schemars(extend("x-option" = option("UNIT", "Data", 1)))]
+    pub unit: Option<String>,
+    /// The profile is one half of an even one, about position 0; by default if it begins at 0 with its apex.
+    #[schemars(extend("x-option" = option("", "Data", 2)))]
+    pub half: Option<bool>,
+    /// Centre of symmetry, in the unit of the positions; fitted by default.
+    #[schemars(extend("x-option" = option("X", "Data", 3)))]
+    pub centre: Option<f64>,
+    /// σ, in the unit of the positions; computed by default.
+    pub sigma: Option<f64>,
+    /// Number of Gaussians, where a symmetric pair counts as one; by Schwarz' criterion by default.
+    #[schemars(extend("x-option" = option("N", "Accuracy", 4)))]
+    pub terms: Option<usize>,
+    /// Dimensionless support velocity at which onset and trapping threshold are computed.
+    #[schemars(extend("x-option" = option("R", "Model", 5)))]
+    pub r: f64,
+    /// Number of resampled profiles for the intervals; at most 100,000.
+    #[schemars(extend("x-option" = option("N", "Accuracy", 6)))]
+    pub resamples: usize,
+    /// Seed of the random numbers.
+    #[schemars(extend("x-option" = option("N", "Accuracy", 7)))]
+    pub seed: u64,
+    /// The measured heights. Documents contain them in the answer instead.
+    #[serde(skip_serializing)]
+    pub profile: MeasuredProfile,
+    /// An image in place of the profile, which is then that through its middle.
+    #[serde(skip_serializing)]
+    pub image: Option<MeasuredImage>,
+}
+
+impl Default for MeasuredTip {
+    fn default() -> Self {
+        let (source, profile, image) = (String::new(), MeasuredProfile::default(), None);
+        let (unit, half, centre, sigma, terms) = (None, None, None, None, None);
+        let (r, resamples, seed) = (1.0, 400, 0);
+        Self { source, unit, half, centre, sigma, terms, r, resamples, seed, profile, image }
+    }
+}
+
+/// Measured heights along a line, in rows of any order.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredProfile {
+    /// Positions, in `unit`.
+    pub x: Vec<f64>,
+    /// Heights, in any unit; below their surroundings for a pit.
+    pub f: Vec<f64>,
+}
+
+/// Measured heights on a grid.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredImage {
+    /// Positions along the scan, in `unit`.
+    pub x: Vec<f64>,
+    /// Positions across it, in `unit`.
+    pub y: Vec<f64>,
+    /// Heights, a row for each y.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Question for MeasuredTip {
     const FORMAT: &'static str = "stickslip/tip";
     type Answer = MeasuredTipFound;
 }
 
-/// The parameters of a measured tip.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MeasuredTipParameters {
-    /// Name of the file as given.
-    pub source: String,
-    /// Unit of the positions, such as "nm"; null if unknown.
-    pub unit: Option<String>,
-    /// Whether the profile is one half of an even one, about position 0.
-    pub half: bool,
-    /// Centre of symmetry of f, if given.
-    pub centre: Option<f64>,
-    /// σ, if given.
-    pub sigma: Option<f64>,
-    /// Number of Gaussians, if given.
-    pub terms: Option<usize>,
-    /// r at which onset and trapping threshold are computed, dimensionless.
-    pub r: f64,
-    /// Number of resampled profiles for the intervals.
-    pub resamples: usize,
-    /// Seed of the random numbers.
-    pub seed: u64,
+impl MeasuredTip {
+    /// Largest number of resampled profiles.
+    pub const MOST_RESAMPLES: usize = 100_000;
+
+    /// The measured profile, and the image that it belongs to.
+    fn data(&self) -> Result<(Profile, Option<Image>), Refused> {
+        let Some(MeasuredImage { x, y, rows }) = self.image.clone() else {
+            let MeasuredProfile { x, f } = self.profile.clone();
+            let profile = Profile::new(x, f).map_err(|error| Refused::whole("profile", error))?;
+            return Ok((profile, None));
+        };
+        let refused = |error| Refused::whole("image", error);
+        let image = Image::new(x, y, rows).map_err(refused)?;
+        Ok((image.profile().map_err(refused)?, Some(image)))
+    }
+
+    /// The unit of the positions in m, if it is known.
+    fn metres(&self) -> Result<Option<f64>, Refused> {
+        let one = |unit: &String| {
+            Unit::Length.one(unit).ok_or_else(|| Refused {
+                parameter: "unit".into(),
+                value: Some(unit.clone()),
+                why: "must be m, mm, um, nm, pm or Å (angstrom)".into(),
+            })
+        };
+        self.unit.as_ref().map(one).transpose()
+    }
+
+    /// Rejects numbers out of their range.
+    fn judged(&self) -> Result<(), Refused> {
+        let is_beyond = |value: &f64| !(value.is_finite() && *value > 0.0);
+        if let Some(centre) = self.centre.filter(|centre| !centre.is_finite()) {
+            return Err(Refused::number("centre", centre, "must be a finite number"));
+        }
+        if self.centre.is_some() && self.half == Some(true) {
+            let why = "one half of an even profile has its centre at 0: leave one of them out";
+            return Err(Refused::whole("half and centre", why));
+        }
+        for (name, value) in [("sigma", self.sigma), ("r", Some(self.r))] {
+            if let Some(value) = value.filter(is_beyond) {
+                return Err(Refused::number(name, value, "must be a finite number above 0"));
+            }
+        }
+        if self.terms == Some(0) {
+            return Err(Refused::number("terms", 0.0, "must be 1 or more"));
+        }
+        if self.resamples > Self::MOST_RESAMPLES {
+            let why = format!("must be at most {}", Self::MOST_RESAMPLES);
+            return Err(Refused::number("resamples", self.resamples as f64, why));
+        }
+        Ok(())
+    }
+}
+
+impl Ask for MeasuredTip {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.judged()?;
+        self.metres()?;
+        let (profile, _) = self.data()?;
+        let half = self.half.unwrap_or_else(|| self.centre.is_none() && profile.is_half());
+        Ok(Self { half: Some(half), ..self })
+    }
+
+    fn answer(&self, _: &Context) -> Result<(MeasuredTipFound, Vec<String>), Failure> {
+        let (profile, image) = self.data()?;
+        let named = if image.is_some() { "image" } else { "profile" };
+        let request = Request {
+            centre: if self.half == Some(true) { Some(0.0) } else { self.centre },
+            sigma: self.sigma,
+            terms: self.terms,
+            r: self.r,
+            resamples: self.resamples,
+            seed: self.seed,
+        };
+        let found = tip(&profile, &request).map_err(|error| match error {
+            TipError::Stopped => Failure::Cancelled,
+            TipError::NoOnset { r } => Refused::number("r", r, error).into(),
+            error => Refused::whole(named, error).into(),
+        })?;
+        let mut remarks = found.remarks();
+        let across = image.map(|image| image.across(&found)).transpose();
+        let across = across.map_err(|error| Refused::whole(named, error))?;
+        remarks.extend(across.as_ref().and_then(unexplained));
+        let answer = MeasuredTipFound::of(&found, self.metres()?);
+        Ok((MeasuredTipFound { image: across.as_ref().map(Into::into), ..answer }, remarks))
+    }
+}
+
+/// A warning if the fit leaves more of the image than its noise.
+fn unexplained(across: &Across) -> Option<String> {
+    (across.residual > ABOVE_NOISE * across.noise).then(|| {
+        format!(
+            "the residual of the image, {:.2e}, is larger than its noise, {:.2e}: the background is not a plane, or f(x,y) is \
+             not a sum of Gaussians across the scan that is even about the path of the tip",
+            across.residual, across.noise
+        )
+    })
 }
 
 /// f(x,y), fitted to all pixels of an image: each Gaussian of f(x) times exp(-y²/(2v²)).
@@ -158,7 +305,7 @@ impl From<Estimate> for EstimateDocument {
 
 impl MeasuredTipFound {
     /// The document of a measured tip; `metres` is the unit of the positions in m, if known.
-    pub fn of(found: &MeasuredTip, metres: Option<f64>) -> Self {
+    fn of(found: &Measured, metres: Option<f64>) -> Self {
         let least = found.candidates[found.chosen].criterion;
         let candidate = |c: &Candidate| CandidateDocument {
             terms: c.terms,
@@ -197,22 +344,6 @@ impl MeasuredTipFound {
                 .collect(),
             image: None,
         }
-    }
-}
-
-impl MeasuredTipDocument {
-    /// Adds the results of the image to which the profile belongs.
-    #[must_use]
-    pub fn with_image(mut self, across: &Across) -> Self {
-        if across.residual > ABOVE_NOISE * across.noise {
-            self.remarks.push(format!(
-                "what the fit leaves of the image, {:.2e}, is more than its noise, {:.2e}: the ground is no plane, or f(x,y) is no sum \
-                 of Gaussians across, even about its path",
-                across.residual, across.noise
-            ));
-        }
-        self.answer.image = Some(across.into());
-        self
     }
 }
 

@@ -1,0 +1,564 @@
+//! The question `fit`: the parameters of the model that explain measured data.
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Document, EstimateDocument, Failure, GaussianDocument, Question, Refused, Tip,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_measurement::{
+    self as measurement, Alternative, Data, FitError, FitRequest, FittedNumber, Name, Part, Scan,
+    Shape, Track, Values,
+};
+use stickslip_stability::critical;
+use stickslip_tip::{Gaussian, TipFunction, Wider};
+
+/// Parameters of the model estimated from measured data, with 95 % intervals by profile likelihood.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FitFound {
+    /// The fitted parameters.
+    pub numbers: Vec<NumberFitted>,
+    /// Correlation matrix of the logarithms of the fitted parameters.
+    pub correlations: Vec<Vec<f64>>,
+    /// αc at the fitted r, dimensionless; null for a series, or if r is unknown.
+    pub critical_alpha: Option<f64>,
+    /// Each data set with its fit.
+    pub data: Vec<DataFitted>,
+    /// Total number of rows.
+    pub rows: usize,
+    /// Number of fitted parameters, including offsets, slopes, gains and phases.
+    pub parameters_fitted: usize,
+    /// Whether the model explains the data; if it does not, no parameter has an interval.
+    #[serde(default = "yes")]
+    pub explained: bool,
+    /// For several data sets, the probability of an equally large deviation from one common model by chance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_misfit: Option<f64>,
+    /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<AlternativeDocument>,
+    /// The best fit with a depth limit; present if the request has no depth limit, the data do not exclude one at 95
+    /// %, and it changes the parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_depth_limit: Option<AlternativeDocument>,
+}
+
+/// A fit and the question that it answers.
+pub type FitDocument = Document<Fit>;
+
+/// Default of `explained` in documents of older versions.
+fn yes() -> bool {
+    true
+}
+
+/// Another minimum of χ².
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AlternativeDocument {
+    /// The parameters at this minimum, including the fixed ones.
+    pub numbers: Vec<NumberHeld>,
+    /// Direction of the scan, "right" or "left", for each data set.
+    pub scans: Vec<String>,
+    /// Excess of χ² over the best fit.
+    pub behind: f64,
+}
+
+/// α, r and σ from measured ripples, lateral forces, onsets and wavelengths.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Fit {
+    /// Footprint f(x) in its own σ; by default the triple Gaussian with β = 1. Documents contain the fitted β if it is
+    /// free.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    pub tip: Option<Tip>,
+    /// α, dimensionless, if known.
+    #[schemars(extend("x-option" = option("A", "Known", 21)))]
+    pub alpha: Option<f64>,
+    /// r, dimensionless, if known.
+    #[schemars(extend("x-option" = option("R", "Known", 20)))]
+    pub r: Option<f64>,
+    /// σ in the unit of the data, if known.
+    pub width: Option<f64>,
+    /// Depth limit b of (61), in kσ²/a, if known.
+    #[schemars(extend("x-option" = option("B", "Known", 22)))]
+    pub depth_limit: Option<f64>,
+    /// Healing time T of the surface, in Γ/k, if known.
+    #[schemars(extend("x-option" = option("T", "Known", 23)))]
+    pub healing_time: Option<f64>,
+    /// Inertia M of the tip, in Γ²/k, if known.
+    #[schemars(extend("x-option" = option("M", "Known", 24)))]
+    pub inertia: Option<f64>,
+    /// Further parameters to fit. α, r and σ are free unless given.
+    #[schemars(extend("x-option" = option("NAME,…", "Fitted", 30)))]
+    pub free: Vec<FreeName>,
+    /// Reduce the weight of outliers, by Huber's weights.
+    #[schemars(extend("x-option" = option("", "Data", 12)))]
+    pub robust: bool,
+    /// Unit of lengths, for data without one and for the result; that of the first data by default.
+    #[schemars(extend("x-option" = option("UNIT", "Data", 11)))]
+    pub unit: Option<String>,
+    /// Direction in which the tip moved along the positions of ripples and traces; both are tried by default.
+    #[schemars(extend("x-option" = option("DIRECTION", "Data", 13)))]
+    pub scan: Option<ScanName>,
+    /// Number of footprints used to propagate the error of a measured footprint.
+    pub footprints: usize,
+    /// Footprints drawn within the error of a measured one, each a sum of Gaussians in its own σ.
+    #[serde(skip_serializing)]
+    pub draws: Vec<Vec<GaussianDocument>>,
+    /// What was measured: at least one data set. Documents contain them in the answer instead.
+    #[serde(skip_serializing)]
+    pub data: Vec<Measured>,
+}
+
+/// A parameter that is fitted on request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FreeName {
+    /// Weight β of the side lobes of the triple Gaussian.
+    Beta,
+    /// Depth limit b.
+    DepthLimit,
+    /// Healing time T.
+    HealingTime,
+    /// Inertia M.
+    Inertia,
+}
+
+/// A direction along the positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ScanName {
+    /// Towards larger positions.
+    Right,
+    /// Towards smaller positions.
+    Left,
+}
+
+/// A measured data set, with the name of its source, such as that of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Measured {
+    /// Heights of ripples far behind the tip, along its path.
+    Ripple {
+        /// Name of the data.
+        source: String,
+        /// Positions.
+        x: Vec<f64>,
+        /// Heights.
+        y: Vec<f64>,
+        /// k/a, if known: heights are k/a times σ² times those of the model.
+        gain: Option<f64>,
+    },
+    /// Lateral force against the position of the support.
+    Friction {
+        /// Name of the data.
+        source: String,
+        /// Positions of the support.
+        x: Vec<f64>,
+        /// Forces; of a loop those of the trace.
+        y: Vec<f64>,
+        /// Forces of the retrace over the same positions.
+        back: Option<Vec<f64>>,
+        /// k, if known: forces are k times σ times those of the model.
+        gain: Option<f64>,
+    },
+    /// Loads at the onset of stick-slip.
+    Onsets {
+        /// Name of the data.
+        source: String,
+        /// Velocities of the support.
+        velocity: Vec<f64>,
+        /// Loads.
+        load: Vec<f64>,
+    },
+    /// Wavelengths of ripples.
+    Wavelengths {
+        /// Name of the data.
+        source: String,
+        /// Velocities of the support.
+        velocity: Vec<f64>,
+        /// Loads.
+        load: Vec<f64>,
+        /// Wavelengths.
+        wavelength: Vec<f64>,
+    },
+}
+
+impl Measured {
+    /// The name of the data.
+    pub fn source(&self) -> &str {
+        match self {
+            Self::Ripple { source, .. }
+            | Self::Friction { source, .. }
+            | Self::Onsets { source, .. }
+            | Self::Wavelengths { source, .. } => source,
+        }
+    }
+
+    /// The data by ascending position, averaged if there are more than a few thousand rows.
+    fn reduced(self) -> Result<(String, Data), Refused> {
+        let (source, data) = match self {
+            Self::Ripple { source, x, y, gain } => (source, Data::Ripple(Track::new(x, y, gain))),
+            Self::Friction { source, x, y, back, gain } => {
+                let track = Track::new(x, y, gain);
+                let data = match back {
+                    Some(back) => Data::Loop(track, back),
+                    None => Data::Friction(track),
+                };
+                (source, data)
+            }
+            Self::Onsets { source, velocity, load } => (source, Data::Onsets { velocity, load }),
+            Self::Wavelengths { source, velocity, load, wavelength } => {
+                (source, Data::Wavelengths { velocity, load, wavelength })
+            }
+        };
+        let refused = |error| Refused {
+            parameter: "data".into(),
+            value: Some(source.clone()),
+            why: format!("{error}"),
+        };
+        let data = data.reduced().map_err(refused)?;
+        Ok((source, data))
+    }
+}
+
+impl From<FreeName> for Name {
+    fn from(name: FreeName) -> Self {
+        match name {
+            FreeName::Beta => Self::Beta,
+            FreeName::DepthLimit => Self::DepthLimit,
+            FreeName::HealingTime => Self::HealingTime,
+            FreeName::Inertia => Self::Inertia,
+        }
+    }
+}
+
+impl From<ScanName> for Scan {
+    fn from(scan: ScanName) -> Self {
+        match scan {
+            ScanName::Right => Self::Right,
+            ScanName::Left => Self::Left,
+        }
+    }
+}
+
+/// A warning about a fit without a given footprint.
+const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
+
+impl Question for Fit {
+    const FORMAT: &'static str = "stickslip/fit";
+    type Answer = FitFound;
+}
+
+impl Fit {
+    /// A fit to these data, with everything unknown.
+    pub fn new(data: Vec<Measured>) -> Self {
+        Self { data, ..Self::default() }
+    }
+
+    /// The value of a known parameter, by its name in documents.
+    pub fn known(&self, name: &str) -> Option<f64> {
+        match name {
+            "alpha" => self.alpha,
+            "r" => self.r,
+            "width" => self.width,
+            "depth_limit" => self.depth_limit,
+            "healing_time" => self.healing_time,
+            "inertia" => self.inertia,
+            _ => None,
+        }
+    }
+
+    /// All known parameters.
+    fn all_known(&self) -> Result<Values, Refused> {
+        let mut known = Values::default();
+        for name in Name::ALL {
+            let Some(value) = self.known(name.word()) else { continue };
+            if !(value.is_finite() && value > 0.0) {
+                let why = "must be a finite number above 0";
+                return Err(Refused::number(name.word(), value, why));
+            }
+            known.set(name, value);
+        }
+        Ok(known)
+    }
+
+    fn is_free(&self, name: FreeName) -> bool {
+        self.free.contains(&name)
+    }
+
+    /// The fit with the shape of the footprint, and those drawn within its error.
+    fn request(&self) -> Result<FitRequest, Refused> {
+        let (shape, footprints) = if self.is_free(FreeName::Beta) {
+            (Shape::Triple, vec![])
+        } else {
+            let refused = |error| Refused::whole("draws", error);
+            let draws = self.draws.iter().map(|draw| {
+                TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect())
+                    .map_err(refused)
+            });
+            let tip = self.tip.clone().unwrap_or_default().0;
+            (Shape::Known(tip), draws.collect::<Result<_, _>>()?)
+        };
+        Ok(FitRequest {
+            shape,
+            known: self.all_known()?,
+            free: self.free.iter().copied().map(Into::into).collect(),
+            robust: self.robust,
+            scan: self.scan.map(Into::into),
+            footprints,
+        })
+    }
+
+    /// The data, [reduced](Data::reduced), each with its name.
+    fn reduced(&self) -> Result<Vec<(String, Data)>, Refused> {
+        if self.data.is_empty() {
+            return Err(Refused::whole("data", "at least one data set is needed"));
+        }
+        self.data.iter().cloned().map(Measured::reduced).collect()
+    }
+
+    /// The footprint, with this β if it was fitted.
+    fn footprint(&self, beta: Option<f64>) -> Result<Tip, Refused> {
+        let free = beta.filter(|_| self.is_free(FreeName::Beta));
+        let Some(beta) = free else { return Ok(self.tip.clone().unwrap_or_default()) };
+        Ok(Tip(TipFunction::triple_gaussian(beta, 1.0)?))
+    }
+
+    /// The refusal of all data together.
+    fn refused(&self, error: &FitError) -> Refused {
+        let sources: Vec<&str> = self.data.iter().map(Measured::source).collect();
+        Refused {
+            parameter: "data".into(),
+            value: Some(sources.join(", ")),
+            why: error.to_string(),
+        }
+    }
+}
+
+impl Ask for Fit {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        if self.is_free(FreeName::Beta)
+            && self.tip.as_ref().is_some_and(|tip| beta(&tip.0).is_none())
+        {
+            let why = "β is that of the triple Gaussian: leave {tip} out";
+            return Err(Refused {
+                parameter: "free".into(),
+                value: Some("beta".into()),
+                why: why.into(),
+            }
+            .into());
+        }
+        self.all_known()?;
+        let footprints = if self.is_free(FreeName::Beta) { 0 } else { self.draws.len() };
+        Ok(Self { footprints, ..self })
+    }
+
+    fn answer(&self, _: &Context) -> Result<(FitFound, Vec<String>), Failure> {
+        let data = self.reduced()?;
+        let rows: Vec<Data> = data.iter().map(|(_, rows)| rows.clone()).collect();
+        let found = measurement::fit(&rows, &self.request()?).map_err(|error| match error {
+            FitError::Stopped => Failure::Cancelled,
+            FitError::NoStart => Failure::Failed(error.to_string()),
+            error => self.refused(&error).into(),
+        })?;
+        let tip = self.footprint(found.values.get(Name::Beta))?.0;
+        let r = found.values.get(Name::R);
+        let critical_alpha = r.and_then(|r| critical(&Wider::default(), &tip, r).ok());
+        let answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
+        let is_assumed = self.tip.is_none() && !self.is_free(FreeName::Beta);
+        let assumed = is_assumed.then(|| ASSUMED.into());
+        Ok((answer, assumed.into_iter().chain(found.remarks).collect()))
+    }
+
+    fn answered(self, context: &Context) -> Result<Document<Self>, Failure> {
+        let (answer, remarks) = context.within(|| self.answer(context))?;
+        let beta = answer.numbers.iter().find(|number| number.name == Name::Beta.word());
+        let tip = Some(self.footprint(beta.map(|number| number.estimate.value))?);
+        Ok(Document::new(Self { tip, ..self }, answer, remarks))
+    }
+}
+
+/// The weight β of a triple Gaussian (48) of width 1; `None` for any other footprint.
+fn beta(tip: &TipFunction) -> Option<f64> {
+    let TipFunction::Gaussians(sum) = tip else { return None };
+    let beta = -2.0 * sum.terms().iter().find(|term| term.center > 0.0)?.amplitude;
+    (TipFunction::triple_gaussian(beta, 1.0).ok()? == *tip).then_some(beta)
+}
+
+/// A parameter at a fixed value.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NumberHeld {
+    /// Name, such as "alpha".
+    pub name: String,
+    /// Value of the parameter.
+    pub value: f64,
+}
+
+/// A fitted parameter with its interval.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NumberFitted {
+    /// "alpha" and "r", dimensionless; "width", σ in the unit of lengths; "beta"; "depth_limit" in kσ²/a, "healing_time"
+    /// in Γ/k, "inertia" in Γ²/k; "alpha_per_load" and "r_per_velocity" of a series.
+    pub name: String,
+    /// Estimate and interval.
+    pub estimate: EstimateDocument,
+    /// Values at which the parameter was held in the profile likelihood, ascending.
+    pub profile_values: Vec<f64>,
+    /// Signed root of the excess of χ² over its minimum at each of these values: the interval ends at about ±1.96.
+    pub profile_roots: Vec<f64>,
+}
+
+/// Measured data, in their own units, with the fitted model.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DataFitted {
+    /// "ripple", "friction", "loop", "onsets" or "wavelengths".
+    pub kind: String,
+    /// Name of the file as given.
+    pub source: String,
+    /// Positions, or velocities for a series.
+    pub x: Vec<f64>,
+    /// Heights, forces (trace of a loop, then retrace), loads at onset or wavelengths.
+    pub y: Vec<f64>,
+    /// The model at each of these positions.
+    pub model: Vec<f64>,
+    /// Standard deviation of the residuals, relative for a series.
+    pub residual: f64,
+    /// Height of the background at position 0.
+    pub offset: Option<f64>,
+    /// Slope of the background.
+    pub slope: Option<f64>,
+    /// Fitted scale factor, if the scale is unknown: k/a for heights, k for forces.
+    pub gain: Option<f64>,
+    /// Probability of an equally large periodic residual by chance; below 0.005 the model does not explain the data.
+    /// Null if there are too few rows.
+    pub misfit: Option<f64>,
+    /// Probability by chance of the component of twice the wavelength; below 0.001 the ripples are period-doubled.
+    #[serde(default)]
+    pub doubling: Option<f64>,
+    /// Probability by chance of a change of the ripples along the track; below 0.001 the motion has not settled.
+    #[serde(default)]
+    pub drift: Option<f64>,
+    /// Standard deviation of the noise, from the scatter between wavelengths, in the unit of `y`.
+    #[serde(default)]
+    pub noise: Option<f64>,
+    /// Number of independent rows with the same information as these rows.
+    #[serde(default)]
+    pub effective_rows: Option<f64>,
+    /// Direction of the scan along `x`: "right" or "left"; null for a series.
+    #[serde(default)]
+    pub scan: Option<String>,
+    /// Number of rows of the file averaged into each of these.
+    #[serde(default = "one")]
+    pub averaged: usize,
+}
+
+/// Default of `averaged` in documents of older versions.
+fn one() -> usize {
+    1
+}
+
+fn words(scan: Scan) -> String {
+    scan.word().into()
+}
+
+impl From<&Alternative> for AlternativeDocument {
+    fn from(other: &Alternative) -> Self {
+        let number = |name: Name| {
+            Some(NumberHeld { name: name.word().into(), value: other.values.get(name)? })
+        };
+        Self {
+            numbers: Name::ALL.into_iter().filter_map(number).collect(),
+            scans: other.scans.iter().copied().map(words).collect(),
+            behind: other.behind,
+        }
+    }
+}
+
+impl FitFound {
+    /// The document of a fit to these data, [reduced](Data::reduced), each with the name of its file.
+    fn of(found: &measurement::Fit, data: &[(String, Data)], critical_alpha: Option<f64>) -> Self {
+        let each = data.iter().zip(&found.parts);
+        Self {
+            numbers: found.numbers.iter().map(NumberFitted::from).collect(),
+            correlations: found.correlations.clone(),
+            critical_alpha,
+            data: each.map(|((source, data), part)| DataFitted::of(source, data, part)).collect(),
+            rows: found.rows,
+            parameters_fitted: found.parameters,
+            explained: found.explained,
+            joint_misfit: found.joint,
+            alternatives: found.alternatives.iter().map(AlternativeDocument::from).collect(),
+            with_depth_limit: found.with_depth_limit.as_ref().map(AlternativeDocument::from),
+        }
+    }
+}
+
+impl From<&FittedNumber> for NumberFitted {
+    fn from(number: &FittedNumber) -> Self {
+        let (profile_values, profile_roots) = number.profile.iter().copied().unzip();
+        let mut estimate = EstimateDocument::from(number.estimate);
+        // All are above 0: to exclude nothing below is to exclude nothing above 0.
+        estimate.low = estimate.low.filter(|low| *low > 0.0);
+        Self { name: number.name.word().into(), estimate, profile_values, profile_roots }
+    }
+}
+
+impl DataFitted {
+    fn of(source: &str, data: &Data, part: &Part) -> Self {
+        let (kind, x, y) = match data {
+            Data::Ripple(track) => ("ripple", track.x.clone(), track.y.clone()),
+            Data::Friction(track) => ("friction", track.x.clone(), track.y.clone()),
+            Data::Loop(track, back) => {
+                ("loop", [&*track.x, &track.x].concat(), [&*track.y, back].concat())
+            }
+            Data::Onsets { velocity, load } => ("onsets", velocity.clone(), load.clone()),
+            Data::Wavelengths { velocity, wavelength, .. } => {
+                ("wavelengths", velocity.clone(), wavelength.clone())
+            }
+        };
+        let averaged = match data {
+            Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => track.averaged,
+            Data::Onsets { .. } | Data::Wavelengths { .. } => 1,
+        };
+        Self {
+            kind: kind.into(),
+            source: source.into(),
+            x,
+            y,
+            model: part.model.clone(),
+            residual: part.residual,
+            offset: part.offset,
+            slope: part.slope,
+            gain: part.gain,
+            misfit: part.judged.misfit,
+            doubling: part.judged.doubling,
+            drift: part.judged.drift,
+            noise: part.judged.noise,
+            effective_rows: part.judged.effective,
+            scan: part.scan.map(words),
+            averaged,
+        }
+    }
+}
+
+impl Tabular for FitFound {
+    /// The parameters as a table, with a row for each.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let names = self.numbers.iter().map(|n| n.name.clone()).collect();
+        let of = |of: fn(&EstimateDocument) -> Option<f64>| -> Vec<Option<f64>> {
+            self.numbers.iter().map(|n| of(&n.estimate)).collect()
+        };
+        vec![
+            ("number", Column::Words(names, None)),
+            ("value", of(|e| Some(e.value)).into()),
+            ("low", of(|e| e.low).into()),
+            ("high", of(|e| e.high).into()),
+        ]
+    }
+}

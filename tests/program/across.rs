@@ -163,7 +163,7 @@ fn what_has_no_theory_across_is_refused_with_advice() {
         ),
         (
             "stability --tip gaussian --r 1 --pitch 1 --path zigzag --healing-time 9 --length 9 --stiffness-across 1",
-            ["--path zigzag", "no wave e^(iqx)"],
+            ["--path zigzag", "waves e^(iqx)"],
         ),
         (
             "stability --r 1 --pitch 1 --depth-limit 3 --stiffness-across 1",

@@ -31,11 +31,11 @@ fn checkpoints_that_cannot_be_gone_on_with_are_refused() {
         folder.write("other.ck", bytes);
     };
     for (from, to, words) in [
-        ("\"version\":\"0", "\"version\":\"7", "only that version goes on"),
-        ("\"format_version\":1", "\"format_version\":2", "only that version goes on"),
-        ("\"words\":", "\"words\":1", "as many words as it says"),
+        ("\"version\":\"0", "\"version\":\"7", "only that version reproduces"),
+        ("\"format_version\":1", "\"format_version\":2", "only that version reproduces"),
+        ("\"words\":", "\"words\":1", "its length does not match"),
         ("\"alpha\":1.2", "\"alpha\":-1", "0 or above, not -1"),
-        ("\"memory\":\"auto\"", "\"memory\":\"modes\"", "cannot be taken up"),
+        ("\"memory\":\"auto\"", "\"memory\":\"modes\"", "cannot be used"),
         ("\"until\":300", "\"until\":30", "out of range"),
         ("\"format\":\"stickslip/checkpoint\"", "\"format\":\"stickslip/run\"", "stickslip/run"),
         ("\"kick\":", "\"kicks\":", "is damaged"),

@@ -48,7 +48,7 @@ fn a_steady_run_says_whether_it_would_stay_so() {
         let output = folder.stickslip(&format!("run {options} --r 1 --until 60 -o run.json"));
         assert!(output.status.success());
         assert_eq!(
-            said(&output).contains("is unstable, and nothing disturbs it"),
+            said(&output).contains("is unstable, without a disturbance"),
             hint,
             "{}",
             said(&output)

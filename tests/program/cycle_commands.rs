@@ -161,7 +161,7 @@ fn what_cannot_be_used_is_refused() {
         ("cycle --alpha 1.2", &["--r", "is needed"][..]),
         ("cycle --alpha 1.2 --r 1 --tolerance 1", &["--tolerance 1", "1e-4"]),
         ("cycle --alpha 1.2 --r 1 --points 0", &["--points 0"]),
-        ("cycle --alpha 1.2 --r 1 --tip bessel", &["bessel", "fades"]),
+        ("cycle --alpha 1.2 --r 1 --tip bessel", &["bessel", "decays"]),
         ("cycle --from none.json", &["--from none.json"]),
         ("cycle --from run.json", &["--from run.json", "stickslip/cycle"]),
         ("cycle --from half.json", &["--from half.json", "stickslip cycle"]),

@@ -8,9 +8,9 @@ type Damage = (&'static str, fn(&mut Value), &'static str);
 
 const DAMAGES: [Damage; 22] = [
     ("format", |d| d["format"] = json!("other/run"), "\"stickslip/run\" is needed"),
-    ("format", |d| d["format"] = json!(3), "not a whole JSON document"),
+    ("format", |d| d["format"] = json!(3), "not a complete JSON document"),
     ("format_version", |d| d["format_version"] = json!(2), "this program reads 1"),
-    ("array", |d| *d = json!([1, 2]), "not a whole JSON document"),
+    ("array", |d| *d = json!([1, 2]), "not a complete JSON document"),
     ("extra field", |d| d["more"] = json!(1), "unknown field `more`"),
     ("null", |d| d["history"]["extension"][3] = Value::Null, "invalid type: null"),
     ("short", |d| drop(list(d, "t").pop()), "matching lengths"),
@@ -52,13 +52,13 @@ fn damaged_run_documents_are_refused() {
     }
     let text = String::from_utf8(whole).unwrap();
     let texts = [
-        (String::new(), "not a whole JSON document"),
+        (String::new(), "not a complete JSON document"),
         (text[..text.len() / 2].into(), "write it again"),
         (text[..text.len() - 3].into(), "write it again"),
-        (text.repeat(2), "not a whole JSON document"),
-        (text.replace("\"extension\":[", "\"extension\":[NaN,"), "not a whole JSON document"),
+        (text.repeat(2), "not a complete JSON document"),
+        (text.replace("\"extension\":[", "\"extension\":[NaN,"), "not a complete JSON document"),
         (text.replace("\"extension\":[", "\"extension\":[1e999,"), "damaged"),
-        ("[".repeat(100_000), "not a whole JSON document"),
+        ("[".repeat(100_000), "not a complete JSON document"),
     ];
     for (text, words) in texts {
         folder.write("run.json", text);

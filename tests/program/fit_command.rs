@@ -151,7 +151,7 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
     let noise: String = (0..500).map(|i| format!("{i},{}\n", random() + random())).collect();
     folder.write("noise.csv", noise);
     for (line, status, words) in [
-        ("fit", 2, ["--ripple", "what was measured"]),
+        ("fit", 2, ["--ripple", "data files"]),
         ("fit --ripple absent.csv", 2, ["absent.csv", "cannot be read"]),
         ("fit --wavelengths two.csv", 2, ["two.csv", "3 are needed"]),
         ("fit --onsets below.csv", 2, ["row 2", "above 0"]),
@@ -159,7 +159,7 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
         ("fit --ripple two.csv --free beta --tip gaussian", 2, ["--free beta", "--tip"]),
         ("fit --ripple two.csv --r -1", 2, ["--r -1", "above 0"]),
         ("fit --ripple two.csv", 2, ["two.csv", "too few"]),
-        ("fit --ripple noise.csv", 2, ["noise.csv", "no regular ripple"]),
+        ("fit --ripple noise.csv", 2, ["noise.csv", "no significant ripple"]),
         ("fit --onsets same.csv", 2, ["same.csv", "different velocities"]),
         ("fit --ripple noise.csv --scan up", 2, ["--scan", "right"]),
     ] {

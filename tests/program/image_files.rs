@@ -214,7 +214,7 @@ fn what_does_not_go_together_is_refused() {
     let cases: [(&str, &[&str]); 12] = [
         ("--y-range 1,-1", &["--y-range 1,-1", "LO below HI"]),
         ("--y-range -1,1 --spacing-y 0", &["--spacing-y 0", "above 0"]),
-        ("--y-range -1,1 --spacing 1e-4 --spacing-y 1e-4", &["--spacing 0.0001", "will do"]),
+        ("--y-range -1,1 --spacing 1e-4 --spacing-y 1e-4", &["--spacing 0.0001", "or more"]),
         ("--y-range -1,1 --width-y -2", &["--width-y -2", "above 0"]),
         ("--spacing-y 0.1", &["--y-range"]),
         ("-o image.gsf", &["--output image.gsf", "--y-range"]),

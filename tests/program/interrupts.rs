@@ -68,7 +68,7 @@ fn what_would_go_on_for_ever_has_an_end_and_a_reason() {
     ] {
         let output = folder.stickslip(line);
         assert!(matches!(output.status.code(), Some(1 | 2)), "{line}: {}", said(&output));
-        assert!(output.stdout.is_empty() && said(&output).contains("will do"), "{}", said(&output));
+        assert!(output.stdout.is_empty() && said(&output).contains("take"), "{}", said(&output));
     }
     let grid = "compare --alpha 1.2 --r 1 --until 20 --time-limit 5 --grid-tolerance 1e-320";
     folder.refuses(grid, &["--grid-tolerance", "1e-15 or more"]);
@@ -80,9 +80,9 @@ fn what_would_go_on_for_ever_has_an_end_and_a_reason() {
 fn sizes_are_judged_before_anything_is_made_of_them() {
     let folder = Folder::new("sizes");
     for n in ["18446744073709551615", "100000000000", "1000000000", "10000001"] {
-        folder.refuses(&format!("sweep --r 1:2:{n} --alpha 1"), &["10000000 will do"]);
-        folder.refuses(&format!("sweep --r 1 --alpha 1:2:{n}"), &["10000000 will do"]);
-        folder.refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000 will do"]);
+        folder.refuses(&format!("sweep --r 1:2:{n} --alpha 1"), &["10000000 are accepted"]);
+        folder.refuses(&format!("sweep --r 1 --alpha 1:2:{n}"), &["10000000 are accepted"]);
+        folder.refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000 are accepted"]);
     }
 }
 
@@ -91,12 +91,12 @@ fn samples_of_a_raster_are_counted_before_it_is_scanned() {
     let folder = Folder::new("raster_samples");
     let raster = "raster --alpha 1.2 --r 1 --pitch 1 --width-y 1 --length 100 -o out.json";
     let line = format!("{raster} --lines 200 --sample-every 1e-4");
-    folder.refuses(&line, &["--sample-every 0.0001", "2.0e8 samples", "or above will do"]);
+    folder.refuses(&line, &["--sample-every 0.0001", "2.0e8 samples", "or more"]);
     let line = format!("{raster} --lines 1000000");
     folder.refuses(&line, &["--lines 1000000", "GB"]);
     let places: Vec<String> = (0..300).map(|i| format!("{}", f64::from(i) / 3.0)).collect();
     let line = format!("{raster} --lines 20000 --sample-at {}", places.join(","));
-    folder.refuses(&line, &["--sample-at with 300 times", "250 times will do"]);
+    folder.refuses(&line, &["--sample-at with 300 times", "take at most 250"]);
 }
 
 /// After the last line there is a document to make, write and draw: that ends too, and leaves nothing half-written.

@@ -73,7 +73,7 @@ fn options_take_the_place_of_parameters() {
     let output = folder.stickslip("cycle --parameters run.json --print parameters.alpha");
     assert_eq!(String::from_utf8(output.stdout.clone()).unwrap().trim(), "1.3");
     assert!(
-        said(&output).contains("a document stickslip/run, of which alpha"),
+        said(&output).contains("a document stickslip/run: its parameters alpha"),
         "{}",
         said(&output)
     );

@@ -95,7 +95,7 @@ fn what_cannot_be_drawn_is_refused() {
     for (line, said) in [
         ("plot units.json -o a.svg", ["DOCUMENT.json units.json", "stickslip/run"]),
         ("plot none.json -o a.svg", ["DOCUMENT.json none.json", "cannot be read"]),
-        ("plot broken.json -o a.svg", ["broken.json", "not a whole JSON document"]),
+        ("plot broken.json -o a.svg", ["broken.json", "not a complete JSON document"]),
         ("plot damaged.json -o a.svg", ["damaged.json", "damaged"]),
         ("plot point.json -o a.svg", ["point.json", "LO:HI:N"]),
         ("plot run.json -o a.jpg", ["--output a.jpg", ".svg, .png or .pdf"]),

@@ -270,7 +270,7 @@ fn a_raster_under_the_wider_law_is_one_too() {
     let healing = format!("{healing} --length 60 --path zigzag");
     folder.refuses(&healing, &["--path zigzag", "healing surface"]);
     let repeat = "stability --tip gaussian --r 1 --path repeat --depth-limit 8 --alpha 1";
-    folder.refuses(repeat, &["--path repeat", "basic law"]);
+    folder.refuses(repeat, &["--path repeat", "basic model"]);
 }
 
 /// Thresholds and angles, in the document as in the library.
@@ -334,7 +334,7 @@ fn what_no_raster_can_be_made_of_is_refused_with_advice() {
         ),
         (
             "raster --tip bessel --width-y 1 --alpha 1 --r 1 --pitch 1 --lines 3 --length 10",
-            ["--tip", "fades"],
+            ["--tip", "decays"],
         ),
         (
             "raster --alpha 1 --r 1 --path repeat --pitch 1 --lines 3 --length 10",

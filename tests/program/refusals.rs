@@ -63,8 +63,8 @@ fn options_of_a_run_out_of_range_are_refused() {
         ("--until 60 --sample-every 0", &["--sample-every 0", "above 0"]),
         ("--until 60 --sample-every -1", &["--sample-every -1", "above 0"]),
         ("--until 60 --sample-every nan", &["--sample-every NaN", "finite"]),
-        ("--until 60 --sample-every 1e-9", &["--sample-every 1e-9", "memory", "or above will do"]),
-        ("--until 60 --sample-every 1e-300", &["--sample-every 1e-300", "or above will do"]),
+        ("--until 60 --sample-every 1e-9", &["--sample-every 1e-9", "memory", "or more"]),
+        ("--until 60 --sample-every 1e-300", &["--sample-every 1e-300", "or more"]),
         ("--until 60 --sample-at 1,20", &["--sample-at 1:", "from 16.03", "to 60"]),
         ("--until 60 --sample-at 20,61", &["--sample-at 61:", "to 60"]),
         ("--until 60 --sample-at nan", &["--sample-at", "finite"]),
@@ -219,9 +219,9 @@ fn places_that_cannot_be_written_are_found_before_the_run() {
         ("--output", "file/run.json", "choose a place"),
         ("--output", "run.json/", "choose a place"),
         ("--output", &long, "choose a place"),
-        ("--output", "run.txt", ".json, .csv, .jsonl or .npz will do"),
-        ("--output", "run", ".json, .csv, .jsonl or .npz will do"),
-        ("--output", "folder", ".json, .csv, .jsonl or .npz will do"),
+        ("--output", "run.txt", ".json, .csv, .jsonl or .npz"),
+        ("--output", "run", ".json, .csv, .jsonl or .npz"),
+        ("--output", "folder", ".json, .csv, .jsonl or .npz"),
         ("--plot", "none/run.svg", "choose a place that exists"),
         ("--plot", "folder.svg", "choose a place"),
         ("--plot", "run.jpg", ".svg, .png or .pdf"),
@@ -245,7 +245,7 @@ fn surfaces_that_cannot_be_had_are_refused() {
     let folder = Folder::new("surfaces");
     folder.prints("run --alpha 1.2 --r 1 --until 30 -o run.json");
     let cases: [(&str, &[&str]); 23] = [
-        ("-o u.txt", &["--output u.txt", ".json, .csv, .gsf or .npz will do"]),
+        ("-o u.txt", &["--output u.txt", ".json, .csv, .gsf or .npz"]),
         ("--at 5", &["--at 5", "from 16.03", "to 30"]),
         ("--at 20,31", &["--at 31", "to 30"]),
         ("--at nan", &["--at NaN", "to 30"]),
@@ -264,8 +264,8 @@ fn surfaces_that_cannot_be_had_are_refused() {
         ("--spacing 0", &["--spacing 0", "above 0"]),
         ("--spacing -1", &["--spacing -1", "above 0"]),
         ("--spacing nan", &["--spacing NaN", "above 0"]),
-        ("--spacing 1e-300", &["--spacing 1e-300", "or above will do"]),
-        ("--range -1e300,1e300", &["--spacing 0.05", "or above will do"]),
+        ("--spacing 1e-300", &["--spacing 1e-300", "or more"]),
+        ("--range -1e300,1e300", &["--spacing 0.05", "or more"]),
         ("-o none/u.json", &["--output none/u.json", "choose a place"]),
         ("--plot u.jpg", &["--plot u.jpg", ".svg, .png or .pdf"]),
     ];

@@ -1,4 +1,4 @@
-//! Does a run that was saved and taken up again go on as if nothing had happened? Judged by the same run
+//! Does a run that was saved and cannot be used again go on as if nothing had happened? Judged by the same run
 //! in one go, to the last bit: nothing is allowed to differ, so nothing is compared by a tolerance.
 
 use stickslip_outcome::Watched;
@@ -70,7 +70,7 @@ fn finish(mut running: Watched, mut steps: Vec<[u64; STEP_NUMBERS]>) -> Told {
     Told(steps, format!("{outcome:?} {work:?} {} {}", running.memory(), running.memory_reason()))
 }
 
-/// The run, saved after so many steps and taken up by another that knows only the words.
+/// The run, saved after so many steps and cannot be used by another that knows only the words.
 fn broken_at(scenario: &Scenario, at: &[usize]) -> Told {
     let surface = scenario.initial_surface().unwrap();
     let mut running = Watched::new(scenario, &surface).unwrap();
@@ -178,7 +178,7 @@ fn a_state_of_something_else_is_refused() {
         match Watched::resumed(scenario, &surface, &state) {
             Err(RunError::State(why)) => why,
             Err(other) => panic!("{other}"),
-            Ok(_) => panic!("taken up"),
+            Ok(_) => panic!("cannot be used"),
         }
     };
     let modes = with(MemoryChoice::Modes, 1e-9);

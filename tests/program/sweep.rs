@@ -127,7 +127,7 @@ fn an_interrupted_sweep_says_how_to_go_on() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     let said = crate::folder::said(&output);
-    assert!(said.contains("map.json.partial") && said.contains("goes on"), "{said}");
+    assert!(said.contains("map.json.partial") && said.contains("continues"), "{said}");
     assert_eq!(folder.names(), ["map.json.partial"]);
     // Another grid does not go on from these points.
     folder.refuses("sweep --r 1 --alpha 1:2:3 -o map.json", &["map.json.partial", "another sweep"]);

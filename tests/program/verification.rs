@@ -41,7 +41,7 @@ fn a_user_is_told_by_document_and_exit_status() {
     let broken = "run --alpha 1.9 --r 1 --kick 0.01 --until 457 -o broken.json";
     let output = folder.stickslip(&format!("{broken} --verify"));
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    for words in ["tolerance is not kept", "trust it until t =", "--tolerance"] {
+    for words in ["tolerance is not met", "it is correct until t =", "--tolerance"] {
         assert!(said(&output).contains(words), "{}", said(&output));
     }
     let document = folder.json("broken.json");
@@ -52,7 +52,7 @@ fn a_user_is_told_by_document_and_exit_status() {
     let mut other = folder.json("run.json");
     other["parameters"]["alpha"] = json!(1.200_001);
     folder.write("other.json", other.to_string());
-    folder.refuses("verify other.json", &["RUN.json other.json", "it lasts from"]);
+    folder.refuses("verify other.json", &["RUN.json other.json", "history: from"]);
     folder.refuses(&format!("{good} --verify -o run.jsonl"), &["--verify", ".json"]);
 }
 

@@ -78,7 +78,7 @@ fn a_sample_that_is_off_by_more_than_the_tolerance_is_named() {
         let output = folder.stickslip("verify wrong.jsonl");
         let (document, status) = found(&output);
         assert_eq!(status, Some(1), "{}", said(&output));
-        for words in ["wrong.jsonl", "line 100", "1 of 120 samples", "tolerance is not kept"] {
+        for words in ["wrong.jsonl", "line 100", "1 of 120 samples", "tolerance is not met"] {
             assert!(said(&output).contains(words), "{fields:?}: {}", said(&output));
         }
         assert_eq!(document["verification"]["kept"], json!(false));

@@ -229,7 +229,7 @@ fn commands_of_cycles_refuse_what_nothing_drags() {
     folder.refuses("continue --over alpha --r 1 --inertia -1", &["--inertia -1", "above 0"]);
     folder.refuses("cycle --alpha 1 --r 1 --tip cosine", &["--tip cosine", "--healing-time"]);
     let over = "continue --over r --alpha 1 --depth-limit 5";
-    folder.refuses(over, &["--alpha 1", "paper's law"]);
+    folder.refuses(over, &["--alpha 1", "basic model"]);
 }
 
 /// Oza, Rosales and Bush (2013) for J0: v² = (2B - 1 - √(1+4B))/2, B = -α; the fixed points of the Lorenz system for cos.

@@ -84,12 +84,12 @@ impl Read for Endless<'_> {
 #[test]
 fn what_is_something_else_is_told_by_its_beginning() {
     let begins = [
-        ("", "not a whole JSON document"),
-        ("0.1,0.2\n", "not a whole JSON document"),
+        ("", "not a complete JSON document"),
+        ("0.1,0.2\n", "not a complete JSON document"),
         ("{\"format\":\"stickslip/run\",\"format_version\":1,", "format is stickslip/run"),
         ("{\"format\":\"stickslip/sweep\",\"format_version\":7,", "format_version is 7"),
         ("{\"format\":\"stickslip/sweep\",\"format_version\":1,\"points\":[", "damaged"),
-        ("{\"points\":[1,2,3],\"format_version\":1,", "not a whole"),
+        ("{\"points\":[1,2,3],\"format_version\":1,", "not a complete"),
     ];
     for (begins, words) in begins {
         let mut endless = Endless(begins.as_bytes(), 0);

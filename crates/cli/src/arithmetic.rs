@@ -18,8 +18,8 @@ pub(crate) fn arithmetic() -> String {
 pub(crate) fn foreign(made: Option<&str>) -> String {
     let made = made.unwrap_or("unknown");
     format!(
-        "was made where arithmetic is {made}, and here it is {}: the last digits of what follows would be others; go on \
-         with it on a machine of that kind, or begin anew",
+        "was made with {made} arithmetic, and this machine has {}: the last digits would differ; resume it on a \
+         machine of that kind, or start again",
         arithmetic()
     )
 }

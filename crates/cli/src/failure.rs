@@ -29,7 +29,7 @@ pub(crate) enum Failure {
         error: io::Error,
     },
     /// An error of writing, after which the result was saved elsewhere. Status 1.
-    #[error("cannot write {target}: {error}; what it was to hold is in {kept}")]
+    #[error("cannot write {target}: {error}; its intended content is in {kept}")]
     Elsewhere {
         /// File name.
         target: String,
@@ -50,7 +50,7 @@ pub(crate) enum Failure {
         message: String,
     },
     /// Stopped by a signal, after writing the partial result. Status 128 + signal.
-    #[error("interrupted: the result holds what was computed until then")]
+    #[error("interrupted: the result contains what was computed so far")]
     Interrupted(u8),
     /// Stopped by a signal before there was a result. Status 128 + signal.
     #[error("interrupted: nothing was written")]

@@ -17,17 +17,17 @@ pub enum CycleError {
     Tolerance(f64),
     /// The model has no spring, so that nothing drags the tip.
     #[error(
-        "cycles are those of a tip on a spring, behind a support: l repeats itself; without one there is none"
+        "limit cycles exist only for a tip on a spring behind a support: without a spring the lag l is not defined"
     )]
     NoSpring,
     /// The footprint never fades: its history is no state of a few numbers.
     #[error(
-        "cycles need a footprint that fades; this one does not (J0 falls like 1/√x, cos x not at all)"
+        "cycles need a footprint that decays; this one does not (J0 falls like 1/√x, cos x not at all)"
     )]
     NeverFades,
     /// The footprint has too much detail for a sum of exponentials.
     #[error(
-        "the past of the tip cannot be told well enough for cycles to a tolerance of {allowed:e}: {}",
+        "the history of the tip cannot be represented accurately enough for a tolerance of {allowed:e}: {}",
         instead(*reached)
     )]
     Rough {
@@ -41,7 +41,7 @@ pub enum CycleError {
     Fit(FitError),
     /// Steady motion is stable, and the small cycle exists only on the other side of αc.
     #[error(
-        "there is no small cycle at alpha = {alpha:?}: the one that is born at alpha = {critical:?} (r = {r:?}) exists only above that, and below it steady motion is stable"
+        "there is no small cycle at alpha = {alpha:?}: the one that begins at alpha = {critical:?} (r = {r:?}) exists only above it; below it steady motion is stable"
     )]
     NoSmallCycle {
         /// The requested α.
@@ -68,7 +68,7 @@ pub enum CycleError {
         ended: Option<Ended>,
     },
     /// Newton's method did not converge from the given cycle.
-    #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from one that is nearer")]
+    #[error("no cycle was reached at alpha = {alpha:?}, r = {r:?}: start from a nearer one")]
     NotConverged {
         /// The requested α.
         alpha: f64,
@@ -77,7 +77,7 @@ pub enum CycleError {
     },
     /// The eigenvalues of the monodromy matrix are not available.
     #[error(
-        "the cycle at alpha = {alpha:?}, r = {r:?} is beyond what its Floquet multipliers can be computed for"
+        "the cycle at alpha = {alpha:?}, r = {r:?} is too stiff or too long for its Floquet multipliers to be computed"
     )]
     Multipliers {
         /// The requested α.
@@ -86,7 +86,7 @@ pub enum CycleError {
         r: f64,
     },
     /// The tip moves back farther than the sum of exponentials is valid.
-    #[error("the tip steps back by {retreat:.3}, more than the {most:.3} that cycles allow for")]
+    #[error("the tip moves back by {retreat:.3}, more than the {most:.3} that cycles can have")]
     Retreat {
         /// Largest backward motion, in σ.
         retreat: f64,
@@ -117,9 +117,9 @@ fn instead(reached: f64) -> String {
     let unit = 10_f64.powf(reached.log10().floor());
     let enough = (reached / unit).ceil() * unit;
     if enough <= super::TOLERANCES.1 {
-        return format!("{enough:.0e} or more will do, or a footprint of less detail");
+        return format!("take {enough:.0e} or more, or a footprint of less detail");
     }
-    "a smaller alpha/r will do, or a footprint of less detail".into()
+    "take a smaller alpha/r, or a footprint of less detail".into()
 }
 
 #[cfg(test)]

@@ -7,18 +7,18 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum FigureError {
     /// The file name has no extension of a known format.
-    #[error("the extension chooses the format: end the name in .svg, .png or .pdf")]
+    #[error("the extension gives the format: it must be .svg, .png or .pdf")]
     Extension,
     /// The program was built without this feature.
-    #[error("this build writes no {0}: name the figure .svg, or build with --features {1}")]
+    #[error("this build cannot write {0}: name the figure .svg, or build with --features {1}")]
     Missing(&'static str, &'static str),
     /// An invalid width; the valid range in millimetres and in pixels.
     #[error(
-        "say the width and its unit, such as 85mm or 600px: from {0:.0}mm to {1:.0}mm, {2}px to {3}px"
+        "must be a width with its unit, such as 85mm or 600px: from {0:.0}mm to {1:.0}mm, or {2}px to {3}px"
     )]
     Width(f64, f64, f64, f64),
     /// An invalid resolution; the smallest and the largest one.
-    #[error("the pixels in an inch may be {0} to {1}")]
+    #[error("the number of pixels per inch must be {0} to {1}")]
     Resolution(f64, f64),
     /// The document has nothing to draw.
     #[error("{0}")]
@@ -30,7 +30,7 @@ pub enum FigureError {
     #[error("the SVG is unreadable: {0}")]
     Svg(String),
     /// The picture is too large, in pixels.
-    #[error("{0} by {1} pixels are too many: choose a smaller width or fewer pixels to the inch")]
+    #[error("{0} by {1} pixels are too many: choose a smaller width or fewer pixels per inch")]
     Pixels(u64, u64),
     /// The picture cannot be compressed.
     #[error("the pixels cannot be packed: {0}")]

@@ -12,7 +12,7 @@ pub enum GridError {
     #[error("r is {0}: the support velocity must be a finite number > 0")]
     R(f64),
     /// A depth limit, a healing time or an inertia must be finite and > 0.
-    #[error("{0} is no depth limit, healing time or inertia: these must be finite numbers > 0")]
+    #[error("{0}: a depth limit, healing time or inertia must be a finite number > 0")]
     Wider(f64),
     /// The reach of the footprint must be finite and > 0.
     #[error("the footprint's reach is {0}: it must be a finite number > 0")]
@@ -29,7 +29,9 @@ pub enum GridError {
     #[error("the grid spacing is {0}: it must be a finite number > 0")]
     Spacing(f64),
     /// No cell lies between the two ends.
-    #[error("the grid runs from {from} to {to}: it must hold at least four cells and at most 2^31")]
+    #[error(
+        "the grid runs from {from} to {to}: it must contain at least four cells and at most 2^31"
+    )]
     Domain {
         /// Left end
         from: f64,
@@ -73,7 +75,7 @@ pub enum GridError {
         step: f64,
     },
     /// The observer stopped the run.
-    #[error("stopped at t = {time}, as asked")]
+    #[error("cancelled at t = {time}")]
     Stopped {
         /// t
         time: f64,

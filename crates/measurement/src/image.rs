@@ -27,7 +27,7 @@ pub struct Image {
 pub enum ImageError {
     /// Too few rows or columns, or a different number than that of positions.
     #[error(
-        "{columns} × {rows} pixels: at least {FEWEST} either way are needed, and rows of equal length"
+        "{columns} × {rows} pixels: at least {FEWEST} in each direction are needed, in rows of equal length"
     )]
     Size {
         /// Number of pixels in a row.
@@ -39,7 +39,7 @@ pub enum ImageError {
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// No footprint was found.
-    #[error("no footprint stands out of its ground")]
+    #[error("no footprint is distinguishable from the background")]
     Nothing,
 }
 

@@ -11,7 +11,7 @@ pub const MOST_ROWS: usize = 100_000;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProfileError {
     /// Too few or too many rows.
-    #[error("there are {found} rows: {least} to {most} will do", least = FEWEST_ROWS, most = MOST_ROWS)]
+    #[error("there are {found} rows: {least} to {most} are accepted", least = FEWEST_ROWS, most = MOST_ROWS)]
     Rows {
         /// Number of rows.
         found: usize,
@@ -23,10 +23,10 @@ pub enum ProfileError {
         row: usize,
     },
     /// Positions that are all the same.
-    #[error("all positions are {0}: a profile has an extent")]
+    #[error("all positions are {0}: a profile needs different positions")]
     NoExtent(f64),
     /// Heights that are all the same.
-    #[error("all heights are {0}: there is no footprint in them")]
+    #[error("all heights are {0}: they contain no footprint")]
     Flat(f64),
 }
 

@@ -62,18 +62,18 @@ impl fmt::Display for Remark {
         match self {
             Self::RoundOffGrows { rate } => write!(
                 out,
-                "the start is steady motion, which is unstable, and nothing disturbs it: what grows, at the rate \
-                 {rate:.3}, is round-off, and it decides when and how the tip leaves; --kick D decides instead"
+                "the run starts in steady motion, which is unstable, without a disturbance: round-off grows at the \
+                 rate {rate:.3} and decides when and how the tip departs; disturb it with --kick D"
             ),
             Self::RestsBySymmetry { rate } => write!(
                 out,
-                "the tip is at rest, which is unstable (deviations grow at the rate {rate:.3}), and nothing disturbs it: \
-                 --pulse A,T,W sets it going, or with inertia --start-velocity"
+                "the tip is at rest, which is unstable (deviations grow at the rate {rate:.3}), and nothing disturbs \
+                 it: set it in motion with --pulse A,T,W or, with inertia, --start-velocity"
             ),
             Self::ErrorsGrowAtRest { growth } => write!(
                 out,
-                "rest is unstable, and errors have grown by a factor of {growth:.1e} before the force was felt: they, not \
-                 the force, may decide when and where the tip goes; let the force act earlier, or ask for a smaller \
+                "rest is unstable, and errors have grown by a factor of {growth:.1e} before the force was felt: they, \
+                 not the force, may decide when and where the tip goes; let the force act earlier, or give a smaller \
                  tolerance"
             ),
             Self::SteadyToo => {
@@ -85,39 +85,39 @@ impl fmt::Display for Remark {
             ),
             Self::TrappedToo => write!(
                 out,
-                "a tip may also be trapped here for ever: the start decides which is reached"
+                "the tip may also be trapped here for ever: the start decides which is reached"
             ),
             Self::SlipsAfter { time } => {
                 write!(out, "the tip is stuck, and slips again after about {time:.2e}")
             }
             Self::AtTheBorder => write!(
                 out,
-                "whether the tip is trapped or slips again hangs on less than the run is known to: ask for a \
+                "whether the tip is trapped or slips again depends on less than the accuracy of the run: give a \
                  smaller tolerance or a longer run"
             ),
             Self::Coarse { off } => write!(
                 out,
-                "the tolerance is coarse for this motion: the run repeats itself {off:.1e} off the periodic motion of \
-                 the equation"
+                "the tolerance is coarse for this motion: the run settles {off:.1e} away from the periodic solution \
+                 of the equation"
             ),
             Self::TooCoarse => write!(
                 out,
-                "so near onset steady motion, though stable, holds the tip by less than the errors of steps at this \
-                 tolerance push it away: what is left of a disturbance is theirs; ask for a smaller tolerance"
+                "so close to onset steady motion, though stable, attracts the tip less than the errors of the steps \
+                 disturb it: the remaining oscillation is numerical; give a smaller tolerance"
             ),
             Self::ForceActs => write!(out, "the external force still acts at the end of the run"),
             Self::ForceToCome { until } => write!(
                 out,
-                "an external force acts after the end of the run, until t = {until:?}: it is not counted with"
+                "an external force acts after the end of the run, until t = {until:?}: it is not taken into account"
             ),
             Self::OnAPath => write!(
                 out,
-                "the support moves on a path of its own: there is no motion that the tip could settle to"
+                "the support moves on a given path: there is no settled motion to classify"
             ),
             Self::UnevenAhead { until } => write!(
                 out,
-                "the surface ahead of the tip is uneven as far as x = {until:?}: as long as it meets that, no motion \
-                 repeats itself exactly"
+                "the surface ahead of the tip is uneven as far as x = {until:?}: before that no motion repeats itself \
+                 exactly"
             ),
         }
     }

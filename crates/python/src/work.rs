@@ -122,7 +122,7 @@ fn wait(
             Ok(answer) => return Ok(answer),
             Err(RecvTimeoutError::Disconnected) => {
                 let said =
-                    "the computation failed for a reason that it cannot tell: please report it";
+                    "the computation failed for an unknown reason: please report it";
                 return Ok(Err(Refusal::Run(said.into())));
             }
             Err(RecvTimeoutError::Timeout) => {}

@@ -45,7 +45,7 @@ pub enum RasterError {
         most: f64,
     },
     /// Lines too far apart in x for one lattice.
-    #[error("the extent of the area in x is {extent:.3e}, at most {most:.1e} can be held")]
+    #[error("the extent of the area in x is {extent:.3e}, at most {most:.1e} fits in memory")]
     Extent {
         /// Distance from the smallest x to the largest.
         extent: f64,
@@ -54,7 +54,7 @@ pub enum RasterError {
     },
     /// Too many neighbouring lines.
     #[error(
-        "more than {most} lines of the area lie within {reach:.3} of each other, the reach of the footprint across"
+        "more than {most} lines of the area lie within {reach:.3} of each other, which is the reach of the footprint across the scan"
     )]
     Crowded {
         /// Reach of the footprint across the lines.
@@ -64,7 +64,7 @@ pub enum RasterError {
     },
     /// Grooves that exceed the memory limit.
     #[error(
-        "the grooves of {lines} lines over {extent:.3e} in x take {:.1} GB, and 1 GB is held at most: fewer or shorter lines will do",
+        "the grooves of {lines} lines over {extent:.3e} in x take {:.1} GB, where at most 1 GB is used: take fewer or shorter lines",
         bytes / 1e9
     )]
     Memory {
@@ -76,13 +76,13 @@ pub enum RasterError {
         bytes: f64,
     },
     /// An area of separate lines with the path `Repeat`, for which all lines coincide.
-    #[error("an area is scanned one-way or zigzag: name a line as often as it is to be repeated")]
+    #[error("an area is scanned one-way or zigzag: to repeat a line, list it several times")]
     RepeatedArea,
     /// A model without a spring, which cannot scan.
-    #[error("a raster needs a spring: without one there is no support that goes along lines")]
+    #[error("a raster needs a spring: without one there is no support that moves along the lines")]
     NoSpring,
     /// A footprint without decay.
-    #[error("a raster needs a footprint that fades along the lines, as J0 does not")]
+    #[error("a raster needs a footprint that decays along the lines, which J0 does not")]
     NeverFades,
     /// The tip is not f(x,0).
     #[error("the tip function of the law is not the footprint's section y = 0")]

@@ -63,7 +63,7 @@ pub enum StabilityError {
         found: usize,
     },
     /// The coefficients of the amplitude equation are infinite or vanish.
-    #[error("the bifurcation at r = {r:?} is degenerate: its leading order says nothing there")]
+    #[error("the bifurcation at r = {r:?} is degenerate: its leading order does not decide there")]
     DegenerateOnset {
         /// The requested support velocity.
         r: f64,
@@ -93,12 +93,12 @@ pub enum StabilityError {
     },
     /// The threshold of a raster was requested for J0 or cos x.
     #[error(
-        "thresholds of rasters are available for sums of Gaussians only: the Fourier transform of this tip function is infinite at the wave number 1, and so is the answer of a line to ripples of the lines before it"
+        "thresholds of rasters are available for sums of Gaussians only: the Fourier transform of this tip function is infinite at the wave number 1, and so is the response of a line to ripples of the lines before it"
     )]
     NoRipples,
     /// The threshold of a zigzag was requested for a healing surface.
     #[error(
-        "a zigzag over a healing surface has no threshold of its own: the time since the line before passed a place differs along the line, so that no wave e^(iqx) is its own answer; go one way, or leave the healing time out"
+        "a zigzag over a healing surface has no threshold of this form: the time since the previous line passed a place varies along the line, so that waves e^(iqx) do not decouple; scan one way, or leave the healing time out"
     )]
     HealingZigzag,
     /// A request to stop: [`stickslip_tip::stop`].
@@ -117,12 +117,12 @@ pub enum StabilityError {
     Dragged,
     /// Steady motion lies on the kink of |h|.
     #[error(
-        "steady motion leaves the height under this tip at 0, where the depth limit (61) has the corner of |h|: small deviations obey no linear law there, and have no roots"
+        "in steady motion the height under this tip is 0, where |h| of the depth limit (61) has a corner: small deviations obey no linear law there, and there are no growth exponents"
     )]
     Corner,
     /// The iteration for the harmonics of |h| did not converge.
     #[error(
-        "at the depth limit {limit:?} the harmonics of |h| are too large a part of the oscillation for its onset to be found by balancing them: take a larger b"
+        "at the depth limit {limit:?} the harmonics of |h| are too strong for harmonic balance to find the onset of the oscillation: take a larger b"
     )]
     Unsettled {
         /// The depth limit b.
@@ -130,7 +130,7 @@ pub enum StabilityError {
     },
     /// The bound is too far left for J0, whose transforms have branch points.
     #[error(
-        "for J0 under this law roots are counted right of its branch points only, on Re λ ≥ {least:?}, not from {bound:?}"
+        "for J0 in this model roots can be counted only to the right of its branch points, Re λ ≥ {least:?}, not from {bound:?}"
     )]
     BranchPoints {
         /// The smallest admissible bound: -1/T, or 0.
@@ -142,9 +142,7 @@ pub enum StabilityError {
     #[error(transparent)]
     Wider(#[from] stickslip_tip::WiderError),
     /// The quantity is available for the basic model only.
-    #[error(
-        "{0} is not had under a depth limit, healing or inertia, but under the paper's law only"
-    )]
+    #[error("{0} is available for the basic model only, without depth limit, healing and inertia")]
     PapersLawOnly(&'static str),
     /// The requested limit does not exist.
     #[error("{0}")]

@@ -21,7 +21,7 @@ pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
 
 /// Reason given when a question that needs a spring gets a model without one.
 pub(crate) const NOTHING_DRAGS: &str =
-    "nothing drags the tip: there is no steady motion behind a support";
+    "without a spring nothing drags the tip: there is no steady motion behind a support";
 
 /// A parameter of a question.
 #[derive(Debug, Clone, PartialEq)]

@@ -28,7 +28,7 @@ pub enum ModelError {
     #[error("without a spring there is no support, and no velocity r of it, not {0:?}")]
     SupportWithoutSpring(f64),
     /// A depth limit needs a footprint with a mean depth; cos x has none.
-    #[error("the tip cosine has no mean depth, and cannot be under a depth limit")]
+    #[error("the tip cosine has no mean depth, and cannot have a depth limit")]
     Cosine,
     /// A parameter of the extended model is out of range.
     #[error(transparent)]

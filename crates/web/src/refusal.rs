@@ -11,11 +11,11 @@ use thiserror::Error;
 /// Whose words they are.
 #[derive(Debug, Error)]
 pub(crate) enum Refusal {
-    #[error("these are no parameters: {0}")]
+    #[error("these are not parameters: {0}")]
     Json(serde_json::Error),
-    #[error("the page runs up to t = {most}, not to {0}: the program goes on from there", most = crate::limits::MOST_TIME)]
+    #[error("the page computes up to t = {most}, not {0}: use the program for longer runs", most = crate::limits::MOST_TIME)]
     TooLong(f64),
-    #[error("the page scans up to {most} lines, not {0}: the program scans more", most = crate::limits::MOST_LINES)]
+    #[error("the page scans up to {most} lines, not {0}: use the program for more", most = crate::limits::MOST_LINES)]
     TooManyLines(usize),
     #[error(transparent)]
     Unusable(#[from] Unusable),

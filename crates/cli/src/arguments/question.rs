@@ -119,7 +119,7 @@ fn refused_range<Q: Questions>(matches: &ArgMatches) -> Option<(String, &'static
             "needs two finite numbers LO:HI with LO below HI"
         }
         Some(_) if is_given(matches, "points") => {
-            "says how many values there are, and --points too: leave one out"
+            "gives the number of values, and so does --points: leave one of them out"
         }
         Some(0 | 1) => "needs 2 values or more: LO:HI:N with N of at least 2",
         _ => return None,

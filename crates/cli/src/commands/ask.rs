@@ -131,7 +131,7 @@ fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Fail
         parameters.retain(|name, _| known.iter().any(|parameter| parameter.name == *name));
         let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
         remark(format_args!(
-            "stickslip: {}: a document {format}, of which {} are taken",
+            "stickslip: {}: a document {format}: its parameters {} are used",
             named(),
             names.join(", ")
         ));

@@ -22,7 +22,7 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
         return asked::<RasterBoundary, _>(options, values, answer, "--pitch-range");
     }
     if let Some(name) = parameter::stranger::<Boundary>(&values) {
-        let message = "is of scan lines beside each other: give --pitch-range too, or leave it out";
+        let message = "applies to neighbouring scan lines: give --pitch-range too, or leave it out";
         return Err(Failure::input(option(name), message));
     }
     let question: Boundary = parameter::question(values)?;

@@ -75,7 +75,7 @@ impl Asked {
         if step > longest {
             return Err(Failure::input(
                 format!("--step {}", Typed(step)),
-                format!("is longer than the run of the grid: at most {} will do", Typed(longest)),
+                format!("is longer than the run of the grid: must be at most {}", Typed(longest)),
             ));
         }
         let time_limit = time_limit(arguments)?;

@@ -43,7 +43,7 @@ pub(super) fn values<Q: Questions>(
 ) -> Result<Map<String, Value>, Failure> {
     let Some((_, document)) = start else { return options.values() };
     if options.tip.is_given() && super::model::tip(&options.tip)? != document.parameters.tip.0 {
-        let message = "the footprint is that of the document: leave --tip and its options out";
+        let message = "the footprint is given by the document: leave --tip and its options out";
         return Err(Failure::input("--from", message));
     }
     let failed = |error: serde_json::Error| Failure::Run(error.to_string());

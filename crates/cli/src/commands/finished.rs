@@ -150,8 +150,8 @@ impl Kept {
         if !self.is_gone && is_removed(&self.file) {
             self.is_gone = true;
             let path = self.path.display();
-            let fate = "are in memory alone: an interrupt loses them; at the end they are written to \
-                        --output or, where that cannot be, to a temporary file";
+            let fate = "are in memory only: an interrupt loses them; at the end they are written to --output or, if \
+            that fails, to a temporary file";
             remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
         }
     }

@@ -57,7 +57,7 @@ fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
     }
     let (data, unit) = data(arguments, values.get("unit").and_then(Value::as_str))?;
     if data.is_empty() {
-        let message = "give what was measured: one of these at least";
+        let message = "at least one of these data files is needed";
         return Err(Failure::input("--ripple, --friction, --onsets, --wavelengths", message));
     }
     let question: Fit = parameter::question(values)?;

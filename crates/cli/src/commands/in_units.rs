@@ -7,7 +7,7 @@ use crate::message::remark;
 use serde::Deserialize;
 use std::path::Path;
 use stickslip::{
-    DataFitted, EstimateDocument, FitDocument, KnownScales, MeasuredTipDocument, NumberFitted,
+    DataFitted, EstimateDocument, Fit, FitDocument, KnownScales, MeasuredTipDocument, NumberFitted,
     UnitsDocument,
 };
 use stickslip_units::Unit;
@@ -116,7 +116,7 @@ impl Given {
         ];
         match unused.iter().find(|(_, is_unused, _)| *is_unused) {
             Some((option, _, needs)) => {
-                Err(Failure::input(*option, format!("tells nothing by itself: it needs {needs}")))
+                Err(Failure::input(*option, format!("gives no scale by itself: it needs {needs}")))
             }
             None => Ok(scales),
         }
@@ -140,7 +140,7 @@ struct Telling {
     scales: Option<KnownScales>,
     sigma_metres: Option<f64>,
     physical: Option<Told>,
-    parameters: Option<Fitted>,
+    parameters: Option<serde_json::Value>,
     numbers: Option<Vec<NumberFitted>>,
     data: Option<serde_json::Value>,
 }
@@ -148,12 +148,6 @@ struct Telling {
 #[derive(Deserialize)]
 struct Told {
     scales: Option<KnownScales>,
-}
-
-#[derive(Deserialize)]
-struct Fitted {
-    unit: Option<String>,
-    width: Option<f64>,
 }
 
 fn of_document(path: &Path) -> Result<KnownScales, Failure> {
@@ -170,7 +164,7 @@ fn of_document(path: &Path) -> Result<KnownScales, Failure> {
         _ => telling.physical.and_then(|told| told.scales),
     };
     let Some(scales) = scales else {
-        let advice = "tells no scales: a document of `stickslip units` does, one of `tip` or `fit` from data with a \
+        let advice = "contains no scales: a document of `stickslip units` does, one of `tip` or `fit` from data with a \
                       unit, and any that was written with --units or --sigma";
         return Err(Failure::input(named(), advice));
     };
@@ -185,12 +179,12 @@ fn of_document(path: &Path) -> Result<KnownScales, Failure> {
 impl Telling {
     /// Scales of a fit: σ is the fitted or fixed width; kσ²/a follows from the heights of ripples.
     fn fitted(self) -> Option<KnownScales> {
-        let Fitted { unit, width } = self.parameters?;
-        let metres = Unit::Length.one(&unit?)?;
+        let question: Fit = serde_json::from_value(self.parameters?).ok()?;
+        let metres = Unit::Length.one(question.unit.as_deref()?)?;
         let fitted = self.numbers?.into_iter().find(|number| number.name == "width");
         let fitted =
             fitted.map(|NumberFitted { estimate: EstimateDocument { value, .. }, .. }| value);
-        let sigma = fitted.or(width)?;
+        let sigma = fitted.or(question.known("width"))?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
         let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
         Some(KnownScales {

@@ -14,7 +14,7 @@ pub(super) fn judge_table(
 ) -> Result<(), Failure> {
     let option = format!("--tip-file {}", path.display());
     let advice = match tip.footprint() {
-        Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` of the image that it is from, then --tip-file tip.json".into(),
+        Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` with the original image, then --tip-file tip.json".into(),
         None => format!(
             "fit it: `stickslip tip {} --half --sigma 1σ -o tip.json`, then --tip-file tip.json",
             path.display()
@@ -24,7 +24,7 @@ pub(super) fn judge_table(
         Verdict::Sound => Ok(()),
         Verdict::Few { rows } => {
             say(format_args!(
-                "stickslip: {option}: {rows} rows do not tell their noise from their shape: 2 % of noise can halve alpha_c"
+                "stickslip: {option}: {rows} rows are too few to distinguish noise from shape: 2 % of noise can halve alpha_c"
             ));
             Ok(())
         }
@@ -39,7 +39,7 @@ pub(super) fn judge_table(
             let instead =
                 fitted.map(|fitted| format!(" where a sum of few Gaussians has {fitted:.4}"));
             let message = format!(
-                "its noise decides: alpha_c = {table:.4} at r = 1{}; {advice}",
+                "the noise dominates: alpha_c = {table:.4} at r = 1{}; {advice}",
                 instead.unwrap_or_default()
             );
             Err(Failure::input(option, message))

@@ -10,12 +10,12 @@ use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, 
 /// Rejects models without steady motion: without a support, or with a divergent history integral.
 pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
     if wider.no_spring {
-        let message = "nothing drags the tip: there is no steady motion behind a support";
+        let message =
+            "without a spring nothing drags the tip: there is no steady motion behind a support";
         return Err(Failure::input("--no-spring", message));
     }
     if tip.tip == Some(TipName::Cosine) && wider.healing_time.is_none() {
-        let message =
-            "goes on for ever, and so does what it left in steady motion: give --healing-time";
+        let message = "never decays, so that the groove integral of steady motion diverges: give --healing-time";
         return Err(Failure::input("--tip cosine", message));
     }
     Ok(())

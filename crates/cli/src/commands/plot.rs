@@ -66,7 +66,7 @@ fn range(option: &str, typed: Option<&str>) -> Result<Option<[f64; 2]>, Failure>
     match numbers {
         Some(range) if figures::can_be_drawn(range) => Ok(Some(range)),
         Some([low, high]) if low < high => {
-            let advice = "no axis shows so little: HI above LO by 1e-12 of the larger of them, and by 1e-100, will do";
+            let advice = "the range is too narrow for an axis: HI must be above LO by 1e-12 of the larger of them, and by 1e-100";
             Err(Failure::input(format!("{option} {typed}"), advice))
         }
         _ => {

@@ -72,7 +72,7 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
     match place(option, path)? {
         Place::File(file) => Ok(file),
         Place::Stdout | Place::Special(_) => {
-            let message = "must be a file, which is replaced or goes on growing";
+            let message = "must be a file, which is replaced or extended";
             Err(Failure::input(format!("{option} {}", path.display()), message))
         }
     }
@@ -91,8 +91,8 @@ fn open(
         if checkpoint.is_some() && !stream.is_file() {
             return Err(Failure::input(
                 format!("--output {}", output.display()),
-                "cannot be gone on with from a checkpoint: lines that have left cannot be taken back; write \
-                 them to a file",
+                "cannot be resumed from a checkpoint: lines written to a stream cannot be taken back; write them to a \
+                 file",
             ));
         }
         return Ok((Target::Lines(fields), Sink::Lines(stream)));

@@ -67,7 +67,7 @@ fn threads(asked: Option<usize>) -> Result<usize, Failure> {
         None => Ok(0),
         Some(threads) if (1..=MOST_THREADS).contains(&threads) => Ok(threads),
         Some(threads) => {
-            let message = format!("1 to {MOST_THREADS} will do");
+            let message = format!("must be 1 to {MOST_THREADS}");
             Err(Failure::input(format!("--threads {threads}"), message))
         }
     }
@@ -79,9 +79,7 @@ fn judged(index: usize, grid: &Grid) -> SweepPoint {
     let empty = place.empty(index, None);
     let point = AssertUnwindSafe(|| point::point(index, place, grid.parameters.tolerance));
     catch_unwind(point).unwrap_or_else(|_| SweepPoint {
-        error: Some(
-            "the computation failed for a reason that it cannot tell: please report it".into(),
-        ),
+        error: Some("the computation failed for an unknown reason: please report it".into()),
         ..empty
     })
 }

@@ -17,7 +17,7 @@ pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
     let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
     judge_places(&arguments.outlet, None, &read)?;
     if format(arguments.outlet.format, &arguments.outlet.output, "")? == Format::Npz {
-        let message = "there are no arrays to write: .json or .csv will do";
+        let message = "there are no arrays to write: take .json or .csv";
         let named = format!("--output {}", arguments.outlet.output.display());
         return Err(Failure::input(named, message));
     }

@@ -35,7 +35,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
 fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
     let format = match outlet.format {
         Some(format @ (Format::Json | Format::Text)) => format,
-        Some(_) => return Err(Failure::input("--format", "json or text will do")),
+        Some(_) => return Err(Failure::input("--format", "must be json or text")),
         None if outlet.output == Path::new("-") => on_standard_output(),
         None => Format::Json,
     };
@@ -49,7 +49,7 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     };
     let unusable = |error: Unusable| damaged(error.to_string());
     if run.parameters.stiffness_across.is_some() {
-        let message = "the tip gives way across the scan: such runs cannot be verified; run it again with another --tolerance";
+        let message = "the tip moves in two coordinates: such runs cannot be verified; run it again with another --tolerance";
         return Err(Failure::input(format!("RUN {}", arguments.run.display()), message));
     }
     let scenario = run.parameters.scenario().map_err(unusable)?;
@@ -106,7 +106,7 @@ fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "history: it lasts from {start} to {end}, the run from {} to {}",
+        "history: from {start} to {end}, where the run is from {} to {}",
         scenario.start_time(),
         scenario.until
     ))
@@ -118,7 +118,7 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     let l = run.samples.l.as_ref().or(run.samples.lag.as_ref()).unwrap_or(x0);
     let span = scenario.start_time()..=scenario.until;
     if l.len() != t.len() || !run.samples.are_even() || t.iter().any(|t| !span.contains(t)) {
-        return Err("samples: their columns do not match each other, or the run".into());
+        return Err("samples: the columns do not match each other or the run".into());
     }
     let rows = t.iter().zip(l).zip(x0);
     let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
@@ -224,13 +224,15 @@ fn said_of(
     };
     let from = |t: f64| match lines {
         Some(LinesDocument { first_wrong_line: Some(line), wrong, samples, .. }) => {
-            format!("; trust it until t = {t}, line {line} ({wrong} of {samples} samples are off)")
+            format!(
+                "; it is correct until t = {t}, line {line} ({wrong} of {samples} samples are wrong)"
+            )
         }
-        _ => format!("; trust it until t = {t}"),
+        _ => format!("; it is correct until t = {t}"),
     };
     let until = found.trusted_until.map_or(String::new(), from);
     let growth = format!("the motion amplifies errors {:.1e} times", found.amplification);
     Some(format!(
-        "the tolerance is not kept: {difference}{until}; {growth}: ask for a smaller --tolerance"
+        "the tolerance is not met: {difference}{until}; {growth}: give a smaller --tolerance"
     ))
 }

@@ -106,7 +106,7 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     let scale = match field("XYUnits") {
         None | Some("") => None,
         Some(unit) => Some(Unit::Length.one(unit).map(nano).ok_or_else(|| {
-            format!("XYUnits = {unit} is no unit of length: m, um or nm will do")
+            format!("XYUnits = {unit} is not a unit of length: it must be m, um or nm")
         })?),
     };
     let in_nanometres = scale.is_some();

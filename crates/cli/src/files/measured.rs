@@ -122,7 +122,7 @@ impl Common {
 /// The value in SI units of a unit given by an option.
 pub(crate) fn one_of(of: Unit, option: &str, unit: &str) -> Result<f64, Failure> {
     of.one(unit).ok_or_else(|| {
-        Failure::input(format!("{option} {unit}"), "m, mm, um, nm, pm or Å (angstrom) will do")
+        Failure::input(format!("{option} {unit}"), "must be m, mm, um, nm, pm or Å (angstrom)")
     })
 }
 

@@ -37,7 +37,7 @@ impl OutputFormat {
             _ => Err(Failure::input(
                 format!("--output {}", path.display()),
                 format!(
-                    "the extension says what is written: .json, .csv{more} or .npz will do, or - for JSON on \
+                    "the extension gives the format: it must be .json, .csv{more} or .npz, or - for JSON on \
                      standard output"
                 ),
             )),

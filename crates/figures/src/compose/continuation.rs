@@ -31,7 +31,9 @@ impl Drawn for ContinueDocument {
             [&b.alpha, &b.r, &b.period, &b.amplitude_x0].map(Vec::len) == [b.stable.len(); 4]
         };
         if !self.branches.iter().all(lengths) {
-            return Err(FigureError::Damaged("the columns of a branch differ in length".into()));
+            return Err(FigureError::Damaged(
+                "the columns of a branch have different lengths".into(),
+            ));
         }
         let model = &self.parameters.model_parameters();
         let over_alpha = self.parameters.over == OverName::Alpha;

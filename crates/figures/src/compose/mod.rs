@@ -152,7 +152,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
             match $format.as_str() {
                 $($document::FORMAT => Ok(taker.take(read_from::<$document>($source, &$format)?)),)+
                 _ => Err(Unusable::new(format_args!(
-                    "format is {}; a picture is there for {}",
+                    "format is {}; pictures are available for {}",
                     if $format.is_empty() { "missing" } else { &$format },
                     FORMATS.join(", ")
                 ))),

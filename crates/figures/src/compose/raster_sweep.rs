@@ -31,7 +31,7 @@ impl Drawn for RasterSweepDocument {
                 return Err(FigureError::Damaged("the grid has no points".into()));
             }
             ([_], [_]) => {
-                let message = "a single point is no picture: give a range LO:HI:N".into();
+                let message = "a single point makes no picture: give a range LO:HI:N".into();
                 return Err(FigureError::Nothing(message));
             }
             ([_], alpha) => row(self, "α", alpha),

@@ -26,7 +26,7 @@ impl Drawn for ResponseDocument {
             if from < to {
                 panel.shades.push([from, to]);
                 let modes = self.modes.len();
-                panel.heading = format!("on the coloured ground {modes} modes are not enough");
+                panel.heading = format!("on the shaded background {modes} modes are not enough");
             }
         }
         figure.panels = vec![panel];

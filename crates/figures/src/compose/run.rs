@@ -35,9 +35,7 @@ impl Drawn for RunDocument {
             return Ok(figure);
         }
         if self.history.is_none() {
-            figure
-                .remarks
-                .push("drawn from the samples: without its history, a run has no more".into());
+            figure.remarks.push("drawn from the samples, because the run has no history".into());
             figure.panels = sampled(self);
             return Ok(figure);
         }

@@ -18,9 +18,11 @@ use varied::varied;
 pub fn judge_sweep(parameters: &SweepParameters) -> Result<(), FigureError> {
     match varied(parameters).len() {
         1 | 2 => Ok(()),
-        0 => Err(FigureError::Nothing("a single point is no picture: give a range LO:HI:N".into())),
+        0 => Err(FigureError::Nothing(
+            "a single point makes no picture: give a range LO:HI:N".into(),
+        )),
         _ => {
-            let advice = "a picture has room for two ranges: fix one of them";
+            let advice = "a picture can show two ranges: fix one of them";
             Err(FigureError::Nothing(advice.into()))
         }
     }

@@ -113,7 +113,7 @@ pub enum DataError {
     NoExtent,
     /// A series at fewer places than parameters to fit.
     #[error(
-        "{rows} rows at {places} different velocities and loads: {parameters} numbers need as many different ones at least"
+        "{rows} rows at {places} different velocities and loads: {parameters} parameters need at least {parameters} different ones"
     )]
     Places {
         /// Rows of the series.
@@ -124,7 +124,7 @@ pub enum DataError {
         parameters: usize,
     },
     /// Fewer rows than parameters to fit.
-    #[error("{rows} rows are too few for {parameters} numbers")]
+    #[error("{rows} rows are too few for {parameters} parameters")]
     Rows {
         /// Number of rows in all data.
         rows: usize,

@@ -61,12 +61,12 @@ pub enum FitError {
     #[error(transparent)]
     Data(#[from] DataError),
     /// No parameter is free.
-    #[error("nothing is to be fitted: leave one of the known numbers out")]
+    #[error("there is no free parameter: leave one of the known parameters out")]
     Nothing,
     /// No wave is stronger than expected from noise.
     #[error(
-        "no regular ripple stands out: irregular noise alone has a wave as strong as the strongest one in {:.2} % of such data, and 0.01 % \
-         is the limit; give a longer track of settled ripples, or one with less noise",
+        "no significant ripple: pure noise contains a wave as strong as the strongest one in {:.2} % of such data, where at \
+         most 0.01 % is accepted; give a longer track of settled ripples, or one with less noise",
         100.0 * probability
     )]
     Noise {
@@ -75,7 +75,7 @@ pub enum FitError {
     },
     /// No motion that was tried resembles the data.
     #[error(
-        "no motion of this footprint is like the data anywhere that was tried (r from 0.15 to 3, α from 1.01 to 1.6 αc): is it a settled ripple, by the tip that made it?"
+        "no motion of this footprint resembles the data for any r from 0.15 to 3 and α from 1.01 to 1.6 αc: are the ripples settled, and is the footprint that of the tip that made them?"
     )]
     NoStart,
     /// The work was told to [`stop`].

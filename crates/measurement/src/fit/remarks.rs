@@ -27,7 +27,7 @@ pub(super) fn remarks(
     }
     if let Some(joint) = fit.joint.filter(|p| *p < MISFIT) {
         remarks.push(format!(
-            "no one set of numbers explains all data (probability {}): they are of different motions, or the model lacks something",
+            "no common set of parameters explains all data (probability {}): they belong to different motions, or the model is incomplete",
             in_percent(joint)
         ));
     }
@@ -60,15 +60,15 @@ fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
     let judged = &part.judged;
     if let Some(p) = judged.doubling.filter(|p| *p < CHANGE) {
         remarks.push(format!(
-            "data {number} repeat with twice the wavelength (probability of this by chance: {}): beyond the first period doubling the \
-             model of one crest to a wavelength does not apply",
+            "data {number} repeat with twice the wavelength (probability of this by chance: {}): beyond the first \
+             period doubling a model with one crest per wavelength does not apply",
             in_percent(p)
         ));
     }
     if judged.irregular {
         remarks.push(format!(
-            "the ripples of data {number} differ from one to the next by more than 30 %, and smoothly: they are irregular, or not of one \
-             settled motion"
+            "the ripples of data {number} differ from one to the next by more than 30 %, and smoothly: they are \
+             irregular, or not from one settled motion"
         ));
     }
     if let Some(p) = judged.drift.filter(|p| *p < CHANGE) {
@@ -80,14 +80,14 @@ fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
     }
     if let Some(p) = judged.misfit.filter(|p| *p < MISFIT) {
         remarks.push(format!(
-            "the model does not explain data {number} (probability of so large a deviation by chance: {}): another footprint, or a \
-             wider law (a depth limit, healing, inertia)",
+            "the model does not explain data {number} (probability of so large a deviation by chance: {}): try \
+             another footprint, or an extended model (depth limit, healing, inertia)",
             in_percent(p)
         ));
     }
     if part.gain.is_some_and(|gain| gain < 0.0) {
         remarks.push(format!(
-            "data {number} are upside down beside the model: heights go up, forces hold the tip back"
+            "data {number} have the opposite sign of the model: heights are positive upwards, forces positive against the motion"
         ));
     }
     if judged.wavelengths.is_some_and(|count| count < FEW) {
@@ -147,7 +147,7 @@ fn wide(remarks: &mut Vec<String>, problem: &Problem, around: &Around, fit: &Fit
             let each = problem.free.iter().zip(powers).filter(|(_, p)| p.abs() > NO_POWER);
             let words = each.map(|(name, p)| format!("{}^{p:.2}", name.word()));
             format!(
-                "these data hardly constrain {}: they change little along {}; hold one of these numbers, or give data of another kind",
+                "these data hardly constrain {}: they change little along {}; fix one of these parameters, or give data of another kind",
                 wide.join(" and "),
                 words.collect::<Vec<String>>().join(" · ")
             )

@@ -92,7 +92,7 @@ pub struct Fitted {
 pub enum TipError {
     /// Too few rows for any fit.
     #[error(
-        "{rows} rows are too few for {terms} Gaussian(s) on a sloping ground: give more rows, or fewer terms"
+        "{rows} rows are too few for {terms} Gaussian(s) on a sloping background: give more rows, or fewer terms"
     )]
     Rows {
         /// Number of rows.
@@ -102,7 +102,7 @@ pub enum TipError {
     },
     /// No footprint is stronger than the noise.
     #[error(
-        "no footprint stands out: the best fit leaves {residual:.2e} of heights that vary by {variation:.2e}"
+        "no footprint is distinguishable from noise: the residual of the best fit is {residual:.2e}, where heights vary by {variation:.2e}"
     )]
     Nothing {
         /// Standard deviation of the residuals.
@@ -112,7 +112,7 @@ pub enum TipError {
     },
     /// The fitted sum has no apex at its centre, or does not fall to half of it.
     #[error(
-        "the fitted sum is no footprint with an apex at its centre, {centre}: give the centre, or look at the profile"
+        "the fitted sum has no apex at its centre, {centre}: give the centre, or check the profile"
     )]
     NoApex {
         /// Fitted centre of symmetry.
@@ -285,38 +285,39 @@ impl MeasuredTip {
         let relative = self.critical_alpha.relative();
         if relative > WIDE {
             remarks.push(format!(
-                "the profile leaves the critical alpha open by {:.0} % to either side: more rows, or less noise, tell more",
+                "the profile determines the critical alpha only to ±{:.0} %: more rows, or less noise, would help",
                 100.0 * relative
             ));
         }
         if self.is_one_sided() && self.residual > DOUBTFUL * self.apex.abs() {
             remarks.push(format!(
-                "one half of a footprint with {:.1} % of noise hardly tells a tilt of the ground from a wide lobe: alpha may be off by \
-                 more than its interval has it (by over 10 % in one of 200); measure both halves",
+                "one half of a footprint with {:.1} % of noise hardly distinguishes a tilt of the background from a \
+                 wide lobe: alpha may be wrong by more than its interval (by over 10 % in one of 200 cases); measure \
+                 both halves",
                 100.0 * self.residual / self.apex.abs()
             ));
         }
         if self.ground.len() > 2 {
             remarks.push(format!(
-                "the ground is curved: a polynomial of order {} is fitted to it; a wide lobe may look like that",
+                "the background is curved: a polynomial of order {} is fitted to it; a wide lobe may look the same",
                 self.ground.len() - 1
             ));
         }
         if self.residual > ABOVE_NOISE * self.noise {
             remarks.push(format!(
-                "what the fit leaves, {:.2e}, is more than the noise from row to row, {:.2e}: the ground is rough, f not even, or \
-                 a sum of Gaussians does not follow it",
+                "the residual, {:.2e}, is larger than the noise from row to row, {:.2e}: the background is rough, f \
+                 is not even, or not a sum of Gaussians",
                 self.residual, self.noise
             ));
         }
         if self.chosen + 1 == MOST_TERMS {
             remarks.push(format!(
-                "as many Gaussians as are tried, {MOST_TERMS}, and more might be asked for"
+                "the largest number of Gaussians tried, {MOST_TERMS}, was chosen: more may fit better"
             ));
         }
         if self.lost > 0.01 {
             remarks.push(format!(
-                "{:.0} % of the profiles drawn anew had no footprint with an onset and do not count in the intervals",
+                "{:.0} % of the resampled profiles had no footprint with an onset and are not part of the intervals",
                 100.0 * self.lost
             ));
         }

@@ -163,7 +163,7 @@ fn a_wrong_law_is_noticed() {
     let data = [Data::Ripple(track)];
     let without = fit(&data, &request()).unwrap();
     assert!(!without.explained && without.parts[0].judged.misfit.unwrap() < 1e-3);
-    assert!(without.remarks.iter().any(|r| r.contains("wider law")), "{:?}", without.remarks);
+    assert!(without.remarks.iter().any(|r| r.contains("extended model")), "{:?}", without.remarks);
 }
 
 /// Rows struck by dust change little where they count less.

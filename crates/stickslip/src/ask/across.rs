@@ -97,8 +97,8 @@ fn undisturbed(scenario: &PlanarScenario) -> Option<String> {
     };
     let grows = || theory()?.unstable_count(model.alpha()).ok().filter(|count| *count > 0);
     (!is_pushed && grows().is_some()).then(|| {
-        "the tip starts on its line, and by symmetry it stays there, but deviations across the scan grow: start it off the \
-         line, by a kick across"
+        "the tip starts on its line, and stays there by symmetry, but deviations across the scan grow: start it off \
+         the line with a kick across"
             .into()
     })
 }

@@ -127,7 +127,7 @@ impl Continue {
         };
         let Some(r) = self.r.filter(|_| is_there) else {
             return match is_there {
-                true => Err(Refused::whole("r", "missing: give {r}, at which α is to vary").into()),
+                true => Err(Refused::whole("r", "missing: give {r}, at which α varies").into()),
                 false => Ok(None),
             };
         };
@@ -143,7 +143,7 @@ impl Continue {
             OverName::R => ("alpha", self.indentation.alpha),
         };
         let varies = if name == "r" { "α" } else { "r" };
-        let why = || format!("missing: give {{{name}}}, at which {varies} is to vary");
+        let why = || format!("missing: give {{{name}}}, at which {varies} varies");
         value.ok_or_else(|| Refused::whole(name, why()))
     }
 
@@ -158,7 +158,7 @@ impl Continue {
             OverName::R => 0.0,
         };
         if self.most_points == 0 {
-            return Err(Refused::number("most_points", 0.0, "1 or more will do"));
+            return Err(Refused::number("most_points", 0.0, "must be 1 or more"));
         }
         Ok(Continuation {
             over: self.over.into(),
@@ -227,8 +227,8 @@ impl Continue {
                     OverName::R => format!("{{r}} {}", digits(0.95 * r, 4)),
                 };
                 Failure::Failed(format!(
-                    "no cycle was reached where the branch begins, at alpha = {alpha:?}, r = {r:?}: begin further on, \
-                     with {further}, or with {{from}} and a document of `stickslip cycle`"
+                    "no cycle was reached where the branch begins, at alpha = {alpha:?}, r = {r:?}: begin further \
+                     away with {further}, or with {{from}} and a document of `stickslip cycle`"
                 ))
             }
             _ => error.clone().into(),
@@ -504,7 +504,7 @@ impl Tabular for ContinueFound {
     }
 
     fn note(&self) -> Option<String> {
-        self.interrupted.then(|| "interrupted: more of the branches was asked for".into())
+        self.interrupted.then(|| "interrupted: the branches are incomplete".into())
     }
 
     /// Arrays of the branches; a branch that was interrupted is marked as such.

@@ -28,7 +28,7 @@ pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused>
     if (1..=MOST_ROOTS).contains(&count) {
         return Ok(());
     }
-    Err(Refused::number(parameter, count as f64, format!("1 to {MOST_ROOTS} will do")))
+    Err(Refused::number(parameter, count as f64, format!("must be 1 to {MOST_ROOTS}")))
 }
 
 /// The error of a list that could not be computed, with advice; the question is valid unless α and r are extreme.
@@ -48,7 +48,7 @@ pub fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<Str
     let Spectrum { roots, certificate: Certificate { largest_error, .. } } = spectrum;
     let found = roots.len();
     let few = asked.filter(|asked| found < *asked).map(|asked| {
-        format!("{name}: {found} of {asked}, there are no more, or they lie too far left to be told from round-off")
+        format!("{name}: {found} of {asked}: there are no more, or they lie too far left to be distinguished from round-off")
     });
     let sizes = roots.iter().map(|z| z.norm()).filter(|size| *size > 0.0);
     let smallest = sizes.fold(f64::INFINITY, f64::min);

@@ -104,6 +104,9 @@ pub struct Fit {
     pub scan: Option<ScanName>,
     /// Number of footprints used to propagate the error of a measured footprint.
     pub footprints: usize,
+    /// Known parameters in documents of older versions.
+    #[serde(skip_serializing)]
+    pub known: Vec<NumberHeld>,
     /// Footprints drawn within the error of a measured one, each a sum of Gaussians in its own σ.
     #[serde(skip_serializing)]
     pub draws: Vec<Vec<GaussianDocument>>,
@@ -269,6 +272,7 @@ impl Fit {
             "inertia" => self.inertia,
             _ => None,
         }
+        .or_else(|| self.known.iter().find(|held| held.name == name).map(|held| held.value))
     }
 
     /// All known parameters.

@@ -58,11 +58,11 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
         }
         (None, Some(_)) => Err(Refused::whole(
             "length",
-            "give the length of the lines, {length}: a surface heals while the support goes along them",
+            "give the length of the lines, {length}: the surface heals while the support moves along them",
         )),
         (Some(_), None) => Err(Refused::whole(
             "length",
-            "counts for nothing where the surface does not heal: leave it out, or give {healing_time}",
+            "has no effect where the surface does not heal: leave it out, or give {healing_time}",
         )),
     }
 }

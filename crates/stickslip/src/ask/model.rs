@@ -135,8 +135,8 @@ pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
         return Ok(());
     }
     Err(Unusable::new(
-        "its widest parts reach too many times as far as its narrowest are wide: more than fit in memory; leave one or \
-         the other out",
+        "its widest terms reach too far compared with the width of its narrowest: more than fit in memory; leave out \
+         one or the other",
     ))
 }
 
@@ -192,8 +192,7 @@ impl Law {
     /// Rejects a footprint without decay on a surface that does not heal.
     pub(crate) fn fading(self, tip: &TipFunction) -> Result<(), Refused> {
         if *tip == TipFunction::Cosine && self.healing_time.is_none() {
-            let why =
-                "goes on for ever, and so does what it left in steady motion: give {healing_time}";
+            let why = "never decays, so that the groove integral of steady motion diverges: give {healing_time}";
             return Err(Refused {
                 parameter: "tip".into(),
                 value: Some("cosine".into()),

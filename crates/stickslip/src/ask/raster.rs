@@ -285,15 +285,11 @@ impl Raster {
         match self.sampling.sample_every {
             Some(every) => {
                 let least = duration / (most - 1.0).max(1.0);
-                Refused::number(
-                    "sample_every",
-                    every,
-                    format!("{why}; {least:.3e} or above will do"),
-                )
+                Refused::number("sample_every", every, format!("{why}; take {least:.3e} or more"))
             }
             None => {
                 let value = Some(format!("with {} times", Typed(each)));
-                let why = format!("{why}; {most} times will do");
+                let why = format!("{why}; take at most {most}");
                 Refused { parameter: "sample_at".into(), value, why }
             }
         }

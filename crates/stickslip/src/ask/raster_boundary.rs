@@ -141,7 +141,7 @@ fn thresholds(
 fn remark(left_out: &[f64]) -> Option<String> {
     let (first, last) = (left_out.first()?, left_out.last()?);
     Some(format!(
-        "{} pitches from {first} to {last} are left out: no ripple grows there, however large alpha",
+        "{} pitches from {first} to {last} are left out: no ripple grows there at any alpha",
         left_out.len()
     ))
 }

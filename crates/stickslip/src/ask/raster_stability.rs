@@ -105,8 +105,8 @@ impl RasterStability {
     fn raster(&self, law: Wider) -> Result<Raster, Failure> {
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         if let (PathName::Repeat, Some(stiffness)) = (self.path, self.stiffness_across) {
-            let why = "linear theory of a repeated line covers a tip that is held on it: leave the option out, or give {pitch} \
-                       in place of {path} repeat";
+            let why = "linear theory of a repeated line covers only a tip that is held on it: leave the option out, \
+            or give {pitch} instead of {path} repeat";
             return Err(Refused::number("stiffness_across", stiffness, why).into());
         }
         let pitch = match (self.path, self.pitch) {
@@ -115,7 +115,7 @@ impl RasterStability {
                 return Err(Refused::number("pitch", pitch, why).into());
             }
             (PathName::Repeat, None) if !law.is_papers() => {
-                let why = "linear theory of a repeated line covers the basic law only: leave out {depth_limit}, \
+                let why = "linear theory of a repeated line covers the basic model only: leave out {depth_limit}, \
                            {healing_time} and {inertia}";
                 let value = Some("repeat".into());
                 return Err(Refused { parameter: "path".into(), value, why: why.into() }.into());

@@ -233,14 +233,14 @@ impl Pulsed {
         let widths = sizes.fold(0.0, f64::max) / self.model.tip().widths(1.0);
         let strong = (widths > SMALL).then(|| {
             format!(
-                "samples: l leaves l0 by up to {widths:.1e} widths of the tip; linear theory is off by about that part \
-                 of itself: make the pulses weaker, or integrate with `stickslip run --pulse A,T,W`"
+                "samples: l leaves l0 by up to {widths:.1e} widths of the tip; linear theory has a relative error of \
+                 about this size: make the pulses weaker, or integrate with `stickslip run --pulse A,T,W`"
             )
         });
         let grows = response.modes.first().filter(|mode| mode.lambda.re > 0.0).map(|mode| {
             format!(
-                "samples: steady motion is unstable here (α is above αc): the response grows at the rate {:.3} and holds \
-                 only as long as it is small",
+                "samples: steady motion is unstable here (α is above αc): the response grows at the rate {:.3} and is \
+                 valid only while it is small",
                 mode.lambda.re
             )
         });
@@ -251,8 +251,8 @@ impl Pulsed {
 fn mode(mode: &ResponseMode) -> Result<ModeDocument, Refused> {
     let ResponseMode { lambda, residue } = mode;
     if !(residue.re.is_finite() && residue.im.is_finite()) {
-        let why = "a mode grows beyond all numbers between the first pulse and the last, or within a pulse: bring the \
-                   pulses nearer to each other, or make them shorter";
+        let why = "a mode overflows between the first pulse and the last, or within a pulse: bring the pulses closer \
+        together, or make them shorter";
         return Err(Refused::whole("pulses", why));
     }
     Ok(ModeDocument {

@@ -111,7 +111,7 @@ impl Document<Run> {
     /// The history is missing or invalid.
     pub fn trajectory(&self) -> Result<Trajectory, Unusable> {
         if self.parameters.stiffness_across.is_some() {
-            let why = "the tip gives way across the scan: what is read off a motion along a line alone is not available of it";
+            let why = "the tip moves in two coordinates: results of motion along a line are not available";
             return Err(Unusable::new(why));
         }
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
@@ -401,7 +401,8 @@ impl Run {
             let given = [("kick_across", self.kick_across), ("width_y", self.width_y)];
             let stray = given.into_iter().find_map(|(name, value)| Some((name, value?)));
             return stray.map_or(Ok(None), |(name, value)| {
-                let why = "is of a tip that gives way across the scan: give {stiffness_across} too";
+                let why =
+                    "applies to a tip that moves across the scan: give {stiffness_across} too";
                 Err(Refused::number(name, value, why).into())
             });
         };
@@ -450,7 +451,7 @@ impl Run {
             None => Ok(()),
             Some((name, value, what, distance)) => {
                 let why = format!(
-                    "{what} {}; at most {FARTHEST:e} will do, where a thousandth is the last digit that a position has",
+                    "{what} {}; must be at most {FARTHEST:e}, where positions are resolved to a thousandth",
                     Typed(distance)
                 );
                 Err(if name == "tip" {

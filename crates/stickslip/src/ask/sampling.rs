@@ -65,7 +65,7 @@ impl Sampling {
                 if count > most(are_kept) {
                     let least = (end - start) / most(are_kept);
                     return refused(format!(
-                        "would make {count:.1e} samples, more than are kept in memory; {least:.3e} or above will do"
+                        "would make {count:.1e} samples, more than fit in memory; take {least:.3e} or more"
                     ));
                 }
                 Ok(Times::Every { start, every, end, intervals: intervals(count) })

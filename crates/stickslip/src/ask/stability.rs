@@ -143,7 +143,7 @@ impl Stability {
             return Ok(());
         }
         if !law.is_papers() {
-            let why = "rc(α) is of the basic law: give {r}, for αc(r)";
+            let why = "rc(α) is available for the basic model only: give {r}, for αc(r)";
             return Err(Refused {
                 parameter: "solve_for".into(),
                 value: Some("r".into()),
@@ -152,7 +152,7 @@ impl Stability {
         }
         match self.indentation.alpha_above {
             Some(above) => {
-                let why = "αc is a function of r, which is solved for: give {alpha}";
+                let why = "αc is a function of the unknown r: give {alpha}";
                 Err(Refused::number("alpha_above", above, why))
             }
             None => Ok(()),
@@ -223,8 +223,8 @@ impl Stability {
             (Some(_), width) => Ok(footprint(width, &self.tip.0)?.1),
             (None, None) => Ok(None),
             (None, Some(width)) => {
-                let why = "is of a tip that gives way across the scan, or of a raster: give {stiffness_across} or {pitch} \
-                           too, or leave it out";
+                let why = "applies to a tip that moves across the scan, or to a raster: give {stiffness_across} or \
+                {pitch} too, or leave it out";
                 Err(Refused::number("width_y", width, why))
             }
         }

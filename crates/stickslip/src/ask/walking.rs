@@ -83,7 +83,7 @@ impl Ask for Walking {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         judge_count("roots", self.roots)?;
         if !self.law.no_spring {
-            let why = "a tip on its spring does not walk: give {no_spring}";
+            let why = "a tip on a spring does not walk: give {no_spring}";
             return Err(Refused::whole("no_spring", why).into());
         }
         self.model()?;

@@ -107,7 +107,7 @@ impl History {
             )));
         }
         if wider.depth_limit.is_some() != self.height.is_some() {
-            return Err(unusable("heights are there with a depth limit, and only then"));
+            return Err(unusable("heights are present with a depth limit, and only then"));
         }
         Ok(Trajectory::under(wider, support, steps))
     }
@@ -119,7 +119,7 @@ impl History {
         };
         let ours = nodes_and_weights();
         if !(same(nodes, &ours.0) && same(weights, &ours.1)) {
-            return Err(unusable("nodes and weights are not those of this program"));
+            return Err(unusable("nodes and weights differ from those of this program"));
         }
         let steps = extension.len();
         if steps == 0 || t.len() != steps + 1 || displacement.len() != steps {

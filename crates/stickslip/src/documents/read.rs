@@ -98,7 +98,7 @@ fn unreadable(error: &serde_json::Error) -> Unusable {
 fn no_document(error: &serde_json::Error, wanted: &str) -> Unusable {
     let command = wanted.replace('/', " ");
     Unusable(format!(
-        "not a whole JSON document ({error}); write it again with `{command} -o FILE.json`"
+        "not a complete JSON document ({error}); write it again with `{command} -o FILE.json`"
     ))
 }
 

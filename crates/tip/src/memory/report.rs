@@ -52,7 +52,7 @@ impl MemoryReport {
         let why = if self.choice == MemoryChoice::Auto {
             self.crossover()
         } else {
-            Some("asked for".to_string())
+            Some("requested".to_string())
         };
         why.into_iter().chain(self.fared()).collect::<Vec<_>>().join("; ")
     }

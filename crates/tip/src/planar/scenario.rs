@@ -59,7 +59,7 @@ pub enum PlanarError {
     },
     /// The tip and its past span too wide a range across the scan.
     #[error(
-        "at t = {t}: the tip and the groove that it feels span {range} widths across the scan, more than layers can be had for"
+        "at t = {t}: the tip and the groove that it feels span {range} widths across the scan, more than a sum of layers can represent"
     )]
     Range {
         /// Time reached.

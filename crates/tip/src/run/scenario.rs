@@ -58,7 +58,7 @@ pub enum RunError {
     Kick(f64),
     /// The start velocity is not finite, or not 0 for a tip without inertia.
     #[error(
-        "a start velocity of {0:?}: it must be a finite number, and only a tip with inertia has one of its own (without, the surface and the forces decide)"
+        "a start velocity of {0:?}: it must be a finite number, and only a tip with inertia has a start velocity (without inertia it follows from the surface and the forces)"
     )]
     StartVelocity(f64),
     /// The path of the support is invalid.
@@ -69,7 +69,7 @@ pub enum RunError {
     PathWithoutSpring,
     /// The path ends before the run does.
     #[error(
-        "the path of the support ends at t = {end:?}, before the end of the run at {until:?}: end the run there, or go on with the path"
+        "the path of the support ends at t = {end:?}, before the end of the run at {until:?}: end the run there, or extend the path"
     )]
     PathEnds {
         /// Its last time.
@@ -96,7 +96,7 @@ pub enum RunError {
     Tolerance(f64),
     /// A position so large that its rounding error is too coarse for the initial surface there.
     #[error(
-        "at x = {x:e} positions are rounded to {rounding:.1e}, too coarse for a tolerance of {tolerance:e} on the initial surface there: ask for a tolerance of {least:.1e} or above, or stay nearer to 0",
+        "at x = {x:e} positions are rounded to {rounding:.1e}, too coarse for a tolerance of {tolerance:e} on the initial surface there: allow a tolerance of {least:.1e} or above, or stay nearer to 0",
         rounding = f64::EPSILON * x, least = f64::EPSILON * x / SHARE_OF_ROUNDING
     )]
     TooFar {
@@ -128,14 +128,14 @@ pub enum RunError {
     Integration(#[from] IntegrationError),
     /// The history has too many steps.
     #[error(
-        "at t = {t}: the history has {MOST_STEPS} steps, more than memory is allowed to hold; end the run earlier, or keep no history"
+        "at t = {t}: the history has {MOST_STEPS} steps, more than fit in memory; end the run earlier, or keep no history"
     )]
     HistoryTooLong {
         /// Time reached.
         t: f64,
     },
     /// The saved state does not belong to this scenario.
-    #[error("the saved state cannot be taken up: {0}")]
+    #[error("the saved state cannot be used: {0}")]
     State(#[from] Damaged),
 }
 

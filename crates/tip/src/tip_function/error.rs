@@ -99,7 +99,7 @@ pub enum TipFunctionError {
     TableStart(f64),
     /// A table whose last value is not small.
     #[error(
-        "the table does not decay: its last value is {ratio:.1e} of its largest, at most {most:.0e} will do; sample further out"
+        "the table does not decay: its last value is {ratio:.1e} of its largest, and at most {most:.0e} is accepted; sample further out"
     )]
     TableDecay {
         /// |f at the last x| / max |f|.

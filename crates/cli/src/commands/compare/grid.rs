@@ -42,8 +42,8 @@ impl Discretisation {
         tip: &TipFunction,
     ) -> Result<Self, Failure> {
         let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
-            let message = "never fades, and a grid counts f as 0 beyond a reach: compare with a tip \
-                           that does, such as triple-gaussian";
+            let message = "never decays, and a grid takes f as 0 beyond a reach: compare with a tip that does, such \
+            as triple-gaussian";
             let cosine = *tip == TipFunction::Cosine;
             let option = if cosine { "--tip cosine" } else { "--tip bessel" };
             return Err(Failure::input(option, message));
@@ -82,7 +82,7 @@ impl Discretisation {
         Err(Failure::input(
             format!("--spacing {}", Typed(self.spacing)),
             format!(
-                "would make {cells:.1e} cells, more than fit in memory; {:.1e} or above will do, or a \
+                "would make {cells:.1e} cells, more than fit in memory; take {:.1e} or more, or a \
                  smaller --grid-until",
                 length / MOST_CELLS
             ),
@@ -121,8 +121,8 @@ pub(super) fn stepping(arguments: &CompareArguments, usual: f64) -> Result<Stepp
         (Some(step), _) => Ok(Stepping::fixed(above_0("--step", step)?)),
         (None, Some(tolerance)) if tolerance > 0.0 && tolerance < LEAST_TOLERANCE => {
             let named = format!("--grid-tolerance {}", Typed(tolerance));
-            let advice = "is below round-off, in which the grid would step for ever";
-            Err(Failure::input(named, format!("{advice}: {LEAST_TOLERANCE:e} or more will do")))
+            let advice = "is below round-off: the grid would never end";
+            Err(Failure::input(named, format!("{advice}: must be {LEAST_TOLERANCE:e} or more")))
         }
         (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
         (None, None) => Ok(Stepping::absolute(usual)),
@@ -286,8 +286,8 @@ fn explain(asked: &Asked, error: GridError) -> Failure {
             Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)
         }
         GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
-            let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may do: a deep \
-                          groove is stiff, and the grids are explicit";
+            let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may help: a deep groove is \
+            stiff, and the grids are explicit";
             Failure::Run(format!("grid: {error}; {advice}"))
         }
         error => Failure::Run(format!("grid: {error}")),

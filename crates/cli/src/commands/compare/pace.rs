@@ -63,7 +63,7 @@ impl Pace {
         Some(Failure::input(
             format!("--time-limit {}", Typed(self.limit)),
             format!(
-                "this would take about {needed:.0} s: {} {} will do within the limit, or a wider \
+                "this would take about {needed:.0} s: {} {} fits the limit, or a wider \
                  --spacing of the grid, or a higher limit",
                 self.option,
                 Typed(affordable)

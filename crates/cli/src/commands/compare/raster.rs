@@ -28,7 +28,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
     let values = options.values()?;
-    refuse_strangers::<Raster>(&values, "a raster, which --lines or --area ask for")?;
+    refuse_strangers::<Raster>(&values, "a raster (--lines or --area)")?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let (parameters, plan) =
@@ -71,7 +71,7 @@ fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
         GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
         GridName::Windowed => Ok((GridName::Windowed, RowMethod::ThreePoint)),
         GridName::Uniform => {
-            let message = "is none for a raster: sinc is exact along x, windowed of second order";
+            let message = "is not available for a raster: take sinc (exact along x) or windowed (second order)";
             Err(Failure::input("--grid uniform", message))
         }
     }
@@ -173,14 +173,12 @@ fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failu
     let fewer = (0.5 * limit * done / seconds).floor().max(1.0);
     Some(Failure::input(
         format!("--time-limit {}", Typed(limit)),
-        format!(
-            "this would take about {needed:.0} s: some {fewer} lines would do within the limit, or a higher one"
-        ),
+        format!("this would take about {needed:.0} s: take about {fewer} lines, or a higher limit"),
     ))
 }
 
 fn explain(error: GridError) -> Failure {
-    let advice = "another --step or --grid-tolerance, or fewer lines, may do: a deep groove is stiff, and the grid \
-                  is explicit";
+    let advice = "another --step or --grid-tolerance, or fewer lines, may help: a deep groove is stiff, and the grid \
+    is explicit";
     Failure::Run(format!("grid: {error}; {advice}"))
 }

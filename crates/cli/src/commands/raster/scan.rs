@@ -71,11 +71,11 @@ fn taken_up(plan: &Plan, finished: &Finished<KeptLine>) -> Vec<Line> {
 fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
     let message = match path {
         Some(path) => format!(
-            "{done} of {count} lines are in {}: the same command goes on from there",
+            "{done} of {count} lines are in {}: the same command continues from there",
             path.display()
         ),
         None => format!(
-            "{done} of {count} lines were scanned, none are kept: with -o FILE.json they would be"
+            "{done} of {count} lines were scanned and none are kept: -o FILE.json would keep them"
         ),
     };
     Failure::Unfinished { signal, message }

@@ -86,7 +86,7 @@ impl Checkpoints {
         self.plan(running.t());
         match (&done, self.last) {
             (Err(failure), Some(t)) => Err(Failure::Run(format!(
-                "{failure}; the last checkpoint, at t = {t}, is whole: resume from it when that is put right"
+                "{failure}; the last checkpoint, at t = {t}, is complete: resume from it once that is corrected"
             ))),
             _ => {
                 self.last = Some(running.t());
@@ -121,7 +121,7 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     (&mut file).take(MAGIC.len() as u64).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes != MAGIC {
         return Err(refused(
-            "is no checkpoint, or is damaged: it does not begin as one does".into(),
+            "is not a checkpoint, or is damaged: it has the wrong beginning".into(),
         ));
     }
     (&mut file).take(LONGEST_HEAD).read_until(b'\n', &mut bytes).map_err(unreadable)?;
@@ -141,7 +141,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     let no_checkpoint = || "is no checkpoint, or not all of one".to_string();
     let (body, sum) = bytes.split_last_chunk::<4>().ok_or_else(no_checkpoint)?;
     if crc32fast::hash(body) != u32::from_le_bytes(*sum) {
-        return Err("is damaged: its checksum does not match, or it is no checkpoint".into());
+        return Err("is damaged, or not a checkpoint: its checksum does not match".into());
     }
     let line = body.iter().position(|byte| *byte == b'\n').ok_or_else(no_checkpoint)?;
     let head: CheckpointHead =
@@ -149,13 +149,13 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     if !head.is_of_this_program() {
         let Software { name, version } = &head.software;
         return Err(format!(
-            "was made by {name} {version}, {} {}: only that version goes on to the last bit, resume it there",
+            "was made by {name} {version}, {} {}: only that version reproduces every bit; resume it with that version",
             head.format, head.format_version
         ));
     }
     let (words, rest) = body[line + 1..].as_chunks::<8>();
     if words.len() as u64 != head.words || !rest.is_empty() {
-        return Err("is damaged: it does not hold as many words as it says".into());
+        return Err("is damaged: its length does not match".into());
     }
     let every = head.order.checkpoint_every;
     if !head.order.samples.are_usable() || !every.is_some_and(|every| every > 0.0) {

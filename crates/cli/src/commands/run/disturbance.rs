@@ -84,9 +84,9 @@ pub(crate) fn warn_of_idle_pulses(texts: &[String], pulses: &[Pulse], span: (f64
 fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, f64)) {
     let advice = if ends.0 >= until {
         let (until, after) = (Typed(until), Typed(core.0));
-        format!("it comes after the end at t = {until}: an --until above {after} would reach it")
+        format!("it comes after the end at t = {until}: give an --until above {after}")
     } else if ends.1 <= start {
-        format!("it is over before the start at t = {}: a time after that would do", Typed(start))
+        format!("it is over before the start at t = {}: give a later time", Typed(start))
     } else {
         return;
     };

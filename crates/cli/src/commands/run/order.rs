@@ -56,20 +56,20 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     if let Some(option) = plot {
         return Err(Failure::input(
             option,
-            "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz",
+            "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz",
         ));
     }
     if order.scales.is_some() {
         return Err(Failure::input(
             "--units, --sigma and what goes with it",
-            "are of tables and documents, and lines are written as the run goes on: write it to a .json, .csv or .npz",
+            "apply to tables and documents, and .jsonl is written during the run: write it to a .json, .csv or .npz",
         ));
     }
     if arguments.verify {
         return Err(Failure::input(
             "--verify",
-            "needs the history, which a run written as lines does not keep: write it to a .json, .csv or .npz, \
-             or verify the lines when they are there, with `stickslip verify FILE.jsonl`",
+            "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz, \
+             or verify the lines afterwards, with `stickslip verify FILE.jsonl`",
         ));
     }
     Ok(order)
@@ -116,7 +116,7 @@ fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
         None => Ok(()),
         Some((option, path)) => Err(Failure::input(
             format!("{option} {}", path.display()),
-            "its name, or that of a folder, is not UTF-8, and a checkpoint holds text: choose another name",
+            "its name, or that of a folder, is not UTF-8, and a checkpoint contains it as text: choose another name",
         )),
     }
 }

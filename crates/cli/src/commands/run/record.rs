@@ -127,7 +127,7 @@ impl Record {
         let unusable = |error: io::Error| {
             taken("--resume", path, &error).unwrap_or_else(|| {
                 let needed = "the checkpoint cannot be resumed without it";
-                Failure::Run(format!("cannot go on with {}: {error}; {needed}", path.display()))
+                Failure::Run(format!("cannot extend {}: {error}; {needed}", path.display()))
             })
         };
         let rows = if self.steps.is_some() {
@@ -196,7 +196,7 @@ fn failed(path: &Path, error: io::Error) -> Failure {
 
 fn history_too_long(t: f64) -> Failure {
     Failure::Run(format!(
-        "at t = {t} the history has {MOST_STEPS} steps, more than is kept in memory: write the samples as \
-         lines (-o FILE.jsonl), leave the history out (--history none), or end the run earlier (--until {t})"
+        "at t = {t} the history has {MOST_STEPS} steps, more than fit in memory: write the samples as lines (-o \
+         FILE.jsonl), leave the history out (--history none), or end the run earlier (--until {t})"
     ))
 }

@@ -72,8 +72,8 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
         None => found_from(folder_of(checkpoint), held).ok_or_else(|| {
             let held = held.display();
             let message = format!(
-                "it would write {held}, which is not in its folder: give {option} {held} if that is right, or \
-                 another {option}"
+                "it would write {held}, which is not in its folder: confirm with {option} {held}, or give another \
+                 {option}"
             );
             Failure::input(&named, message)
         }),
@@ -84,8 +84,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
     order.plot = match (given, order.plot.take()) {
         (_, Some(held)) => Some(place("--plot", given, &held)?),
         (Some(path), None) => {
-            let message =
-                "the run was started without a picture, and may not have kept what it needs";
+            let message = "the run was started without a picture, and may lack what one needs";
             return Err(Failure::input(format!("--plot {}", path.display()), message));
         }
         (None, None) => None,
@@ -99,7 +98,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
     let is_other = arguments.output.as_deref().is_some_and(|path| is_of_other(path, order.format));
     if is_other {
         let message =
-            "the run is written in another format, which the checkpoint knows: give it that ending";
+            "the run is written in another format, that of the checkpoint: give the same extension";
         return Err(Failure::input(format!("--output {}", order.output.display()), message));
     }
     Ok(())
@@ -122,11 +121,11 @@ fn is_of_other(path: &Path, format: RunFormat) -> bool {
 /// is unchanged.
 fn judge(head: &CheckpointHead, t: f64, scenario: &Scenario) -> Result<(), &'static str> {
     if head.t.to_bits() != t.to_bits() {
-        return Err("is damaged: its time is not that of its state");
+        return Err("is damaged: its time differs from that of its state");
     }
     let span = (scenario.start_time(), scenario.until);
     if !head.order.samples.are_of(span, head.order.format != RunFormat::Jsonl) {
-        return Err("is damaged: its samples are not those of its run");
+        return Err("is damaged: its samples do not match its run");
     }
     let (times, _) = head.order.samples.clone().in_order();
     let slack = 1e-9 * t.abs().max(1.0);
@@ -134,7 +133,7 @@ fn judge(head: &CheckpointHead, t: f64, scenario: &Scenario) -> Result<(), &'sta
     let last = head.samples.checked_sub(1);
     let last_was_due = last.is_none_or(|last| times.at(last).is_some_and(|last| last < t + slack));
     if next_is_due || !last_was_due {
-        return Err("is damaged: it has not taken the samples until its time");
+        return Err("is damaged: it lacks samples before its time");
     }
     Ok(())
 }

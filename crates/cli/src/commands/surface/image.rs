@@ -52,8 +52,8 @@ impl Images {
                 "certain for no transverse spring k'".into()
             };
             remark(format_args!(
-                "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x \
-                 may push it off: in steady motion y0 = 0 is stable for {bound}"
+                "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x may push it \
+                 off this line: in steady motion y0 = 0 is stable for {bound}"
             ));
         }
     }

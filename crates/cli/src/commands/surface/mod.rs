@@ -33,8 +33,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     format.judge_of_run(arguments)?;
     if document.parameters.stiffness_across.is_some() {
         let named = format!("RUN.json {}", arguments.run.display());
-        let message =
-            "the tip gives way across the scan: the surface that it leaves is not available";
+        let message = "the tip moves in two coordinates: its surface is not available";
         return Err(Failure::input(named, message));
     }
     let damaged = |message: String| {

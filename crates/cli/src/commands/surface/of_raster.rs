@@ -62,7 +62,7 @@ fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
     Err(Failure::input(
         "--spacing and --y",
         format!(
-            "make {columns} columns of {rows} rows, more than fit in memory; --spacing {least:.3e} or above will do, or \
+            "make {columns} columns of {rows} rows, more than fit in memory; take --spacing {least:.3e} or more, or \
              fewer rows by --y or --y-range"
         ),
     ))
@@ -79,7 +79,7 @@ fn refuse_of_runs(arguments: &SurfaceArguments) -> Result<(), Failure> {
         None => Ok(()),
         Some((option, _)) => Err(Failure::input(
             *option,
-            "a raster is shown as its last line left it, by its own footprint: leave the option out",
+            "a raster is shown after its last line, with its own footprint: leave the option out",
         )),
     }
 }

@@ -116,7 +116,8 @@ fn range(
             Ok(Range { low, high, spacing: (high - low) / (points - 1) as f64 })
         }
         (Some(_), Some(_)) => {
-            let message = format!("says how many values there are, and {other} too: leave one out");
+            let message =
+                format!("gives the number of values, and so does {other}: leave one of them out");
             Err(typed.refused(option, message))
         }
     }
@@ -146,7 +147,7 @@ impl Range {
             return Err(Failure::input(
                 format!("{option} {}", Typed(spacing)),
                 format!(
-                    "would make {points:.1e} points, more than fit in memory; {least:.3e} or above will do"
+                    "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more"
                 ),
             ));
         }

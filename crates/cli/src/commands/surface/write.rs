@@ -24,7 +24,7 @@ impl SurfaceFormat {
         }
         if self == Self::Gsf && arguments.y_range.is_none() {
             let named = format!("--output {}", arguments.output.display());
-            let advice = "a .gsf file holds an image: give --y-range LO:HI too";
+            let advice = "a .gsf file contains an image: give --y-range LO:HI too";
             return Err(Failure::input(named, advice));
         }
         Ok(())
@@ -49,7 +49,7 @@ impl SurfaceFormat {
         }
         match arguments.at.as_deref() {
             Some(times) if times.len() != 1 => {
-                refused(named, "a .gsf file holds one image: give one time with --at")
+                refused(named, "a .gsf file contains one image: give one time with --at")
             }
             _ => Ok(Self::Gsf),
         }

@@ -61,7 +61,7 @@ impl Grid {
         if !(TOLERANCES.0..=TOLERANCES.1).contains(&arguments.tolerance) {
             let option = format!("--tolerance {}", Typed(arguments.tolerance));
             let (least, most) = TOLERANCES;
-            return Err(Failure::input(option, format!("{least:e} to {most:e} will do")));
+            return Err(Failure::input(option, format!("must be {least:e} to {most:e}")));
         }
         let law = lowest(arguments);
         refuse_endless(&tip_arguments(arguments, None, None), &law)?;
@@ -167,7 +167,7 @@ fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
     let count = |range: &Option<Range>| range.as_ref().map_or(1, Range::points);
     for (option, tips) in [("--beta", count(beta)), ("--width", count(width))] {
         if tips > MOST_TIPS {
-            let message = format!("{tips} values; at most {MOST_TIPS} will do");
+            let message = format!("{tips} values; at most {MOST_TIPS} are accepted");
             return Err(Failure::input(option, message));
         }
     }
@@ -188,7 +188,7 @@ fn judge_counts(arguments: &SweepArguments) -> Result<(), Failure> {
         count if count > MOST_POINTS => Err(Failure::input(
             "--alpha, --r and --beta",
             format!(
-                "make {count} points with all that varies; at most {MOST_POINTS} will do: fewer, or one part of the range"
+                "make {count} points in all; at most {MOST_POINTS} are accepted: take fewer, or one part of the range"
             ),
         )),
         _ => Ok(()),

@@ -31,9 +31,10 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
 fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
     let read = |path: &PathBuf| read::<D>(path).map(|part| (path.clone(), part));
     let mut parts = arguments.parts.iter().map(read);
-    let (_, mut whole) = parts.next().transpose()?.ok_or_else(|| {
-        Failure::input(PART, "no part was given: name the documents of all of them")
-    })?;
+    let (_, mut whole) = parts
+        .next()
+        .transpose()?
+        .ok_or_else(|| Failure::input(PART, "no part is given: name the documents of all parts"))?;
     let mut shards: Vec<ShardDocument> = whole.held().shard.take().into_iter().collect();
     for part in parts {
         let (path, mut part) = part?;
@@ -41,15 +42,15 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
         if !part.is_of(&whole) {
             return Err(Failure::input(
                 format!("{PART} {}", path.display()),
-                "is of another sweep, or another version, than the first one",
+                "belongs to another sweep, or another version, than the first one",
             ));
         }
         let (part, all) = (part.held(), whole.held());
         if part.arithmetic != all.arithmetic && all.arithmetic.take().is_some() {
             let path = path.display();
             say(format_args!(
-                "stickslip: {path} was computed by a machine that rounds otherwise: one machine alone would give other \
-                 last digits"
+                "stickslip: {path} was computed by a machine with different rounding: the last digits may differ from \
+                 those of one machine"
             ));
         }
         all.points.append(part.points);
@@ -109,7 +110,9 @@ pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &
     let name = path.display();
     match read::<D>(path) {
         Ok(found) if is_asked(&found) => return true,
-        Ok(_) => remark(format_args!("stickslip: {name} is of another sweep: computed anew")),
+        Ok(_) => {
+            remark(format_args!("stickslip: {name} belongs to another sweep: it is computed again"))
+        }
         Err(error) => remark(format_args!("stickslip: {error}: computed anew")),
     }
     false
@@ -123,7 +126,7 @@ fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
         Some(sum) if sum == part.checksum()? => Ok(part),
         Some(_) => refused("was changed since it was written: its checksum does not match"),
         None => {
-            refused("has no checksum `crc32`: it is not as this version writes it, sweep it again")
+            refused("has no checksum `crc32`: it was not written by this version; compute it again")
         }
     }
 }

@@ -75,13 +75,13 @@ impl Grid {
         let (footprint, width_y) = footprint(arguments.width_y, &tip)?;
         let path = arguments.path;
         if path == PathName::Repeat {
-            let message = "a repeated line has no pitch: one-way or zigzag will do";
+            let message = "a repeated line has no pitch: take one-way or zigzag";
             return Err(Failure::input("--path repeat", message));
         }
         let (pitch, alpha) = (arguments.pitch.values(), arguments.alpha.values());
         let count = pitch.len().saturating_mul(alpha.len());
         if count > MOST_POINTS {
-            let message = format!("make {count} points; at most {MOST_POINTS} will do");
+            let message = format!("make {count} points; at most {MOST_POINTS} are accepted");
             return Err(Failure::input("--pitch and --alpha", message));
         }
         let parameters = RasterSweepParameters {

@@ -102,11 +102,11 @@ pub(super) fn compute<P: Part + Send>(
 fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
     let message = match path {
         Some(path) => format!(
-            "{done} of {count} points are in {}: the same command goes on from there",
+            "{done} of {count} points are in {}: the same command continues from there",
             path.display()
         ),
         None => format!(
-            "{done} of {count} points were done, none are kept: with -o FILE.json they would be"
+            "{done} of {count} points were computed and none are kept: -o FILE.json would keep them"
         ),
     };
     Failure::Unfinished { signal, message }

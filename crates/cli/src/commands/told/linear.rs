@@ -148,7 +148,7 @@ impl Product for ResponseDocument {
         });
         let from = digits(self.valid_from, 7);
         let told = Told::new(format!(
-            "{} modes at α = {alpha}, r = {r}: from t = {from} on their sum holds to {:.0e} of the first",
+            "{} modes at α = {alpha}, r = {r}: from t = {from} on their sum is accurate to {:.0e} of the first",
             self.modes.len(),
             self.valid_to
         ));

@@ -93,8 +93,8 @@ impl Given {
         if missing.len() > given {
             let names: Vec<&str> = missing.iter().map(|i| QUANTITIES[*i].option).collect();
             let advice = match given {
-                0 => "give all six quantities, or --alpha or --r in place of one of them".into(),
-                _ => format!("{numbers} can stand for {given} of them: give the others"),
+                0 => "give all six quantities, or --alpha or --r instead of one of them".into(),
+                _ => format!("{numbers} can replace {given} of them: give the others"),
             };
             return Err(Failure::input(names.join(", "), format!("missing: {advice}")));
         }
@@ -148,8 +148,7 @@ impl Given {
             v.is_some_and(|v| v.is_finite() && (v > 0.0 || (i == INDENTATION_RATE && v >= 0.0)))
         };
         if !values.iter().enumerate().all(usable) {
-            let message = "do not follow from what is given: r = Γ v0/(kσ) and α = Γ N a/(σ² k²) \
-                           must hold them; leave out others";
+            let message = "do not follow from the given ones by r = Γ v0/(kσ) and α = Γ N a/(σ² k²); leave out others";
             return Err(Failure::input(names.join(", "), message));
         }
         let [damping, stiffness, tip_width, indentation_rate, slope_force, velocity] =

@@ -140,8 +140,8 @@ fn lines(extent: &Extent, until: f64, compared: ComparedSamples) -> LinesDocumen
 }
 
 /// The advice for an incomplete run.
-const REST: &str = "`stickslip run --resume CHECKPOINT` finishes a run that was started with --checkpoint, any \
-                    other is to be run again";
+const REST: &str = "`stickslip run --resume CHECKPOINT` finishes a run that was started with --checkpoint; any other \
+must be run again";
 
 /// The message and the exit status for wrong lines, and for incomplete ones.
 fn failure(

@@ -28,7 +28,7 @@ pub struct Fit {
 pub enum FitError {
     /// J0 decays like 1/√ξ, which no few exponentials approximate.
     #[error(
-        "the modes need a footprint that fades; this one does not (J0 falls like 1/√x): use the memory fft"
+        "the memory modes needs a footprint that decays; this one does not (J0 falls like 1/√x): use the memory fft"
     )]
     NeverFades,
     /// Terms that do not form a decaying sum.
@@ -39,7 +39,7 @@ pub enum FitError {
     Stopped,
     /// The best fit is not accurate enough.
     #[error(
-        "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: ask for a larger tolerance, or use the memory fft"
+        "f' cannot be fitted by exponentials to {wanted:.1e}, at best to {reached:.1e}: allow a larger tolerance, or use the memory fft"
     )]
     NotMet {
         /// Largest error allowed.

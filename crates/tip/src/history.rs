@@ -140,7 +140,7 @@ impl Step {
     }
 
     /// Relative indentation rates w at the nodes.
-    fn weights(&self, wider: &Wider) -> Stages {
+    pub(crate) fn weights(&self, wider: &Wider) -> Stages {
         self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
     }
 }

@@ -1,21 +1,20 @@
 //! The kink of |h| with a depth limit: a step stays on one side of it, and ends where h = 0.
 
 use super::{Integrator, Retry, Solution};
-use crate::Model;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
 use crate::roots::zero_to;
 use crate::state::{Damaged, Reader, State};
-use crate::step;
+use crate::{Model, Step, step};
 
 /// The height under the tip, and the side of the kink on which the next step lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Corner {
-    pub(super) height: f64,
+pub(crate) struct Corner {
+    pub(crate) height: f64,
     /// 1 above, -1 below.
-    pub(super) side: f64,
+    pub(crate) side: f64,
     /// Whether the last step ended at the kink: polynomials are not extrapolated across it.
-    pub(super) turned: bool,
+    turned: bool,
     /// Largest distance of a step beyond the kink.
     slack: f64,
     /// Round-off of a height.
@@ -38,7 +37,7 @@ const SHARE_OF_SLACK: f64 = 0.1;
 
 impl Corner {
     /// The kink for a tip that starts at this height; `None` without a depth limit.
-    pub(super) fn of(model: &Model, height: f64, target: f64) -> Option<Self> {
+    pub(crate) fn of(model: &Model, height: f64, target: f64) -> Option<Self> {
         let limit = model.wider().depth_limit?;
         let size = model.alpha().abs().max(1.0);
         let round_off = ROUND_OFF * size;
@@ -55,12 +54,12 @@ impl Corner {
     }
 
     /// Whether all these heights are well on the side of the step, as in most steps.
-    pub(super) fn keeps(&self, heights: &[f64]) -> bool {
+    pub(crate) fn keeps(&self, heights: &[f64]) -> bool {
         heights.iter().all(|height| self.side * height >= 0.0)
     }
 
     /// Checks that a step of length h from t stays on its side.
-    pub(super) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
+    pub(crate) fn passed(&self, heights: &Heights, (t, h): (f64, f64)) -> Result<(), Retry> {
         if self.keeps(&heights.nodes) {
             return Ok(());
         }
@@ -86,27 +85,27 @@ impl Corner {
     }
 
     /// Sets the height under the tip, as evaluated by its memory.
-    pub(super) fn stand_at(&mut self, height: f64) {
+    pub(crate) fn stand_at(&mut self, height: f64) {
         self.height = height;
         if self.side * height < -self.slack {
             self.side = -self.side;
         }
     }
 
-    pub(super) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.number(self.height);
         state.number(self.side);
         state.flag(self.turned);
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.height, self.side) = (state.finite()?, state.within(1.0)?);
         self.turned = state.flag()?;
         if self.side.abs() < 1.0 { Err(Damaged::OutOfRange) } else { Ok(()) }
     }
 
     /// Updates the side after a step of length h from t has been accepted.
-    pub(super) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
+    pub(crate) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
         self.height = heights.nodes[STAGES - 1];
         let slack = self.slack(heights, (t, h));
         // A height that stays where it is, as in steady motion, goes to no side: its rate is round-off.
@@ -115,14 +114,42 @@ impl Corner {
         self.turned = turns.is_some();
         self.side = if turns.unwrap_or(self.height) > 0.0 { 1.0 } else { -1.0 };
     }
+
+    /// Changes the side for the next attempt; false if the other side has been tried.
+    pub(crate) fn turn(&mut self) -> bool {
+        self.side = -self.side;
+        !std::mem::replace(&mut self.turned, true)
+    }
+
+    /// The heights of the last step, extrapolated over a step of length h.
+    pub(crate) fn ahead(&self, last: Option<&Step>, h: f64) -> Stages {
+        let Some((last, heights)) = self.same_side(last).filter(|(last, _)| h <= 1.5 * last.h)
+        else {
+            return [self.height; STAGES];
+        };
+        RADAU.continued(&heights.rise(), h / last.h).map(|rise| self.height + rise)
+    }
+
+    /// The last step with its heights, if it is on the same side of the kink.
+    fn same_side<'b>(&self, last: Option<&'b Step>) -> Option<(&'b Step, Heights)> {
+        let last = last.filter(|_| !self.turned)?;
+        Some((last, last.height?))
+    }
+
+    /// Error of the heights as a polynomial of time, from the last step, converted to an error of the displacement.
+    pub(crate) fn error(&self, heights: &Heights, last: Option<&Step>, h: f64) -> f64 {
+        let Some((last, before)) = self.same_side(last) else { return 0.0 };
+        let error = step::interpolation_error(&heights.rise(), h, (&before.rise(), last.h));
+        let error = (error - self.round_off).max(0.0);
+        let depth = heights.nodes[STAGES - 1].abs().max(1.0);
+        SHARE_OF_DENSE * error * self.weight.min(1.0).max(self.weight / depth) / depth
+    }
 }
 
 impl<M: crate::memory::Memory> Integrator<'_, M> {
-    /// Changes the side for the next attempt; false if the other side has been tried.
+    /// As [`Corner::turn`].
     pub(super) fn turn(&mut self) -> bool {
-        let Some(corner) = &mut self.corner else { return false };
-        corner.side = -corner.side;
-        !std::mem::replace(&mut corner.turned, true)
+        self.corner.as_mut().is_some_and(Corner::turn)
     }
 
     pub(super) fn heights(&self, solution: &Solution) -> Option<Heights> {
@@ -130,32 +157,14 @@ impl<M: crate::memory::Memory> Integrator<'_, M> {
         Some(Heights { start: corner.height, nodes })
     }
 
-    /// The heights of the last step, extrapolated over a step of length h.
+    /// As [`Corner::ahead`].
     pub(super) fn heights_ahead(&self, h: f64) -> Stages {
-        let Some(corner) = &self.corner else { return [0.0; STAGES] };
-        let before = self.last.filter(|last| h <= 1.5 * last.h).zip(self.last_heights());
-        let Some((last, heights)) = before else { return [corner.height; STAGES] };
-        RADAU.continued(&heights.rise(), h / last.h).map(|rise| corner.height + rise)
+        self.corner.map_or([0.0; STAGES], |corner| corner.ahead(self.last.as_ref(), h))
     }
 
-    /// The heights of the last step, if it is on the same side of the kink.
-    fn last_heights(&self) -> Option<Heights> {
-        let same_side = |corner: &Corner| !corner.turned;
-        self.corner.as_ref().filter(|corner| same_side(corner))?;
-        self.last?.height
-    }
-
-    /// Error of the heights as a polynomial of time, from the last step, converted to an error of the displacement.
+    /// As [`Corner::error`].
     pub(super) fn error_of_heights(&self, heights: Option<&Heights>, h: f64) -> f64 {
-        let Some(((heights, before), last)) = heights.zip(self.last_heights()).zip(self.last)
-        else {
-            return 0.0;
-        };
-        let error = step::interpolation_error(&heights.rise(), h, (&before.rise(), last.h));
-        let (corner_weight, round_off) =
-            self.corner.map_or((0.0, 0.0), |corner| (corner.weight, corner.round_off));
-        let error = (error - round_off).max(0.0);
-        let depth = heights.nodes[STAGES - 1].abs().max(1.0);
-        SHARE_OF_DENSE * error * corner_weight.min(1.0).max(corner_weight / depth) / depth
+        let known = self.corner.as_ref().zip(heights);
+        known.map_or(0.0, |(corner, heights)| corner.error(heights, self.last.as_ref(), h))
     }
 }

@@ -6,7 +6,7 @@
 
 mod ahead;
 pub(crate) mod control;
-mod corner;
+pub(crate) mod corner;
 mod error;
 pub(crate) mod landing;
 mod saved;
@@ -351,7 +351,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
 }
 
 /// Reasons for repeating an attempt with another step.
-enum Retry {
+pub(crate) enum Retry {
     /// The error was too large.
     Shorter(f64),
     /// The step passed a knot of u0, or the kink of |h|, where it must end.

@@ -12,6 +12,7 @@
 //! SIMD lanes.
 
 use super::layers::{LANES, Lanes, ROOTS, slopes, values};
+use super::weighing::Weighing;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 use multiversion::multiversion;
 
@@ -34,6 +35,8 @@ pub(super) struct Acting {
     pub(super) eta: f64,
     /// v
     pub(super) width: f64,
+    /// w now and σ/b, with a depth limit.
+    pub(super) depth: Option<(f64, f64)>,
 }
 
 /// Second derivatives of the surface under the tip: along, mixed, across.
@@ -58,6 +61,8 @@ pub(super) struct Chain {
     across: [f64; MOST_ORDER],
     /// Coefficients of x0 and y0 minus their values at the start.
     displacement: [Series; 2],
+    /// Those of the height under the tip and of w, with a depth limit.
+    weighing: Weighing,
 }
 
 impl Chain {
@@ -72,6 +77,7 @@ impl Chain {
             along: [0.0; MOST_ORDER],
             across: [0.0; MOST_ORDER],
             displacement: [Series::zero(order), Series::zero(order)],
+            weighing: Weighing::new(order),
         }
     }
 
@@ -82,6 +88,16 @@ impl Chain {
     /// Coefficients of x0 and y0, minus their values at the start.
     pub(super) fn displacement(&self) -> &[Series; 2] {
         &self.displacement
+    }
+
+    /// Coefficients of the height under the tip, with a depth limit.
+    pub(super) fn height(&self) -> &Series {
+        self.weighing.height()
+    }
+
+    /// Coefficients of w, with a depth limit.
+    pub(super) fn weights(&self) -> &Series {
+        self.weighing.weights()
     }
 
     /// Number of entries in a row.
@@ -106,12 +122,25 @@ impl Chain {
         &mut self.rows[..stride]
     }
 
-    /// Computes the series from the values written to the room of [`start`](Self::start), and from the forces.
-    pub(super) fn run(&mut self, acting: &Acting) {
+    /// Computes the layers under the tip, after [`start`](Self::start).
+    pub(super) fn stand_at(&mut self, eta: f64) {
         let first = self.first_layers();
         let (psi, phi) = self.layers[first..].split_at_mut(self.groups);
-        values(acting.eta, 1.0, phi);
-        slopes(acting.eta, phi, psi);
+        values(eta, 1.0, phi);
+        slopes(eta, phi, psi);
+    }
+
+    /// Depth of the groove under the tip at the start, from the values written to the room of
+    /// [`start`](Self::start).
+    pub(super) fn depth_now(&self) -> f64 {
+        dot(&self.layers[self.first_layers() + self.groups..], &self.rows[..self.groups])
+    }
+
+    /// Computes the series from the values written to the room of [`start`](Self::start), and from the forces.
+    pub(super) fn run(&mut self, acting: &Acting) {
+        if let Some((weight, _)) = acting.depth {
+            self.weighing.start(-self.depth_now(), weight, self.groups);
+        }
         run(self, acting);
     }
 
@@ -138,6 +167,10 @@ impl Chain {
             if k + 1 < self.order {
                 self.next_layers(groups, k, acting);
                 self.next_row(groups, k, acting);
+                if let Some((_, rate)) = acting.depth {
+                    let depth = self.depth(groups, k + 1);
+                    self.weighing.advance(k, -depth, rate);
+                }
             }
         }
     }
@@ -158,6 +191,20 @@ impl Chain {
             }
         }
         [total(&across), total(&along)]
+    }
+
+    /// Coefficient of order k of the depth `Σ_m φ_m A_m0`.
+    #[inline(always)]
+    fn depth(&self, groups: usize, k: usize) -> f64 {
+        let (both, stride) = (2 * groups, (self.order + 1) * groups);
+        let layers = self.layers[(self.order - 1 - k) * both..].chunks_exact(both);
+        let mut sum = [0.0; LANES];
+        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
+            for (phi, value) in layers[groups..].iter().zip(&row[..groups]) {
+                add_product(&mut sum, phi, value);
+            }
+        }
+        total(&sum)
     }
 
     /// The next coefficients of velocities and displacements, from those of the forces of the groove.
@@ -219,7 +266,11 @@ impl Chain {
         let stride = (self.order + 1) * groups;
         let (before, after) = self.rows.split_at_mut((k + 1) * stride);
         let row = &mut after[..(self.order - k) * groups];
-        let phi = &self.layers[(self.order - 1 - k) * 2 * groups + groups..][..groups];
+        let layers = &self.layers[(self.order - 1 - k) * 2 * groups..];
+        let phi = match acting.depth {
+            None => &layers[groups..2 * groups],
+            Some(_) => self.weighing.carve(k, groups, layers, 2 * groups),
+        };
         let scale = INVERSE[k + 1];
         for (new, source) in row.chunks_exact_mut(groups).zip(&self.sources) {
             for (new, phi) in new.iter_mut().zip(phi) {

@@ -64,7 +64,7 @@ pub struct Visit {
     pub x: f64,
     /// y0
     pub y: f64,
-    /// Time spent there, multiplied by its undecayed part.
+    /// Time spent there, multiplied by its undecayed part, and by w with a depth limit.
     pub weight: f64,
 }
 
@@ -83,7 +83,7 @@ impl Trajectory {
         Self { support, wider, steps }
     }
 
-    /// Positions of the tip until t with their weights: `∫_{start}^t e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight
+    /// Positions of the tip until t with their weights: `∫_{start}^t w e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight
     /// q(x, y). The surface is its initial state minus α times the sum for q = f(x - x0, y - y0).
     #[must_use]
     pub fn residence(&self, t: f64) -> Vec<Visit> {
@@ -97,21 +97,30 @@ impl Trajectory {
                     None => RADAU.b().map(|b| b * h),
                     Some(time) => healing(h, time)[STAGES - 1],
                 };
-                let nodes = step.along.displacement.iter().zip(&step.across).zip(left);
-                visits.extend(nodes.map(|((d, e), left)| Visit {
+                let indented = step.along.weights(&self.wider);
+                let nodes = step.along.displacement.iter().zip(&step.across);
+                let weights = left.into_iter().zip(indented);
+                visits.extend(nodes.zip(weights).map(|((d, e), (left, indented))| Visit {
                     x: origin + d,
                     y: step.y + e,
-                    weight: left * since,
+                    weight: left * since * indented,
                 }));
                 continue;
             }
             let part = (t - step.along.t) / h;
             visits.extend(GAUSS.as_node_weight_pairs().iter().map(|(node, weight)| {
                 let tau = 0.5 * part * (1.0 + node);
+                let height = step.along.height;
+                let indented = height.map_or(1.0, |height| self.wider.weight(height.at(tau)));
                 Visit {
                     x: origin + RADAU.value(&step.along.displacement, tau),
                     y: step.y + RADAU.value(&step.across, tau),
-                    weight: 0.5 * part * h * weight * self.wider.left_after((part - tau) * h),
+                    weight: 0.5
+                        * part
+                        * h
+                        * weight
+                        * indented
+                        * self.wider.left_after((part - tau) * h),
                 }
             }));
         }
@@ -158,6 +167,12 @@ impl Trajectory {
     #[must_use]
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         self.step_at(t).velocity(t)
+    }
+
+    /// The height of the surface under the tip, with a depth limit.
+    #[must_use]
+    pub fn height(&self, t: f64) -> Option<f64> {
+        self.step_at(t).along.height(t)
     }
 
     /// The motion of the support.

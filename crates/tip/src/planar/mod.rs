@@ -3,11 +3,12 @@
 //! Cantilevers are about as soft across the scan as along it. With a spring κ_y across, and the line y = 0,
 //!
 //! ```text
-//!     M x0'' + x0' = α ∫ f_x(x0 - x', y0 - y') e^{-(t-t')/T} dt' + R(t) - x0 + F_x(t)
-//!             y0' = α ∫ f_y(x0 - x', y0 - y') e^{-(t-t')/T} dt' - κ_y y0 + F_y(t)
+//!     M x0'' + x0' = α ∫ w f_x(x0 - x', y0 - y') e^{-(t-t')/T} dt' + R(t) - x0 + F_x(t)
+//!             y0' = α ∫ w f_y(x0 - x', y0 - y') e^{-(t-t')/T} dt' - κ_y y0 + F_y(t)
 //! ```
 //!
-//! where primed coordinates are those of the tip at t'. For f(x,y) = g(x) h(y) with a Gaussian h the surface consists
+//! where primed coordinates are those of the tip at t', and w is the weight that a depth limit gives to t' (1 without
+//! one). For f(x,y) = g(x) h(y) with a Gaussian h the surface consists
 //! of a few one-dimensional grooves, which the same positions carve with different weights (`layers`). With
 //! exponentials for g the past is one complex number for each exponential and each layer (`modes`), and the equations
 //! are a polynomial system (`chain`). If the tip retreats beyond the range of validity of the exponentials, Gaussians
@@ -26,6 +27,7 @@ mod past;
 mod running;
 mod scenario;
 mod stages;
+mod weighing;
 
 pub use frame::Layers;
 pub use history::{Step, Trajectory, Visit};

@@ -117,7 +117,6 @@ impl PlanarScenario {
         along.validate()?;
         let wider = along.model.wider();
         let unavailable = [
-            (wider.depth_limit.is_some(), "a depth limit"),
             (!wider.spring, "a tip without a spring"),
             (along.noise.is_some(), "noise on the initial surface"),
             (along.profile.is_some(), "an initial surface"),

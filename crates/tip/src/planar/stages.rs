@@ -5,7 +5,14 @@
 //!     e = hA F_y                                     F_y = α (past_y + Σ_k b_ik f_y(d_i - d_k, e_i - e_k)) - κ_y (y0 + e)
 //! ```
 //!
-//! with external forces added to both. The force of the past is that of all layers at the displacement of the stage.
+//! with external forces added to both. The force of the past is that of all layers at the displacement of the stage. With
+//! a [`Depth`] limit the heights under the tip are further unknowns,
+//!
+//! ```text
+//!     h = -α (past + Σ_k b_ik w_k f(d_i - d_k, e_i - e_k))        w_k = e^{-σ h_k/b}
+//! ```
+//!
+//! and w multiplies the columns of b in all three equations.
 
 use super::chain::{Curvatures, dot};
 use super::layers::{LANES, Lanes, slopes, values};
@@ -13,7 +20,7 @@ use super::past::Past;
 use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::footprint::Across;
-use crate::step::{Factors, Inertia, Matrix};
+use crate::step::{Depth, Factors, Inertia, Matrix};
 
 /// The data at the start of a step.
 pub(super) struct StageEquations<'a> {
@@ -34,7 +41,11 @@ pub(super) struct StageEquations<'a> {
     /// Undecayed part of the past at each stage.
     pub(super) left: Stages,
     pub(super) inertia: Option<&'a Inertia>,
+    pub(super) depth: Option<Depth>,
 }
+
+/// Displacements at the nodes, along and across, and heights; these are 0 without a depth limit.
+pub(super) type Unknowns = [Stages; 3];
 
 /// Result of an iteration.
 pub(super) struct Solved {
@@ -47,19 +58,26 @@ pub(super) struct Solved {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solution {
     pub(super) displacement: [Stages; 2],
+    /// Heights under the tip at the nodes, with a depth limit.
+    pub(super) height: Option<Stages>,
+    /// Undecayed part, at the end of the step, of the effective time of indentation at each node.
+    pub(super) spent: Stages,
     /// Curvatures of the surface of the past under the last node.
     pub(super) curvatures: Curvatures,
 }
 
-/// Forces at the stages, and their derivatives by the displacements of the stages.
+/// Forces and heights at the stages, and their derivatives by the unknowns at the stages.
 struct Forces {
-    value: [Stages; 2],
-    slope: [[Matrix; 2]; 2],
+    value: Unknowns,
+    slope: [[Matrix; 3]; 3],
     curvatures: Curvatures,
 }
 
-/// Number of unknowns: both coordinates of all stages.
-const UNKNOWNS: usize = 2 * STAGES;
+/// The factored Jacobian: one of the two forms.
+struct Jacobian {
+    free: Option<Factors<{ 2 * STAGES }>>,
+    limited: Option<Factors<{ 3 * STAGES }>>,
+}
 
 const MOST_ITERATIONS: u64 = 12;
 /// Corrections below this are round-off of displacements of order one.
@@ -70,44 +88,57 @@ const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
 impl StageEquations<'_> {
     /// Solves the equations by Newton's iteration from a guess, to an error below `enough`. It stops when a
     /// displacement along exceeds `most[0]`, or one across `most[1]`.
-    pub(super) fn solve(&self, guess: [Stages; 2], enough: f64, most: [f64; 2]) -> Solved {
-        let mut displacement = guess;
+    pub(super) fn solve(&self, guess: Unknowns, enough: f64, most: [f64; 2]) -> Solved {
+        let mut at = guess;
         let (mut previous, mut ratio) = (f64::INFINITY, 1.0);
-        let mut jacobian = None;
+        let mut jacobian = Jacobian { free: None, limited: None };
         for iterations in 1..=MOST_ITERATIONS {
-            let forces = self.forces(&displacement);
+            let forces = self.forces(&at);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
-                jacobian = Factors::of(self.jacobian(&forces));
+                jacobian = self.jacobian(&forces);
             }
-            let Some(factors) = &jacobian else { return Solved { iterations, solution: None } };
-            let correction = factors.solve(&self.missed(&displacement, &forces));
-            for (d, c) in displacement.as_flattened_mut().iter_mut().zip(correction) {
-                *d -= c;
+            let Some(correction) = jacobian.corrections(&self.missed(&at, &forces)) else {
+                return Solved { iterations, solution: None };
+            };
+            for (x, c) in at.as_flattened_mut().iter_mut().zip(correction.as_flattened()) {
+                *x -= c;
             }
-            let size = correction.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+            let size = size(&correction, &at[2]);
             ratio = (size / previous).min(1.0);
-            let within = |j: usize| displacement[j].iter().all(|d| d.abs() <= most[j]);
+            let within = |j: usize| at[j].iter().all(|d| d.abs() <= most[j]);
             let stuck = iterations > 3 && ratio > 0.9 && size > 100.0 * ROUND_OFF;
             if !(within(0) && within(1)) || stuck {
                 return Solved { iterations, solution: None };
             }
             if ratio * size <= enough.max(ROUND_OFF) && (iterations > 1 || size <= enough) {
-                let solution = Solution { displacement, curvatures: forces.curvatures };
-                return Solved { iterations, solution: Some(solution) };
+                let solution = Some(self.solution(&at, forces.curvatures));
+                return Solved { iterations, solution };
             }
             previous = size;
         }
         Solved { iterations: MOST_ITERATIONS, solution: None }
     }
 
-    /// d and e minus their values from the forces.
-    fn missed(&self, [d, e]: &[Stages; 2], forces: &Forces) -> [f64; UNKNOWNS] {
+    fn solution(&self, [along, across, height]: &Unknowns, curvatures: Curvatures) -> Solution {
+        let (mut spent, weights) = (self.carving[STAGES - 1], self.weights(height));
+        spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= weight);
+        let displacement = [*along, *across];
+        Solution { displacement, height: self.depth.map(|_| *height), spent, curvatures }
+    }
+
+    /// w at the stages.
+    fn weights(&self, height: &Stages) -> Stages {
+        self.depth.map_or([1.0; STAGES], |depth| depth.weights(height))
+    }
+
+    /// The unknowns minus their values from forces and surface.
+    fn missed(&self, [d, e, height]: &Unknowns, forces: &Forces) -> Unknowns {
         let along = match self.inertia {
             Some(inertia) => inertia.residual(d, &forces.value[0]),
             None => self.residual(d, &forces.value[0]),
         };
         let across = self.residual(e, &forces.value[1]);
-        std::array::from_fn(|i| if i < STAGES { along[i] } else { across[i - STAGES] })
+        [along, across, std::array::from_fn(|i| height[i] - forces.value[2][i])]
     }
 
     fn residual(&self, d: &Stages, force: &Stages) -> Stages {
@@ -115,10 +146,25 @@ impl StageEquations<'_> {
         std::array::from_fn(|i| d[i] - self.h * carried[i])
     }
 
-    fn jacobian(&self, forces: &Forces) -> [[f64; UNKNOWNS]; UNKNOWNS] {
-        let mut jacobian = [[0.0; UNKNOWNS]; UNKNOWNS];
-        for (n, row) in jacobian.iter_mut().enumerate() {
+    fn jacobian(&self, forces: &Forces) -> Jacobian {
+        match self.depth {
+            None => Jacobian { free: Factors::of(self.derivatives(forces)), limited: None },
+            Some(_) => Jacobian { free: None, limited: Factors::of(self.derivatives(forces)) },
+        }
+    }
+
+    /// Derivatives of [`missed`](Self::missed), with heights or without.
+    fn derivatives<const N: usize>(&self, forces: &Forces) -> [[f64; N]; N] {
+        let mut derivatives = [[0.0; N]; N];
+        for (n, row) in derivatives.iter_mut().enumerate() {
             let (of, i) = (n / STAGES, n % STAGES);
+            if of == 2 {
+                for (m, entry) in row.iter_mut().enumerate() {
+                    *entry = -forces.slope[2][m / STAGES][i][m % STAGES];
+                }
+                row[n] += 1.0;
+                continue;
+            }
             let carried = match self.inertia {
                 Some(inertia) if of == 0 => inertia.carried()[i],
                 _ => RADAU.a[i].map(|a| self.h * a),
@@ -129,55 +175,118 @@ impl StageEquations<'_> {
             }
             row[n] += 1.0;
         }
-        jacobian
+        derivatives
     }
 
-    /// Forces at these displacements of the stages.
-    fn forces(&self, displacement: &[Stages; 2]) -> Forces {
+    /// Forces and heights at these unknowns of the stages.
+    fn forces(&self, at: &Unknowns) -> Forces {
         let zero = [[0.0; STAGES]; STAGES];
-        let mut forces = Forces { value: self.pull, slope: [[zero; 2]; 2], curvatures: [0.0; 3] };
+        let value = [self.pull[0], self.pull[1], [0.0; STAGES]];
+        let mut forces = Forces { value, slope: [[zero; 3]; 3], curvatures: [0.0; 3] };
         let mut room = Room::new(self.past.groups());
-        let [along, across] = displacement;
+        let [along, across, _] = at;
         for (i, (&d, &e)) in along.iter().zip(across).enumerate() {
-            let (push, bend) = room.past(self, d, e);
+            let jet = room.past(self, d, e);
             let strength = self.alpha * self.left[i];
-            forces.curvatures = bend.map(|bend| -strength * bend);
-            forces.value[0][i] += strength * push[0] - d;
-            forces.value[1][i] += strength * push[1] - self.stiffness * e;
-            forces.slope[0][0][i][i] += strength * bend[0] - 1.0;
-            forces.slope[0][1][i][i] += strength * bend[1];
-            forces.slope[1][0][i][i] += strength * bend[1];
-            forces.slope[1][1][i][i] += strength * bend[2] - self.stiffness;
+            forces.curvatures = jet.bend.map(|bend| -strength * bend);
+            forces.add(strength, i, &jet, [d, self.stiffness * e]);
+            forces.slope[0][0][i][i] -= 1.0;
+            forces.slope[1][1][i][i] -= self.stiffness;
         }
-        self.add_own(displacement, &mut forces);
+        self.add_own(at, &mut forces);
         forces
     }
 
     /// Adds the contribution of the step to the groove.
-    fn add_own(&self, [d, e]: &[Stages; 2], forces: &mut Forces) {
+    fn add_own(&self, [d, e, height]: &Unknowns, forces: &mut Forces) {
+        let weights = self.weights(height);
         for i in 0..STAGES {
             for k in 0..STAGES {
-                let (push, bend) = self.of_visit(d[i] - d[k], e[i] - e[k]);
-                let strength = self.alpha * self.carving[i][k];
-                forces.value[0][i] += strength * push[0];
-                forces.value[1][i] += strength * push[1];
-                for (of, by) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let slope = strength * bend[of + by];
-                    forces.slope[of][by][i][i] += slope;
-                    forces.slope[of][by][i][k] -= slope;
+                let jet = self.of_visit(d[i] - d[k], e[i] - e[k]);
+                let strength = self.alpha * self.carving[i][k] * weights[k];
+                forces.add(strength, i, &jet, [0.0; 2]);
+                forces.move_visit(strength, (i, k), &jet);
+                if let Some(depth) = &self.depth {
+                    forces.weigh(-depth.side / depth.limit * strength, (i, k), &jet);
                 }
             }
         }
     }
 
-    /// First and second derivatives of f at this distance.
-    fn of_visit(&self, x: f64, y: f64) -> ([f64; 2], [f64; 3]) {
+    /// f and its derivatives at this distance.
+    fn of_visit(&self, x: f64, y: f64) -> Jet {
         let (along, across) = self.footprint;
         let (g, (g1, g2)) = (along.value(x), along.slope_and_curvature(x));
         let (h, z) = (across.value(y), y / self.width);
         let (h1, h2) = (-z * h / self.width, (z * z - 1.0) * h / (self.width * self.width));
-        ([g1 * h, g * h1], [g2 * h, g1 * h1, g * h2])
+        Jet { value: g * h, push: [g1 * h, g * h1], bend: [g2 * h, g1 * h1, g * h2] }
     }
+}
+
+/// An integral over f, or f itself, with first and second derivatives.
+struct Jet {
+    value: f64,
+    push: [f64; 2],
+    bend: [f64; 3],
+}
+
+/// The coordinates that a force acts on, or that it is differentiated by.
+const PAIRS: [(usize, usize); 4] = [(0, 0), (0, 1), (1, 0), (1, 1)];
+
+impl Forces {
+    /// Adds a groove of this strength under stage i, less the pull of the springs, and derivatives of the groove by
+    /// the position of the stage.
+    fn add(&mut self, strength: f64, i: usize, jet: &Jet, springs: [f64; 2]) {
+        for (of, (push, spring)) in jet.push.iter().zip(springs).enumerate() {
+            self.value[of][i] += strength * push - spring;
+            self.slope[2][of][i][i] -= strength * push;
+        }
+        self.value[2][i] -= strength * jet.value;
+        for (of, by) in PAIRS {
+            self.slope[of][by][i][i] += strength * jet.bend[of + by];
+        }
+    }
+
+    /// Derivatives of the same groove by the position of stage k, which carved it.
+    fn move_visit(&mut self, strength: f64, (i, k): (usize, usize), jet: &Jet) {
+        for of in 0..2 {
+            self.slope[2][of][i][k] += strength * jet.push[of];
+        }
+        for (of, by) in PAIRS {
+            self.slope[of][by][i][k] -= strength * jet.bend[of + by];
+        }
+    }
+
+    /// Derivatives by the height at stage k, on which its weight depends.
+    fn weigh(&mut self, change: f64, (i, k): (usize, usize), jet: &Jet) {
+        for of in 0..2 {
+            self.slope[of][2][i][k] += change * jet.push[of];
+        }
+        self.slope[2][2][i][k] -= change * jet.value;
+    }
+}
+
+impl Jacobian {
+    /// Newton's corrections; `None` if the Jacobian is singular.
+    fn corrections(&self, missed: &Unknowns) -> Option<Unknowns> {
+        let mut corrections = [[0.0; STAGES]; 3];
+        let all = corrections.as_flattened_mut();
+        let missed = missed.as_flattened();
+        if let Some(factors) = &self.limited {
+            all.copy_from_slice(&factors.solve(&std::array::from_fn(|n| missed[n])));
+        } else {
+            let free = self.free.as_ref()?.solve(&std::array::from_fn(|n| missed[n]));
+            all[..2 * STAGES].copy_from_slice(&free);
+        }
+        Some(corrections)
+    }
+}
+
+/// The largest correction; those of heights count relative to a large height.
+fn size([along, across, height]: &Unknowns, heights: &Stages) -> f64 {
+    let largest = |all: &Stages| all.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let relative = height.iter().zip(heights).map(|(c, height)| c.abs() / height.abs().max(1.0));
+    relative.fold(largest(along).max(largest(across)), f64::max)
 }
 
 /// Scratch space for the layers at a stage.
@@ -192,8 +301,8 @@ impl Room {
         Self { groups, layers: vec![[0.0; LANES]; 6 * groups] }
     }
 
-    /// First and second derivatives of ∫ f over the past, at this displacement from the tip.
-    fn past(&mut self, begin: &StageEquations<'_>, d: f64, e: f64) -> ([f64; 2], [f64; 3]) {
+    /// ∫ f over the past, at this displacement from the tip.
+    fn past(&mut self, begin: &StageEquations<'_>, d: f64, e: f64) -> Jet {
         let (of_place, of_past) = self.layers.split_at_mut(3 * self.groups);
         let [phi, slope, bend] = in_three(of_place, self.groups);
         let [value, first, second] = in_three(of_past, self.groups);
@@ -204,10 +313,11 @@ impl Room {
         bend.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
         begin.past.at(d, &mut [&mut *value, &mut *first, &mut *second]);
         let v = begin.width;
-        (
-            [dot(phi, first), dot(slope, value) / v],
-            [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
-        )
+        Jet {
+            value: dot(phi, value),
+            push: [dot(phi, first), dot(slope, value) / v],
+            bend: [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
+        }
     }
 }
 
@@ -237,7 +347,10 @@ mod tests {
         }
         past.remember(&[0.3, 0.9, 1.1], &weighted);
         let inertia = Inertia::new(0.4, 0.6, 0.7);
-        for inertia in [None, Some(&inertia)] {
+        let limit = Depth { limit: 1.7, side: -1.0 };
+        for (inertia, depth) in
+            [(None, None), (Some(&inertia), None), (Some(&inertia), Some(limit))]
+        {
             let equations = StageEquations {
                 footprint: (&tip, Across::central(1.3)),
                 alpha: 1.4,
@@ -250,11 +363,16 @@ mod tests {
                 carving: healing(0.6, 2.0),
                 left: RADAU.c.map(|c| 1.0 - 0.2 * c),
                 inertia,
+                depth,
             };
-            let start =
-                [RADAU.c.map(|c| 0.7 * c - 0.2), RADAU.c.map(|c| 0.4 * c * (1.0 - c) + 0.1)];
-            let jacobian = equations.jacobian(&equations.forces(&start));
-            for m in 0..UNKNOWNS {
+            let start = [
+                RADAU.c.map(|c| 0.7 * c - 0.2),
+                RADAU.c.map(|c| 0.4 * c * (1.0 - c) + 0.1),
+                RADAU.c.map(|c| -1.8 - 0.9 * c),
+            ];
+            let jacobian: [[f64; 3 * STAGES]; 3 * STAGES] =
+                equations.derivatives(&equations.forces(&start));
+            for m in 0..3 * STAGES {
                 let missed = |by: f64| {
                     let mut moved = start;
                     moved.as_flattened_mut()[m] += by;
@@ -262,8 +380,10 @@ mod tests {
                 };
                 let e = 1e-3;
                 let [a, b, c, d] = [e, -e, 2.0 * e, -2.0 * e].map(missed);
+                let at = |missed: &Unknowns, n: usize| missed.as_flattened()[n];
                 for (n, row) in jacobian.iter().enumerate() {
-                    let difference = (8.0 * (a[n] - b[n]) - (c[n] - d[n])) / (12.0 * e);
+                    let [near, far] = [at(&a, n) - at(&b, n), at(&c, n) - at(&d, n)];
+                    let difference = (8.0 * near - far) / (12.0 * e);
                     let miss = (difference - row[m]).abs();
                     assert!(miss < 1e-9, "{n} {m}: {difference} {}", row[m]);
                 }

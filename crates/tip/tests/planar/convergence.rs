@@ -12,6 +12,7 @@ fn problem() -> Problem {
         stiffness: 0.25,
         inertia: None,
         healing: None,
+        depth_limit: None,
         support: |problem, t| problem.r * t,
         force: |_| [0.0; 2],
         start: 0.0,
@@ -43,7 +44,8 @@ fn the_reference_converges_at_order_eight() {
         velocity: 0.7,
         ..problem()
     };
-    for problem in [problem(), wider] {
+    let limited = Problem { depth_limit: Some(5.0), ..problem() };
+    for problem in [problem(), wider, limited] {
         for orders in orders(&problem) {
             println!("{orders:.2?}");
             for order in orders {

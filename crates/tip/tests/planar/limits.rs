@@ -20,12 +20,19 @@ fn beside_one_coordinate(scenario: &PlanarScenario, planar: &Trajectory) -> f64 
 
 #[test]
 fn on_its_line_the_tip_moves_as_in_one_coordinate() {
-    for (alpha, start) in [(1.2, Start::Steady), (1.62, Start::Steady), (1.3, Start::Flat)] {
-        let mut scenario = line((tip(1.0, 1.0), plain()), alpha, 0.7, [0.05, 0.0], 50.0);
+    for (alpha, depth_limit, start) in [
+        (1.2, None, Start::Steady),
+        (1.62, None, Start::Steady),
+        (1.3, None, Start::Flat),
+        (1.4, Some(4.0), Start::Steady),
+        (2.0, Some(2.0), Start::Flat),
+    ] {
+        let wider = Wider { depth_limit, ..plain() };
+        let mut scenario = line((tip(1.0, 1.0), wider), alpha, 0.7, [0.05, 0.0], 50.0);
         scenario.along.start = start;
         let run = run(&scenario).unwrap();
         let error = beside_one_coordinate(&scenario, &run.trajectory);
-        println!("{alpha} {start:?}: {error:.1e}");
+        println!("{alpha} {depth_limit:?} {start:?}: {error:.1e}");
         assert!(error < 5e-9, "{error:e}");
         assert!((0..500).all(|i| run.trajectory.y0(0.1 * f64::from(i)).abs() < 1e-300));
     }
@@ -34,8 +41,8 @@ fn on_its_line_the_tip_moves_as_in_one_coordinate() {
 /// From a flat surface the groove that visits stand for is all that pushes the tip, beside its springs.
 #[test]
 fn visits_carve_the_groove_that_the_tip_is_in() {
-    for healing_time in [None, Some(4.0)] {
-        let wider = Wider { healing_time, ..plain() };
+    for (healing_time, depth_limit) in [(None, None), (Some(4.0), None), (Some(6.0), Some(3.0))] {
+        let wider = Wider { healing_time, depth_limit, ..plain() };
         let mut scenario = line((tip(1.0, 1.3), wider), 1.4, 0.4, [0.0, 0.3], 40.0);
         scenario.along.start = Start::Flat;
         let trajectory = run(&scenario).unwrap().trajectory;
@@ -43,12 +50,17 @@ fn visits_carve_the_groove_that_the_tip_is_in() {
         for t in [14.7, 20.0, 26.3, 33.1, 39.9] {
             let (x, y) = (trajectory.x0(t), trajectory.y0(t));
             let mut force = [t - x, -0.4 * y];
+            let mut height = 0.0;
             for visit in trajectory.residence(t) {
                 let (d, e) = (x - visit.x, (y - visit.y) / 1.3);
                 let strength = 1.4 * visit.weight * (-0.5 * e * e).exp();
                 force[0] += strength * along.slope(d);
                 force[1] -= strength * along.value(d) * e / 1.3;
+                height -= strength * along.value(d);
             }
+            let told = trajectory.height(t);
+            assert_eq!(told.is_some(), depth_limit.is_some());
+            assert!((told.unwrap_or(height) - height).abs() < 5e-9, "{told:?} {height}");
             let velocity = trajectory.velocity(t);
             let miss = [0, 1].map(|j: usize| f64::abs(force[j] - velocity[j]));
             println!("{healing_time:?} {t}: {miss:?}");
@@ -60,16 +72,19 @@ fn visits_carve_the_groove_that_the_tip_is_in() {
 /// What a kick across leaves before the spring has pulled the tip back takes a time of 1/κ_y.
 #[test]
 fn as_the_spring_across_stiffens_the_motion_becomes_that_of_one_coordinate() {
-    let difference = |stiffness: f64| {
-        let scenario = line((tip(1.0, 1.0), plain()), 1.2, stiffness, [0.1, 0.4], 36.0);
-        beside_one_coordinate(&scenario, &run(&scenario).unwrap().trajectory)
-    };
-    let differences = [100.0, 200.0, 400.0, 800.0, 1600.0].map(difference);
-    println!("{differences:?}");
-    for (i, pair) in differences.windows(2).enumerate() {
-        let order = (pair[0] / pair[1]).log2();
-        println!("{order:.3}");
-        assert!((order - 1.0).abs() < 0.1 / f64::from(1 << i), "{order}");
+    for depth_limit in [None, Some(4.0)] {
+        let wider = Wider { depth_limit, ..plain() };
+        let difference = |stiffness: f64| {
+            let scenario = line((tip(1.0, 1.0), wider), 1.2, stiffness, [0.1, 0.4], 36.0);
+            beside_one_coordinate(&scenario, &run(&scenario).unwrap().trajectory)
+        };
+        let differences = [100.0, 200.0, 400.0, 800.0, 1600.0].map(difference);
+        println!("{depth_limit:?} {differences:?}");
+        for (i, pair) in differences.windows(2).enumerate() {
+            let order = (pair[0] / pair[1]).log2();
+            println!("{order:.3}");
+            assert!((order - 1.0).abs() < 0.1 / f64::from(1 << i), "{order}");
+        }
     }
 }
 
@@ -133,30 +148,34 @@ fn memory_is_flat() {
 /// Of a line forth and back, by exponentials and by the lattice: wherever it is interrupted, the rest has the same bits.
 #[test]
 fn a_run_taken_up_again_is_the_same() {
-    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 24.0);
-    let (t, displacement) = (vec![0.0, 6.0, 16.0, 24.0], vec![0.0, 6.0, -4.0, 5.0]);
-    scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
-    let whole = run(&scenario).unwrap().trajectory;
-    for interrupted in [0, 1, 7, 20, 40, 60] {
-        let mut running = PlanarRunning::new(&scenario).unwrap();
-        for _ in 0..interrupted {
-            running.step().unwrap();
+    for depth_limit in [None, Some(3.0)] {
+        let wider = Wider { depth_limit, ..plain() };
+        let mut scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], 24.0);
+        let (t, displacement) = (vec![0.0, 6.0, 16.0, 24.0], vec![0.0, 6.0, -4.0, 5.0]);
+        scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
+        let whole = run(&scenario).unwrap().trajectory;
+        for interrupted in [0, 1, 7, 20, 40, 60] {
+            let mut running = PlanarRunning::new(&scenario).unwrap();
+            for _ in 0..interrupted {
+                running.step().unwrap();
+            }
+            let mut state = State::default();
+            running.save(&mut state);
+            let mut reader = state.reader();
+            let mut resumed = PlanarRunning::resumed(&scenario, &mut reader).unwrap();
+            reader.finish().unwrap();
+            assert_eq!(resumed.work(), running.work());
+            let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
+            assert_eq!(rest, whole.steps()[interrupted..], "{interrupted}");
         }
-        let mut state = State::default();
-        running.save(&mut state);
-        let mut reader = state.reader();
-        let mut resumed = PlanarRunning::resumed(&scenario, &mut reader).unwrap();
-        reader.finish().unwrap();
-        assert_eq!(resumed.work(), running.work());
-        let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
-        assert_eq!(rest, whole.steps()[interrupted..], "{interrupted}");
     }
 }
 
 /// Words that are missing, and words that are no state, are errors or another motion, and never a panic.
 #[test]
 fn a_damaged_state_is_refused() {
-    let scenario = line((tip(1.0, 1.0), plain()), 1.2, 0.25, [0.1, 0.2], 30.0);
+    let wider = Wider { depth_limit: Some(3.0), ..plain() };
+    let scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], 30.0);
     let mut running = PlanarRunning::new(&scenario).unwrap();
     for _ in 0..9 {
         running.step().unwrap();
@@ -219,10 +238,6 @@ fn what_is_not_there_is_refused_by_name() {
     });
     assert_eq!(lobes, PlanarError::Footprint { layers: 2, lobes: true });
     let unavailable = [
-        (
-            "a depth limit",
-            refused(|s| with_law(s, Wider { depth_limit: Some(3.0), ..plain() }, 1.0)),
-        ),
         (
             "a tip without a spring",
             refused(|s| with_law(s, Wider { spring: false, ..plain() }, 0.0)),

@@ -33,6 +33,7 @@ pub(crate) fn problem(scenario: &PlanarScenario, (beta, width): (f64, f64)) -> P
         stiffness: scenario.stiffness_across,
         inertia: model.wider().inertia,
         healing: model.wider().healing_time,
+        depth_limit: model.wider().depth_limit,
         support: |problem, t| problem.r * t,
         force: |_| [0.0; 2],
         start: along.start_time(),
@@ -98,6 +99,32 @@ fn lines_under_the_wider_law_are_those_of_the_reference() {
     }
 }
 
+/// A depth limit with h on both sides of its kink, in series and in collocation, with all else in the extended model.
+#[test]
+fn lines_with_a_depth_limit_are_those_of_the_reference() {
+    for (name, beta, alpha, limit, (inertia, healing_time), crosses) in [
+        ("snaking", 1.0, 1.2, 5.0, (None, None), true),
+        ("shallow", 1.0, 1.8, 1.5, (None, None), false),
+        ("Gaussian", 0.0, 6.0, 3.0, (None, None), false),
+        ("inertia and healing", 1.0, 1.6, 2.0, (Some(0.4), Some(8.0)), false),
+    ] {
+        let wider = Wider { depth_limit: Some(limit), inertia, healing_time, ..plain() };
+        let scenario = line((tip(beta, 1.0), wider), alpha, 0.3, [0.05, 0.2], 36.0);
+        let run = holds(name, &scenario, &problem(&scenario, (beta, 1.0)), 300);
+        // Each step is on one side of the kink, except for round-off.
+        let mut above = 0;
+        for step in run.trajectory.steps() {
+            let heights = step.along.height.unwrap();
+            let all = heights.nodes.iter().chain([&heights.start]);
+            let (low, high) = all.fold((0.0, 0.0), |(a, b): (f64, f64), h| (a.min(*h), b.max(*h)));
+            assert!(low.abs().min(high) < 1e-9, "{name}: {heights:?}");
+            above += usize::from(high > 1e-3);
+        }
+        println!("{name}: {above} of {} steps above", run.trajectory.steps().len());
+        assert_eq!(above > 2, crosses, "{name}");
+    }
+}
+
 /// Pulses along and across; the latter carry the tip off its line by several widths, to both sides.
 #[test]
 fn a_tip_that_wanders_is_followed() {
@@ -124,8 +151,7 @@ fn a_tip_that_wanders_is_followed() {
 }
 
 /// A support on a path through these knots, from where steady motion has it.
-fn on_a_path(path: &[(f64, f64)], inertia: Option<f64>) -> PlanarScenario {
-    let wider = Wider { inertia, ..plain() };
+fn on_a_path(path: &[(f64, f64)], wider: Wider) -> PlanarScenario {
     let (t, displacement): (Vec<f64>, _) = path.iter().copied().unzip();
     let mut scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], t[t.len() - 1]);
     scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
@@ -138,6 +164,7 @@ fn support_on(path: &[(f64, f64)], problem: &Problem, t: f64) -> f64 {
     let piece = path.windows(2).find(|ends| t <= ends[1].0 || ends[0].0 >= last).unwrap();
     let [from, to] = [piece[0], piece[1]];
     let part = (t - from.0) / (to.0 - from.0);
+    // The triple Gaussian leaves the height 0 under a tip in steady motion, whatever b is.
     let lag = problem.r + problem.alpha * (1.0 - (-2.0_f64).exp()) / problem.r;
     14.0 + lag + from.1 + part * (to.1 - from.1)
 }
@@ -146,7 +173,7 @@ fn support_on(path: &[(f64, f64)], problem: &Problem, t: f64) -> f64 {
 #[test]
 fn a_support_on_a_path_is_followed() {
     const PATH: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 9.0), (10.0, 9.5), (18.0, 18.0)];
-    let scenario = on_a_path(&PATH, None);
+    let scenario = on_a_path(&PATH, plain());
     let support = |problem: &Problem, t| support_on(&PATH, problem, t);
     holds("path", &scenario, &Problem { support, ..problem(&scenario, (1.0, 1.0)) }, 360);
 }
@@ -155,8 +182,8 @@ fn a_support_on_a_path_is_followed() {
 #[test]
 fn a_tip_that_is_drawn_back_is_followed() {
     const PATH: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 6.0), (16.0, -4.0), (24.0, 5.0)];
-    for inertia in [None, Some(0.5)] {
-        let scenario = on_a_path(&PATH, inertia);
+    for (inertia, depth_limit) in [(None, None), (Some(0.5), None), (None, Some(2.0))] {
+        let scenario = on_a_path(&PATH, Wider { inertia, depth_limit, ..plain() });
         let support = |problem: &Problem, t| support_on(&PATH, problem, t);
         let problem = Problem { support, ..problem(&scenario, (1.0, 1.0)) };
         let run = holds("trace and retrace", &scenario, &problem, 480);
@@ -185,13 +212,18 @@ fn a_tip_that_swings_back_is_followed() {
     holds("kicked far back", &scenario, &problem(&scenario, (1.0, 1.0)), 300);
 }
 
-/// (name, β, α, κ_y, end, steps of the reference): snaking, stick-slip, tips that are stuck, a stiff spring across.
-const LADDER: [(&str, f64, f64, f64, f64, usize); 5] = [
-    ("snaking", 1.0, 1.2, 0.25, 36.0, 360),
-    ("stick-slip", 1.0, 1.62, 1.0, 36.0, 420),
-    ("stuck", 0.0, 3.0, 0.5, 38.0, 360),
-    ("stuck fast", 1.0, 4.0, 0.5, 31.0, 360),
-    ("stiff spring", 1.0, 1.2, 30.0, 24.0, 400),
+/// (name, β, α, b, κ_y, end, steps of the reference): snaking, stick-slip, tips that are stuck, a stiff spring across.
+type Rung = (&'static str, f64, f64, Option<f64>, f64, f64, usize);
+
+const LADDER: [Rung; 8] = [
+    ("snaking", 1.0, 1.2, None, 0.25, 36.0, 360),
+    ("stick-slip", 1.0, 1.62, None, 1.0, 36.0, 420),
+    ("stuck", 0.0, 3.0, None, 0.5, 38.0, 360),
+    ("stuck fast", 1.0, 4.0, None, 0.5, 31.0, 360),
+    ("stiff spring", 1.0, 1.2, None, 30.0, 24.0, 400),
+    ("stick-slip, b = 10", 1.0, 1.8, Some(10.0), 0.5, 36.0, 420),
+    ("snaking, b = 3", 1.0, 1.5, Some(3.0), 0.2, 36.0, 360),
+    ("stiff spring, b = 3", 1.0, 1.2, Some(3.0), 30.0, 24.0, 400),
 ];
 
 /// The errors of steps add up, and the motions amplify them: the same slack as in one coordinate.
@@ -199,8 +231,9 @@ const SLACK: f64 = 10.0;
 
 #[test]
 fn errors_stay_within_ten_tolerances_from_1e_4_to_1e_10() {
-    for (name, beta, alpha, stiffness, until, steps) in LADDER {
-        let mut scenario = line((tip(beta, 1.0), plain()), alpha, stiffness, [0.05, 0.1], until);
+    for (name, beta, alpha, depth_limit, stiffness, until, steps) in LADDER {
+        let wider = Wider { depth_limit, ..plain() };
+        let mut scenario = line((tip(beta, 1.0), wider), alpha, stiffness, [0.05, 0.1], until);
         let motion = problem(&scenario, (beta, 1.0)).motion(until, steps);
         for digits in 4..=10 {
             let tolerance = 10.0_f64.powi(-digits);

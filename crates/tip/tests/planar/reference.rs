@@ -5,9 +5,11 @@
 //!             y' = α ∫ w f_y(x - x', y - y') e^{-(t-t')/T} dt' - κ_y y + F_y(t)
 //! ```
 //!
+//! with the weight w = e^{-|h|/b} of a depth limit, h the height of the same sum under the tip; 1 without.
+//!
 //! Gauss collocation of four stages, of order 8 at the ends of steps, its equations solved by plain iteration. The integral
 //! over earlier steps is the method's own quadrature, and so is that over the step under way. A steady past is a list of
-//! visits like any other. Nothing here is shared with the library: no layers, no exponentials, no forgetting.
+//! visits like any other. At a zero of h a step ends, found by false position. Nothing here is shared with the library: no layers, no exponentials, no forgetting.
 
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
@@ -38,6 +40,8 @@ pub(crate) struct Problem {
     pub(crate) inertia: Option<f64>,
     /// T
     pub(crate) healing: Option<f64>,
+    /// b
+    pub(crate) depth_limit: Option<f64>,
     pub(crate) support: fn(&Problem, f64) -> f64,
     /// `F_x` and `F_y`.
     pub(crate) force: fn(f64) -> [f64; 2],
@@ -50,7 +54,7 @@ pub(crate) struct Problem {
     pub(crate) steady_past: Option<f64>,
 }
 
-/// Where the tip was, when, and for how long.
+/// Where the tip was, when, and for how long, times w.
 struct Visit {
     t: f64,
     at: [f64; 2],
@@ -70,8 +74,8 @@ impl Footprint {
         Self { terms: vec![(1.0, 0.0), (-beta / 2.0, -2.0), (-beta / 2.0, 2.0)], width }
     }
 
-    /// `f_x` and `f_y`.
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    /// f, `f_x` and `f_y`.
+    fn jet(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let v = self.width;
         let across = (-0.5 * y * y / (v * v)).exp();
         let (mut value, mut slope) = (0.0, 0.0);
@@ -80,7 +84,7 @@ impl Footprint {
             value += term;
             slope -= (x - c) * term;
         }
-        [slope * across, -y / (v * v) * value * across]
+        [value * across, slope * across, -y / (v * v) * value * across]
     }
 }
 
@@ -123,33 +127,103 @@ struct Stages {
     at: [[f64; 2]; STAGES],
     rates: [[f64; 2]; STAGES],
     forces: [[f64; 2]; STAGES],
+    /// w
+    weights: [f64; STAGES],
 }
 
+/// The tip between two steps.
+#[derive(Clone, Copy)]
+struct Tip {
+    t: f64,
+    at: [f64; 2],
+    v: f64,
+    /// Of the kink of |h|: 1 above, -1 below.
+    side: f64,
+}
+
+/// Weights that change by less are those of the solution.
+const SETTLED: f64 = 2e-14;
+/// Heights below this many α are 0.
+const LEVEL: f64 = 1e-14;
+
 impl Problem {
-    /// The motion in so many equal steps.
+    /// The motion in so many equal steps; those that lead across a zero of h in two parts or more.
     pub(crate) fn motion(&self, until: f64, steps: usize) -> Motion {
         let (method, h) = (Method::new(), (until - self.start) / steps as f64);
         let mut visits = self.steady_visits();
-        let (mut at, mut v) = (self.position, self.velocity);
+        let mut tip = Tip { t: self.start, at: self.position, v: self.velocity, side: -1.0 };
+        tip.side = if self.height_at(tip.t, tip.at, &visits) > 0.0 { 1.0 } else { -1.0 };
         let mut rates = [[0.0; 2]; STAGES];
         let mut motion = Motion { t: vec![], position: vec![], velocity: vec![] };
         for n in 0..=steps {
-            let t = self.start + h * n as f64;
-            let force = self.force_at(t, at, &visits);
-            motion.t.push(t);
-            motion.position.push(at);
-            motion.velocity.push(if self.inertia.is_some() { [v, force[1]] } else { force });
-            let stages = self.stages((&method, t, h), (at, v), &visits, &rates);
-            for k in 0..STAGES {
-                let spent = h * method.b[k];
-                visits.push(Visit { t: t + h * method.c[k], at: stages.at[k], spent });
-                (0..2).for_each(|j| at[j] += spent * stages.rates[k][j]);
-                let lost = stages.forces[k][0] - stages.rates[k][0];
-                v += self.inertia.map_or(0.0, |mass| spent * lost / mass);
+            tip.t = self.start + h * n as f64;
+            let force = self.jet_at(tip.t, tip.at, &visits).1;
+            motion.t.push(tip.t);
+            motion.position.push(tip.at);
+            motion.velocity.push(if self.inertia.is_some() { [tip.v, force[1]] } else { force });
+            let mut rest = h;
+            while rest > 1e-12 {
+                rest -= self.advance((&method, rest), &mut tip, &mut visits, &mut rates);
             }
-            rates = stages.rates;
         }
         motion
+    }
+
+    /// Makes a step of this length, or to the next zero of h if that is within it; its length.
+    fn advance(
+        &self,
+        (method, length): (&Method, f64),
+        tip: &mut Tip,
+        visits: &mut Vec<Visit>,
+        rates: &mut [[f64; 2]; STAGES],
+    ) -> f64 {
+        let before = visits.len();
+        let mut attempt = |h: f64| {
+            visits.truncate(before);
+            let mut end = *tip;
+            let stages = self.stages((method, tip.t, h), tip, visits, rates);
+            for k in 0..STAGES {
+                let spent = h * method.b[k];
+                let t = tip.t + h * method.c[k];
+                visits.push(Visit { t, at: stages.at[k], spent: spent * stages.weights[k] });
+                (0..2).for_each(|j| end.at[j] += spent * stages.rates[k][j]);
+                let lost = stages.forces[k][0] - stages.rates[k][0];
+                end.v += self.inertia.map_or(0.0, |mass| spent * lost / mass);
+            }
+            end.t = tip.t + h;
+            let height =
+                self.depth_limit.map_or(tip.side, |_| self.height_at(end.t, end.at, visits));
+            (end, stages.rates, tip.side * height)
+        };
+        let level = LEVEL * self.alpha;
+        let (mut end, mut last, height) = attempt(length);
+        let mut made = length;
+        if height < -level {
+            let (mut low, mut high) =
+                ((0.0, attempt(1e-6 * length).2.max(level)), (length, height));
+            let mut side = 0;
+            loop {
+                made = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+                let height;
+                (end, last, height) = attempt(made);
+                if height.abs() <= level || high.0 - low.0 < 1e-14 {
+                    break;
+                }
+                // Halving the value of an end that stays (Illinois).
+                if height > 0.0 {
+                    low = (made, height);
+                    high.1 *= if side == 1 { 0.5 } else { 1.0 };
+                    side = 1;
+                } else {
+                    high = (made, height);
+                    low.1 *= if side == -1 { 0.5 } else { 1.0 };
+                    side = -1;
+                }
+            }
+            end.side = -tip.side;
+        }
+        (*tip, *rates) = (end, last);
+        made
     }
 
     /// Visits of a tip that moved along the line with the velocity r for ever.
@@ -165,14 +239,29 @@ impl Problem {
             at: [end - behind, 0.0],
             spent,
         };
-        (0..panels).flat_map(panel).map(visit).collect()
+        let mut visits: Vec<Visit> = (0..panels).flat_map(panel).map(visit).collect();
+        let weight = self.steady_weight(self.height_at(self.start, [end, 0.0], &visits));
+        visits.iter_mut().for_each(|visit| visit.spent *= weight);
+        visits
+    }
+
+    /// w = e^{-w|h|/b}, where h is the height that the same motion leaves without a depth limit.
+    fn steady_weight(&self, height: f64) -> f64 {
+        let Some(limit) = self.depth_limit else { return 1.0 };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let is_low = middle < f64::exp(-middle * height.abs() / limit);
+            (low, high) = if is_low { (middle, high) } else { (low, middle) };
+        }
+        low
     }
 
     /// The stages of a step, from x' and y' in the step before.
     fn stages(
         &self,
         step: (&Method, f64, f64),
-        (at, v): ([f64; 2], f64),
+        Tip { at, v, side, .. }: &Tip,
         visits: &[Visit],
         before: &[[f64; 2]; STAGES],
     ) -> Stages {
@@ -181,60 +270,79 @@ impl Problem {
             h * (0..STAGES).map(|k| method.a[i][k] * values[k][j]).sum::<f64>()
         };
         let enough = ROUNDINGS * f64::EPSILON * at[0].abs().max(1.0);
-        let mut stages = Stages { at: [at; STAGES], rates: *before, forces: *before };
+        let mut stages =
+            Stages { at: [*at; STAGES], rates: *before, forces: *before, weights: [1.0; STAGES] };
+        let mut settled = self.depth_limit.is_none();
         for n in 0..MOST_ITERATIONS {
             let rates = &stages.rates;
             let new = std::array::from_fn(|i| [0, 1].map(|j| at[j] + carried(rates, i, j)));
             let old = std::mem::replace(&mut stages.at, new);
             let pairs = old.iter().flatten().zip(new.iter().flatten());
-            if pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < enough && n > 0 {
+            if pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < enough && n > 0 && settled {
                 return stages;
             }
-            stages.forces = std::array::from_fn(|i| self.force_on_stage(step, &new, i, visits));
+            let told: [_; STAGES] = std::array::from_fn(|i| {
+                self.jet_on_stage(step, (&new, &stages.weights), i, visits)
+            });
+            stages.forces = told.map(|(_, force)| force);
+            if let Some(limit) = self.depth_limit {
+                let weights = told.map(|(height, _)| (-side * height / limit).exp());
+                let pairs = weights.iter().zip(&stages.weights);
+                settled = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < SETTLED;
+                stages.weights = weights;
+            }
             let mut rates = stages.forces;
             if let Some(mass) = self.inertia {
                 let gains: [_; STAGES] = std::array::from_fn(|i| {
                     [(stages.forces[i][0] - stages.rates[i][0]) / mass, 0.0]
                 });
-                (0..STAGES).for_each(|i| rates[i][0] = v + carried(&gains, i, 0));
+                (0..STAGES).for_each(|i| rates[i][0] = *v + carried(&gains, i, 0));
             }
             stages.rates = rates;
         }
         panic!("the iteration of the reference does not converge: take shorter steps");
     }
 
-    /// All that acts at a stage: earlier visits, and the step under way.
-    fn force_on_stage(
+    /// Height and forces at a stage: earlier visits, and the step under way.
+    fn jet_on_stage(
         &self,
         (method, t, h): (&Method, f64, f64),
-        stages: &[[f64; 2]; STAGES],
+        (stages, weights): (&[[f64; 2]; STAGES], &[f64; STAGES]),
         i: usize,
         visits: &[Visit],
-    ) -> [f64; 2] {
+    ) -> (f64, [f64; 2]) {
         let now = t + h * method.c[i];
-        let mut force = self.force_at(now, stages[i], visits);
+        let mut jet = self.jet_at(now, stages[i], visits);
         for k in 0..STAGES {
-            let spent = h * method.a[i][k];
+            let spent = h * method.a[i][k] * weights[k];
             let visit = Visit { t: t + h * method.c[k], at: stages[k], spent };
-            self.add(now, stages[i], &visit, &mut force);
+            self.add(now, stages[i], &visit, &mut jet);
         }
-        force
+        jet
     }
 
-    /// All that acts at a place: the sum over these visits, springs, and external forces.
-    fn force_at(&self, t: f64, at: [f64; 2], visits: &[Visit]) -> [f64; 2] {
+    fn height_at(&self, t: f64, at: [f64; 2], visits: &[Visit]) -> f64 {
+        self.jet_at(t, at, visits).0
+    }
+
+    /// Height of the surface at a place and all that acts there: the sum over these visits, springs, and external
+    /// forces.
+    fn jet_at(&self, t: f64, at: [f64; 2], visits: &[Visit]) -> (f64, [f64; 2]) {
         let mut force = (self.force)(t);
         force[0] += (self.support)(self, t) - at[0];
         force[1] -= self.stiffness * at[1];
+        let mut jet = (0.0, force);
         for visit in visits {
-            self.add(t, at, visit, &mut force);
+            self.add(t, at, visit, &mut jet);
         }
-        force
+        jet
     }
 
-    fn add(&self, t: f64, at: [f64; 2], visit: &Visit, force: &mut [f64; 2]) {
+    fn add(&self, t: f64, at: [f64; 2], visit: &Visit, (height, force): &mut (f64, [f64; 2])) {
         let left = self.healing.map_or(1.0, |time| (-(t - visit.t) / time).exp());
-        let gradient = self.footprint.gradient([at[0] - visit.at[0], at[1] - visit.at[1]]);
-        (0..2).for_each(|j| force[j] += self.alpha * left * visit.spent * gradient[j]);
+        let jet = self.footprint.jet([at[0] - visit.at[0], at[1] - visit.at[1]]);
+        let strength = self.alpha * left * visit.spent;
+        *height -= strength * jet[0];
+        (0..2).for_each(|j| force[j] += strength * jet[j + 1]);
     }
 }

@@ -3,6 +3,7 @@
 
 use super::super::corner::Corner;
 use super::super::{Integrator, Retry};
+use super::series::Series;
 use super::values::{Block, Outlook, Table};
 use super::{length, visits};
 use crate::collocation::STAGES;
@@ -14,7 +15,7 @@ use crate::memory::Memory;
 const SHARE_OF_DENSE: f64 = 0.05;
 
 /// What becomes of a step at the corner of |h|.
-pub(super) enum AtCorner {
+pub(crate) enum AtCorner {
     /// It keeps to its side.
     Apart,
     /// It is to end there, so long after its start.
@@ -37,14 +38,14 @@ impl<M: Memory> Integrator<'_, M> {
         let Some((corner, limit)) = self.corner.as_ref().zip(self.model.wider().depth_limit) else {
             return f64::INFINITY;
         };
-        let felt = (self.model.alpha() / limit).abs() + SHARE_OF_DENSE / depth(corner);
-        length::length(self.taylor.chain.height().coefficients(), error / felt)
+        let strength = (self.model.alpha() / limit).abs();
+        length_by_heights(corner, self.taylor.chain.height(), strength, error)
     }
 
     /// How steep the heights over this length are, as an interpolant of them errs beside one of the displacement.
     pub(super) fn steepness_of_heights(&self, length: f64) -> f64 {
         let Some(corner) = &self.corner else { return 0.0 };
-        Outlook::of(&self.taylor.chain.height().over(length)).steepest / depth(corner)
+        steepness(corner, &self.taylor.chain.height().over(length))
     }
 
     /// Heights at the nodes of a step of this length, where there is a depth limit.
@@ -76,21 +77,43 @@ impl<M: Memory> Integrator<'_, M> {
         let Some((corner, heights)) = self.corner.as_ref().zip(heights) else {
             return AtCorner::Apart;
         };
-        if corner.keeps(heights.nodes) {
-            return AtCorner::Apart;
-        }
-        let h = total / heights.count() as f64;
-        for i in 0..heights.count() {
-            let before = i as f64 * h;
-            match corner.passed(&heights.piece(i), (self.t + before, h)) {
-                Ok(()) => {}
-                Err(Retry::ToKnot(shorter)) => return AtCorner::Ends(before + shorter),
-                Err(_) if i > 0 => return AtCorner::Ends(before),
-                Err(_) => return AtCorner::OtherSide,
-            }
-        }
-        AtCorner::Apart
+        at_corner(corner, &heights, (self.t, total))
     }
+}
+
+/// How long a step may be for its heights to err by so little that it does not show in a displacement; `strength` is
+/// α/b.
+pub(crate) fn length_by_heights(
+    corner: &Corner,
+    height: &Series,
+    strength: f64,
+    error: f64,
+) -> f64 {
+    let felt = strength + SHARE_OF_DENSE / depth(corner);
+    length::length(height.coefficients(), error / felt)
+}
+
+/// How steep heights are over a step, as an interpolant of them errs beside one of the displacement.
+pub(crate) fn steepness(corner: &Corner, over_step: &Series) -> f64 {
+    Outlook::of(over_step).steepest / depth(corner)
+}
+
+/// Where the heights of the pieces of a step from t lead.
+pub(crate) fn at_corner(corner: &Corner, heights: &Along, (t, total): (f64, f64)) -> AtCorner {
+    if corner.keeps(heights.nodes) {
+        return AtCorner::Apart;
+    }
+    let h = total / heights.count() as f64;
+    for i in 0..heights.count() {
+        let before = i as f64 * h;
+        match corner.passed(&heights.piece(i), (t + before, h)) {
+            Ok(()) => {}
+            Err(Retry::ToKnot(shorter)) => return AtCorner::Ends(before + shorter),
+            Err(_) if i > 0 => return AtCorner::Ends(before),
+            Err(_) => return AtCorner::OtherSide,
+        }
+    }
+    AtCorner::Apart
 }
 
 /// As large as a height is, its error counts relative to it.
@@ -100,9 +123,9 @@ fn depth(corner: &Corner) -> f64 {
 
 /// Heights along a step, at the nodes of all its pieces.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Along<'a> {
-    start: f64,
-    nodes: &'a [f64],
+pub(crate) struct Along<'a> {
+    pub(crate) start: f64,
+    pub(crate) nodes: &'a [f64],
 }
 
 impl Along<'_> {
@@ -111,7 +134,7 @@ impl Along<'_> {
         self.nodes.len() / STAGES
     }
 
-    pub(super) fn piece(&self, i: usize) -> Heights {
+    pub(crate) fn piece(&self, i: usize) -> Heights {
         let nodes = self.nodes.as_chunks().0;
         let start = if i == 0 { self.start } else { nodes[i - 1][STAGES - 1] };
         Heights { start, nodes: nodes[i] }

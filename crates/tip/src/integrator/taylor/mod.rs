@@ -4,7 +4,7 @@
 
 mod chain;
 mod expansion;
-mod heights;
+pub(crate) mod heights;
 pub(crate) mod length;
 pub(crate) mod pieces;
 mod plan;

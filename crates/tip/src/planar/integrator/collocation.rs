@@ -1,14 +1,16 @@
 //! Steps by collocation, with their error control.
 
 use super::super::scenario::PlanarError;
-use super::super::stages::{Solution, StageEquations};
+use super::super::stages::{Solution, StageEquations, Unknowns};
 use super::Integrator;
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::history::Heights;
 use crate::integrator::control::OVERSHOOT;
+use crate::integrator::corner::Corner;
 use crate::integrator::landing::landing;
-use crate::integrator::{COASTING, ENOUGH, IntegrationError};
+use crate::integrator::{COASTING, ENOUGH, IntegrationError, Retry};
 use crate::memory::longest_look;
-use crate::step::{self, Inertia, carving, healing};
+use crate::step::{self, Depth, Inertia, carving, healing};
 
 /// Weight of the defect of the motion across, as far as its change from step to step is not looked at.
 const WEIGHT_OF_DEFECT: f64 = 1.5;
@@ -27,10 +29,15 @@ impl Integrator<'_> {
             let (t, tolerance) = (self.t, self.control.tolerance());
             h = landing(t, h, end).ok_or(IntegrationError::StepTooSmall { t, h, tolerance })?;
             match self.attempt(h) {
-                Ok((solution, spent)) => return self.accept_stages(&solution, h, &spent),
-                Err(shorter) => {
+                Ok(solution) => return self.accept_stages(&solution, h),
+                Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
                     h = shorter;
+                }
+                // As in one coordinate.
+                Err(Retry::OtherSide) => h *= if self.turn() { 1.0 } else { 0.3 },
+                Err(Retry::ToKnot(shorter)) => {
+                    h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
                 }
             }
         }
@@ -46,8 +53,8 @@ impl Integrator<'_> {
         step::longest_displacement(self.model.tip().band())
     }
 
-    /// A step of length h, with the undecayed part of each node at its end, or the shorter length to try instead.
-    fn attempt(&mut self, h: f64) -> Result<(Solution, Stages), f64> {
+    /// A step of length h, or what to try instead.
+    fn attempt(&mut self, h: f64) -> Result<Solution, Retry> {
         let longest = self.longest_displacement();
         let mass = self.wider().inertia;
         let inertia = mass.map(|mass| Inertia::new(mass, h, self.velocity[0]));
@@ -57,22 +64,29 @@ impl Integrator<'_> {
         let room = (self.frame.radius() - self.frame.eta(self.y).abs()) * self.frame.width();
         let equations = self.equations(h, inertia.as_ref());
         let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
-        let spent = equations.carving[STAGES - 1];
         self.work.newton_iterations += solved.iterations;
-        let Some(solution) = solved.solution else { return Err(0.3 * h) };
+        let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
         let [along, across] = &solution.displacement;
         let moves = along.iter().zip(across).map(|(d, e)| self.effective([*d, *e]));
         let moved = moves.fold(0.0, f64::max);
         if moved > OVERSHOOT * longest && !self.control.is_fixed() {
-            return Err(h * (0.8 * OVERSHOOT * longest / moved).max(0.1));
+            return Err(Retry::Shorter(h * (0.8 * OVERSHOOT * longest / moved).max(0.1)));
         }
         let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
         let lowest = along.iter().copied().fold(0.0, f64::min);
         if farthest > room || lowest < self.past.lowest(self.past.behind()) {
-            return Err(0.5 * h);
+            return Err(Retry::Shorter(0.5 * h));
         }
-        self.judge(&solution, h)?;
-        Ok((solution, spent))
+        if let Some((corner, heights)) = self.corner.as_ref().zip(self.heights(&solution)) {
+            corner.passed(&heights, (self.t, h))?;
+        }
+        self.judge(&solution, h).map_err(Retry::Shorter)?;
+        Ok(solution)
+    }
+
+    fn heights(&self, solution: &Solution) -> Option<Heights> {
+        let (corner, nodes) = self.corner.as_ref().zip(solution.height)?;
+        Some(Heights { start: corner.height, nodes })
     }
 
     fn equations<'b>(&'b self, h: f64, inertia: Option<&'b Inertia>) -> StageEquations<'b> {
@@ -95,11 +109,21 @@ impl Integrator<'_> {
             carving: wider.healing_time.map_or_else(|| carving(h), |time| healing(h, time)),
             left: RADAU.c.map(|c| wider.left_after(h * c)),
             inertia,
+            depth: self
+                .corner
+                .zip(wider.depth_limit)
+                .map(|(corner, limit)| Depth { limit, side: corner.side }),
         }
     }
 
     /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
-    fn guess(&self, h: f64, longest: f64) -> [Stages; 2] {
+    fn guess(&self, h: f64, longest: f64) -> Unknowns {
+        let [along, across] = self.way_ahead(h, longest);
+        let heights = |corner: &Corner| corner.ahead(self.last.as_ref().map(|last| &last.along), h);
+        [along, across, self.corner.as_ref().map_or([0.0; STAGES], heights)]
+    }
+
+    fn way_ahead(&self, h: f64, longest: f64) -> [Stages; 2] {
         if let Some(last) = self.last.filter(|last| h <= 1.5 * last.along.h) {
             let ratio = h / last.along.h;
             let guess = [last.along.displacement, last.across].map(|d| RADAU.continued(&d, ratio));
@@ -130,18 +154,23 @@ impl Integrator<'_> {
         let defect = WEIGHT_OF_DEFECT * h * step::defect(e, h, self.velocity[1]).abs();
         let interpolation = before(e, |last| &last.across);
         let beside = soft * RADAU.defect_to_error * defect + (1.0 - soft) * interpolation;
+        let last = self.last.as_ref().map(|last| &last.along);
+        let of_heights = self.corner.as_ref().zip(self.heights(solution));
+        let of_heights =
+            of_heights.map_or(0.0, |(corner, heights)| corner.error(&heights, last, h));
+        // NaN remains NaN.
+        let beside = if of_heights <= beside { beside } else { of_heights };
         self.control.judge(signs, h, (1.0 + along + mixed.abs()).max(0.0), beside)
     }
 
-    fn accept_stages(
-        &mut self,
-        solution: &Solution,
-        h: f64,
-        spent: &Stages,
-    ) -> Result<(), PlanarError> {
+    fn accept_stages(&mut self, solution: &Solution, h: f64) -> Result<(), PlanarError> {
         let [d, e] = solution.displacement;
-        let step = self.step_to(h, [d, e]);
-        self.remember((&d, &e), spent, h)?;
+        let heights = self.heights(solution);
+        let step = self.step_to(h, [d, e], heights);
+        self.remember((&d, &e), &solution.spent, h)?;
+        if let Some((corner, heights)) = self.corner.as_mut().zip(heights) {
+            corner.arrive(&heights, (self.t, h));
+        }
         self.velocity = [d, e].map(|d| step::velocity_at_end(&d, h));
         self.switch.made(h * self.fastest(solution.curvatures), self.chain.order());
         self.accept(step);

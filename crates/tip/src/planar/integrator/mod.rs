@@ -14,8 +14,10 @@ use super::past::{Past, TooFar};
 use super::scenario::{PlanarError, PlanarScenario};
 use crate::collocation::Stages;
 use crate::footprint::Across;
+use crate::history::Heights;
 use crate::integrator::Work;
 use crate::integrator::control::Control;
+use crate::integrator::corner::Corner;
 use crate::integrator::taylor::switch::Switch;
 use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
@@ -39,6 +41,8 @@ pub(super) struct Integrator<'a> {
     control: Control,
     chain: Chain,
     visits: Visits,
+    /// The kink of |h|, with a depth limit.
+    corner: Option<Corner>,
     switch: Switch,
     /// End time of the present series or stages; steps already made but not yet returned lie before it.
     t: f64,
@@ -91,6 +95,7 @@ impl<'a> Integrator<'a> {
             chain: Chain::new(length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT)),
             visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
             switch: Switch::new(model.wider().inertia.is_some()),
+            corner: None,
             model,
             footprint,
             stiffness: scenario.stiffness_across,
@@ -113,6 +118,7 @@ impl<'a> Integrator<'a> {
         if along.start == Start::Steady {
             integrator.remember_steady(along.kick);
         }
+        integrator.corner = Corner::of(model, integrator.height_now(), target);
         Ok(integrator)
     }
 
@@ -254,6 +260,21 @@ impl<'a> Integrator<'a> {
         ]
     }
 
+    /// Height of the surface under the tip.
+    fn height_now(&self) -> f64 {
+        let groups = self.past.groups();
+        let mut room: [Vec<Lanes>; 4] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
+        let [phi, value, slope, curvature] = &mut room;
+        self.past.at(0.0, &mut [&mut *value, slope, curvature]);
+        values(self.frame.eta(self.y), self.model.alpha(), phi);
+        -super::chain::dot(phi, value)
+    }
+
+    /// Changes the side of the kink for the next attempt; false if the other side has been tried.
+    fn turn(&mut self) -> bool {
+        self.corner.as_mut().is_some_and(Corner::turn)
+    }
+
     /// Accepts a step that ends at the present position of the tip.
     fn accept(&mut self, step: Step) {
         self.extension = step.along.extension_at_end(self.support.velocity(self.t));
@@ -263,9 +284,9 @@ impl<'a> Integrator<'a> {
     }
 
     /// A step from the present position of the tip.
-    fn step_to(&self, h: f64, [along, across]: [Stages; 2]) -> Step {
+    fn step_to(&self, h: f64, [along, across]: [Stages; 2], height: Option<Heights>) -> Step {
         let (t, extension) = (self.t, self.extension);
-        let along = crate::Step { t, h, extension, displacement: along, height: None };
+        let along = crate::Step { t, h, extension, displacement: along, height };
         Step { along, y: self.y, across }
     }
 }

@@ -15,6 +15,7 @@ impl Saved for Integrator<'_> {
         }
         save_steps(self.last.iter(), state);
         save_steps(self.made.iter(), state);
+        self.corner.iter().for_each(|corner| corner.save(state));
         let Work { steps, rejected, newton_iterations, series, switches } = self.work;
         for count in [steps, rejected, newton_iterations, series, switches] {
             state.count(count);
@@ -30,6 +31,14 @@ impl Saved for Integrator<'_> {
         self.velocity = [state.finite()?, state.finite()?];
         self.last = restored_steps(state)?.pop();
         self.made = restored_steps(state)?.into();
+        if let Some(corner) = &mut self.corner {
+            corner.restore(state)?;
+        }
+        let is_limited = |step: &Step| step.along.height.is_some();
+        let all = self.last.iter().chain(&self.made);
+        if all.into_iter().any(|step| is_limited(step) != self.corner.is_some()) {
+            return Err(Damaged::OutOfRange);
+        }
         self.work = Work {
             steps: restored_count(state)?,
             rejected: restored_count(state)?,

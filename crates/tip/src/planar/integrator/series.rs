@@ -4,7 +4,9 @@ use super::super::chain::Acting;
 use super::super::scenario::PlanarError;
 use super::Integrator;
 use crate::collocation::STAGES;
+use crate::elementary::exp;
 use crate::integrator::landing::landing;
+use crate::integrator::taylor::heights::{self, Along, AtCorner, at_corner};
 use crate::integrator::taylor::pieces::{self, MOST_PIECES};
 use crate::integrator::taylor::values::Outlook;
 use crate::integrator::taylor::visits;
@@ -22,6 +24,17 @@ struct Plan {
     fastest: f64,
 }
 
+/// Number of sides of the kink of |h|.
+const SIDES: usize = 2;
+
+/// Result of a plan.
+enum Made {
+    Step,
+    /// The step must be made on the other side of the kink.
+    OtherSide,
+    Nothing,
+}
+
 impl Integrator<'_> {
     /// Makes a step: its pieces wait, the memory knows of all of it. False where collocation is to make it.
     pub(super) fn step_by_series(&mut self, until: f64) -> Result<bool, PlanarError> {
@@ -29,8 +42,7 @@ impl Integrator<'_> {
             return Ok(false);
         }
         let end = self.next_end(until);
-        let plan = if self.look_ahead() { self.plan(end) } else { None };
-        let made = plan.map_or(Ok(false), |plan| self.make(&plan, end))?;
+        let made = self.expand(end)?;
         if !made && self.switch.left_series() {
             self.work.switches += 1;
             if let Some(last) = &self.last {
@@ -38,6 +50,20 @@ impl Integrator<'_> {
             }
         }
         Ok(made)
+    }
+
+    /// Makes a step, if there is a series for it that leads farther than collocation.
+    fn expand(&mut self, end: f64) -> Result<bool, PlanarError> {
+        for _ in 0..SIDES {
+            let plan = if self.look_ahead() { self.plan(end) } else { None };
+            let Some(plan) = plan else { return Ok(false) };
+            match self.make(&plan, end)? {
+                Made::Step => return Ok(true),
+                Made::OtherSide if self.turn() => {}
+                Made::OtherSide | Made::Nothing => return Ok(false),
+            }
+        }
+        Ok(false)
     }
 
     /// The series from here on; false where there is none.
@@ -53,7 +79,9 @@ impl Integrator<'_> {
                 return false;
             }
         }
+        self.chain.stand_at(self.frame.eta(self.y));
         let acting = Acting {
+            depth: self.weight_now(),
             stiffness: self.stiffness,
             support: self.support.velocity(self.t),
             healing: self.healing(),
@@ -65,6 +93,13 @@ impl Integrator<'_> {
         };
         self.chain.run(&acting);
         true
+    }
+
+    /// w now and σ/b, with a depth limit, from the series as it starts.
+    fn weight_now(&mut self) -> Option<(f64, f64)> {
+        let (corner, limit) = self.corner.as_mut().zip(self.model.wider().depth_limit)?;
+        corner.stand_at(-self.chain.depth_now());
+        Some((exp(-corner.side * corner.height / limit), corner.side / limit))
     }
 
     /// How long a step, in how many pieces; `None` where collocation gets farther.
@@ -82,6 +117,11 @@ impl Integrator<'_> {
             }
             over = over.min(of(&coasting[1..=order]));
         }
+        if let Some((corner, limit)) = self.corner.as_ref().zip(self.wider().depth_limit) {
+            let strength = (self.model.alpha() / limit).abs();
+            let height = self.chain.height();
+            over = over.min(heights::length_by_heights(corner, height, strength, error));
+        }
         over = over.min(self.longest_step()).min(self.longest_healing());
         let limited = self.reach_of_piece();
         let longest = (FARTHEST * limited).min(self.visits.farthest(over * self.healing()));
@@ -97,7 +137,9 @@ impl Integrator<'_> {
             ahead = outlook(over);
         }
         let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
-        let steepest = ahead[0].steepest.max(ahead[1].steepest);
+        let of_heights = |corner| heights::steepness(corner, &self.chain.height().over(over));
+        let of_heights = self.corner.as_ref().map_or(0.0, of_heights);
+        let steepest = ahead[0].steepest.max(ahead[1].steepest).max(of_heights);
         let part = pieces::longest(steepest, error);
         let piece = over * part.min(limited / moved(&ahead).max(f64::MIN_POSITIVE));
         let length = over.min(MOST_PIECES as f64 * piece);
@@ -137,27 +179,42 @@ impl Integrator<'_> {
         REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
     }
 
-    /// The pieces of a step, shortened to where exponentials and layers hold.
-    fn make(&mut self, plan: &Plan, end: f64) -> Result<bool, PlanarError> {
+    /// The pieces of a step, shortened to where exponentials, layers and the side of the kink are valid.
+    fn make(&mut self, plan: &Plan, end: f64) -> Result<Made, PlanarError> {
         let Plan { mut length, mut pieces, fastest } = *plan;
         for _ in 0..MOST_SHORTENINGS {
-            let Some(total) = landing(self.t, length, end) else { return Ok(false) };
+            let Some(total) = landing(self.t, length, end) else { return Ok(Made::Nothing) };
             let nodes = pieces::nodes(pieces);
             let [x, y] = self.chain.displacement();
-            let (mut room_x, mut room_y) = (pieces::ROOM_FOR_NODES, pieces::ROOM_FOR_NODES);
-            let along = nodes.table.sums(&x.over(total), &mut room_x);
-            let across = nodes.table.sums(&y.over(total), &mut room_y);
-            let Some(shorter) = self.broken(&nodes.parts, (along, across)) else {
-                self.remember_series(fastest, total)?;
-                self.accept_series((along, across), total);
-                return Ok(true);
+            let mut room = [pieces::ROOM_FOR_NODES; 3];
+            let [room_x, room_y, room_height] = &mut room;
+            let along = nodes.table.sums(&x.over(total), room_x);
+            let across = nodes.table.sums(&y.over(total), room_y);
+            let height = self.corner.map(|corner| Along {
+                start: corner.height,
+                nodes: nodes.table.sums(&self.chain.height().over(total), room_height),
+            });
+            let met =
+                self.corner.as_ref().zip(height).map_or(AtCorner::Apart, |(corner, height)| {
+                    at_corner(corner, &height, (self.t, total))
+                });
+            let shorter = match met {
+                AtCorner::Apart => {
+                    let Some(shorter) = self.broken(&nodes.parts, (along, across)) else {
+                        self.remember_series(fastest, total)?;
+                        self.accept_series((along, across), height, total);
+                        return Ok(Made::Step);
+                    };
+                    shorter * total
+                }
+                AtCorner::Ends(at) => at,
+                AtCorner::OtherSide => return Ok(Made::OtherSide),
             };
-            let shorter = shorter * total;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             let fewer = (pieces as f64 * shorter / length).ceil() as usize;
             (pieces, length) = (fewer.clamp(1, pieces), shorter);
         }
-        Ok(false)
+        Ok(Made::Nothing)
     }
 
     /// A part of a step that goes too far back for the exponentials, or too far across for the layers.
@@ -174,7 +231,12 @@ impl Integrator<'_> {
     }
 
     /// Hands out the pieces, and moves the tip to the end of the last.
-    fn accept_series(&mut self, (along, across): (&[f64], &[f64]), total: f64) {
+    fn accept_series(
+        &mut self,
+        (along, across): (&[f64], &[f64]),
+        heights: Option<Along>,
+        total: f64,
+    ) {
         let start = self.t;
         let (along, across) = (along.as_chunks::<STAGES>().0, across.as_chunks::<STAGES>().0);
         let mut before = [0.0; 2];
@@ -182,8 +244,14 @@ impl Integrator<'_> {
             let part = (i + 1) as f64 / along.len() as f64;
             // Ends are representable times.
             let end = if i + 1 < along.len() { start + part * total } else { start + total };
-            let step =
-                self.step_to(end - self.t, [x.map(|x| x - before[0]), y.map(|y| y - before[1])]);
+            let moved = [x.map(|x| x - before[0]), y.map(|y| y - before[1])];
+            let height = heights.map(|heights| heights.piece(i));
+            let step = self.step_to(end - self.t, moved, height);
+            if i + 1 == along.len()
+                && let Some((corner, height)) = self.corner.as_mut().zip(height)
+            {
+                corner.arrive(&height, (step.along.t, step.along.h));
+            }
             before = [x[STAGES - 1], y[STAGES - 1]];
             self.accept(step);
         }
@@ -202,6 +270,11 @@ impl Integrator<'_> {
         let mut room = [0.0; visits::MOST_NODES];
         let weights = &mut room[..along.len()];
         weights.iter_mut().zip(&rule.weights).for_each(|(weight, spent)| *weight = spent * total);
+        if self.corner.is_some() {
+            let mut room = visits::ROOM;
+            let felt = rule.table.sums(&self.chain.weights().over(total), &mut room);
+            weights.iter_mut().zip(felt).for_each(|(weight, felt)| *weight *= *felt);
+        }
         if healing > 0.0 {
             visits::fade(&rule.nodes, healing, weights);
         }

@@ -101,11 +101,8 @@ impl Relief {
     /// Noise on grid points `from`, `from` + spacing, … up to `to`.
     #[must_use]
     pub fn noise(noise: Noise, from: f64, to: f64) -> Self {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let points = ((to - from) / noise.spacing).ceil().max(3.0) as usize + 1;
-        let mut rng = ChaCha8Rng::seed_from_u64(noise.seed);
-        let height = |_| noise.amplitude * rng.random_range(-1.0..=1.0);
-        let u: Vec<f64> = (0..points).map(height).collect();
+        let points = noise_points(noise, from, to);
+        let u = noise_heights(noise, points, 0);
         #[expect(clippy::cast_precision_loss, reason = "a count")]
         let x = (0..points).map(|i| from + noise.spacing * i as f64).collect();
         Self(Shape::Spline(CubicSpline::through(x, u)))
@@ -213,14 +210,21 @@ impl Relief {
     /// at most `accuracy`.
     pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
         let Shape::Spline(spline) = &self.0 else { return Piece::EVERYWHERE };
-        let (low, high) = spline.ends_of(spline.piece_of(x));
-        let interval = high - low;
-        let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
-        let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
-        // What ended within the slack before a knot begins beyond it.
-        let (low, high, index) = ends_at(spline, if forward { x + slack } else { x - slack });
-        Piece { low, high, slack: 0.5 * slack, index }
+        Axis(spline.knots()).piece(x, forward, accuracy)
     }
+}
+
+/// Number of grid points of a noise.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+pub(crate) fn noise_points(noise: Noise, from: f64, to: f64) -> usize {
+    ((to - from) / noise.spacing).ceil().max(3.0) as usize + 1
+}
+
+/// Heights of a noise, from one of the streams of its seed; 0 is that of a single coordinate.
+pub(crate) fn noise_heights(noise: Noise, points: usize, stream: u64) -> Vec<f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(noise.seed);
+    rng.set_stream(stream);
+    (0..points).map(|_| noise.amplitude * rng.random_range(-1.0..=1.0)).collect()
 }
 
 impl SteadyPast {
@@ -262,15 +266,38 @@ fn is_inside(spline: &CubicSpline, x: f64) -> bool {
     (spline.first()..=spline.last()).contains(&x)
 }
 
-/// Ends and number of the piece of a spline that contains x.
-fn ends_at(spline: &CubicSpline, x: f64) -> (f64, f64, Option<usize>) {
-    if x < spline.first() {
-        (f64::NEG_INFINITY, spline.first(), None)
-    } else if x >= spline.last() {
-        (spline.last(), f64::INFINITY, None)
-    } else {
-        let piece = spline.piece_of(x);
-        let (low, high) = spline.ends_of(piece);
-        (low, high, Some(piece))
+/// The knots of a spline along one axis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axis<'a>(pub(crate) &'a [f64]);
+
+impl Axis<'_> {
+    /// The piece that contains a tip at x, or that the tip is about to enter if it is at a knot; x has an error of at
+    /// most `accuracy`.
+    pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
+        let nearest = self.piece_of(x);
+        let interval = self.0[nearest + 1] - self.0[nearest];
+        let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
+        let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
+        // What ended within the slack before a knot begins beyond it.
+        let (low, high, index) = self.ends_at(if forward { x + slack } else { x - slack });
+        Piece { low, high, slack: 0.5 * slack, index }
+    }
+
+    /// The piece between knots that contains x, or the nearest one.
+    fn piece_of(&self, x: f64) -> usize {
+        self.0.partition_point(|knot| *knot <= x).clamp(1, self.0.len() - 1) - 1
+    }
+
+    /// Ends and number of the piece that contains x.
+    fn ends_at(&self, x: f64) -> (f64, f64, Option<usize>) {
+        let (first, last) = (self.0[0], self.0[self.0.len() - 1]);
+        if x < first {
+            (f64::NEG_INFINITY, first, None)
+        } else if x >= last {
+            (last, f64::INFINITY, None)
+        } else {
+            let piece = self.piece_of(x);
+            (self.0[piece], self.0[piece + 1], Some(piece))
+        }
     }
 }

@@ -59,6 +59,16 @@ impl CubicSpline {
         (self.m[piece + 1] - self.m[piece]) / (high - low)
     }
 
+    /// Second derivatives at the knots.
+    pub(crate) fn curvatures(&self) -> &[f64] {
+        &self.m
+    }
+
+    /// The knots.
+    pub(crate) fn knots(&self) -> &[f64] {
+        &self.x
+    }
+
     /// The piece between knots that contains x, or the nearest one.
     pub(crate) fn piece_of(&self, x: f64) -> usize {
         self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1) - 1

@@ -1,6 +1,7 @@
 //! The end of a step: at a representable time, exactly at a required end, and where the tip leaves the stretch.
 
 use super::Integrator;
+use crate::initial_surface::Stretch;
 use crate::memory::Memory;
 use crate::roots::zero_between;
 
@@ -50,21 +51,31 @@ impl<M: Memory> Integrator<'_, M> {
         displacement: &[f64],
         at: impl Fn(f64) -> f64,
     ) -> Option<f64> {
-        let stretch = &self.stretch;
-        let (x, slack) = (self.position(), stretch.slack);
-        // A tip that already stands beyond an end, within the slack, has its end where it stands.
-        let (low, high) = ((stretch.low - x).min(0.0), (stretch.high - x).max(0.0));
-        let outside = |d: f64| d < low - slack || d > high + slack;
-        let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
-        // Nearer than where the tip is found outside, farther than where it starts: the sign changes
-        // between the two, whatever the nodes between them do.
-        let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
-            (true, true, _) => high,
-            (true, false, _) => 0.5 * slack,
-            (false, _, true) => low,
-            (false, _, false) => -0.5 * slack,
-        };
-        let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
-        Some(zero_between(beyond, 0.0, nodes[after]))
+        let Stretch { low, high, slack, .. } = self.stretch;
+        leaves((low, high, slack), self.position(), (nodes, displacement), at)
     }
+}
+
+/// Time at which a coordinate that begins at x leaves the range from `low` to `high` by more than a slack, if it
+/// does, from the values of its polynomial at the nodes.
+pub(crate) fn leaves(
+    (low, high, slack): (f64, f64, f64),
+    x: f64,
+    (nodes, displacement): (&[f64], &[f64]),
+    at: impl Fn(f64) -> f64,
+) -> Option<f64> {
+    // A tip that already stands beyond an end, within the slack, has its end where it stands.
+    let (low, high) = ((low - x).min(0.0), (high - x).max(0.0));
+    let outside = |d: f64| d < low - slack || d > high + slack;
+    let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
+    // Nearer than where the tip is found outside, farther than where it starts: the sign changes
+    // between the two, whatever the nodes between them do.
+    let knot = match (displacement[after] > high, high > 0.0, low < 0.0) {
+        (true, true, _) => high,
+        (true, false, _) => 0.5 * slack,
+        (false, _, true) => low,
+        (false, _, false) => -0.5 * slack,
+    };
+    let beyond = |tau: f64| (at(tau) - knot) * (displacement[after] - knot).signum();
+    Some(zero_between(beyond, 0.0, nodes[after]))
 }

@@ -11,7 +11,9 @@
 //! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: M p³/6 products, with the layers in
 //! SIMD lanes.
 
+use super::ground::Ground;
 use super::layers::{LANES, Lanes, ROOTS, slopes, values};
+use super::spline::Jet;
 use super::weighing::Weighing;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 use multiversion::multiversion;
@@ -37,6 +39,8 @@ pub(super) struct Acting {
     pub(super) width: f64,
     /// w now and σ/b, with a depth limit.
     pub(super) depth: Option<(f64, f64)>,
+    /// Height and derivatives of the initial surface, undecayed part, unless it is flat.
+    pub(super) relief: Option<Jet>,
 }
 
 /// Second derivatives of the surface under the tip: along, mixed, across.
@@ -63,6 +67,7 @@ pub(super) struct Chain {
     displacement: [Series; 2],
     /// Those of the height under the tip and of w, with a depth limit.
     weighing: Weighing,
+    ground: Ground,
 }
 
 impl Chain {
@@ -78,6 +83,7 @@ impl Chain {
             across: [0.0; MOST_ORDER],
             displacement: [Series::zero(order), Series::zero(order)],
             weighing: Weighing::new(order),
+            ground: Ground::new(),
         }
     }
 
@@ -131,15 +137,19 @@ impl Chain {
     }
 
     /// Depth of the groove under the tip at the start, from the values written to the room of
-    /// [`start`](Self::start).
+    /// [`start`](Self::start), without the initial surface.
     pub(super) fn depth_now(&self) -> f64 {
         dot(&self.layers[self.first_layers() + self.groups..], &self.rows[..self.groups])
     }
 
     /// Computes the series from the values written to the room of [`start`](Self::start), and from the forces.
     pub(super) fn run(&mut self, acting: &Acting) {
+        if let Some(jet) = &acting.relief {
+            self.ground.start(jet);
+        }
         if let Some((weight, _)) = acting.depth {
-            self.weighing.start(-self.depth_now(), weight, self.groups);
+            let relief = acting.relief.map_or(0.0, |jet| jet[0][0]);
+            self.weighing.start(relief - self.depth_now(), weight, self.groups);
         }
         run(self, acting);
     }
@@ -163,14 +173,16 @@ impl Chain {
         }
         for k in 0..self.order {
             let [across, along] = self.reading(groups, k);
-            self.advance(k, [along, across / acting.width], acting);
+            let [mut along, mut across] = [along, across / acting.width];
+            if acting.relief.is_some() {
+                let jet = self.ground.at(k);
+                (along, across) = (along - jet[1][0], across - jet[0][1]);
+            }
+            self.advance(k, [along, across], acting);
             if k + 1 < self.order {
                 self.next_layers(groups, k, acting);
                 self.next_row(groups, k, acting);
-                if let Some((_, rate)) = acting.depth {
-                    let depth = self.depth(groups, k + 1);
-                    self.weighing.advance(k, -depth, rate);
-                }
+                self.next_height(groups, k, acting);
             }
         }
     }
@@ -191,6 +203,20 @@ impl Chain {
             }
         }
         [total(&across), total(&along)]
+    }
+
+    /// The next coefficients of the initial surface under the tip, and with a depth limit of height and weight.
+    #[inline(always)]
+    fn next_height(&mut self, groups: usize, k: usize, acting: &Acting) {
+        let mut relief = 0.0;
+        if acting.relief.is_some() {
+            self.ground.advance(&self.along, &self.across, acting.healing);
+            relief = self.ground.at(k + 1)[0][0];
+        }
+        if let Some((_, rate)) = acting.depth {
+            let height = relief - self.depth(groups, k + 1);
+            self.weighing.advance(k, height, rate);
+        }
     }
 
     /// Coefficient of order k of the depth `Σ_m φ_m A_m0`.

@@ -18,6 +18,7 @@
 mod chain;
 mod extent;
 mod frame;
+mod ground;
 mod history;
 mod integrator;
 mod lattice;
@@ -26,10 +27,13 @@ mod modes;
 mod past;
 mod running;
 mod scenario;
+mod spline;
 mod stages;
+mod texture;
 mod weighing;
 
 pub use frame::Layers;
 pub use history::{Step, Trajectory, Visit};
 pub use running::{PlanarRun, PlanarRunning, run};
 pub use scenario::{PlanarError, PlanarScenario};
+pub use texture::{HeightTable, Texture, TextureError};

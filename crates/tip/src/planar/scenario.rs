@@ -1,5 +1,6 @@
 //! Scenarios in two coordinates: all parameters of a run, and errors in them.
 
+use super::texture::{HeightTable, Texture, TextureError};
 use crate::footprint::Across;
 use crate::memory::{FitError, MemoryChoice};
 use crate::run::{RunError, Scenario};
@@ -17,6 +18,11 @@ pub struct PlanarScenario {
     pub kick_across: f64,
     /// External force across the scan, in kσ.
     pub force_across: Force,
+    /// Distance of independent rows of the [noise](Scenario::noise) across the scan, its correlation length, in σ.
+    /// `None`: noise does not depend on y.
+    pub noise_spacing_across: Option<f64>,
+    /// Table u0(x,y) added to the initial surface; [`Scenario::profile`] does not depend on y.
+    pub profile_across: Option<HeightTable>,
 }
 
 /// Errors of a run in two coordinates: an invalid scenario, or an integration that cannot be completed.
@@ -28,6 +34,12 @@ pub enum PlanarError {
     /// The kick across is not finite.
     #[error("the kick across the scan must be a finite number, not {0:?}")]
     Kick(f64),
+    /// The distance of rows of noise is not finite or too small.
+    #[error("rows of noise must be at least {LEAST_SPACING} apart across the scan, not {0:?}")]
+    NoiseSpacing(f64),
+    /// The initial surface cannot be had.
+    #[error(transparent)]
+    InitialSurface(#[from] TextureError),
     /// The footprint is f(x) alone, which does not determine the force across.
     #[error("two coordinates need a footprint f(x,y): give its width across the scan")]
     NoFootprint,
@@ -75,6 +87,9 @@ pub enum PlanarError {
     Along(#[from] RunError),
 }
 
+/// Least distance of rows of noise, in σ.
+const LEAST_SPACING: f64 = 0.01;
+
 impl From<IntegrationError> for PlanarError {
     fn from(error: IntegrationError) -> Self {
         Self::Along(error.into())
@@ -82,10 +97,26 @@ impl From<IntegrationError> for PlanarError {
 }
 
 impl PlanarScenario {
-    /// A scenario without a kick or force across.
+    /// A scenario without a kick or force across, with an initial surface that does not depend on y.
     #[must_use]
     pub fn new(along: Scenario, stiffness_across: f64) -> Self {
-        Self { along, stiffness_across, kick_across: 0.0, force_across: Force::default() }
+        Self {
+            along,
+            stiffness_across,
+            kick_across: 0.0,
+            force_across: Force::default(),
+            noise_spacing_across: None,
+            profile_across: None,
+        }
+    }
+
+    /// The initial surface except for the groove of steady motion.
+    ///
+    /// # Errors
+    /// A profile that is not a function of x, noise of too many points.
+    pub fn texture(&self) -> Result<Texture, PlanarError> {
+        let table = self.profile_across.as_ref();
+        Ok(Texture::new(&self.along, self.noise_spacing_across, table)?)
     }
 
     /// The footprint as f(x,y) = g(x) h(y).
@@ -112,14 +143,20 @@ impl PlanarScenario {
         if !self.kick_across.is_finite() {
             return Err(PlanarError::Kick(self.kick_across));
         }
+        if let Some(spacing) = self.noise_spacing_across
+            && !(spacing.is_finite() && spacing >= LEAST_SPACING)
+        {
+            return Err(PlanarError::NoiseSpacing(spacing));
+        }
         self.footprint()?;
         let along = &self.along;
         along.validate()?;
+        if self.profile_across.is_some() {
+            along.validate_rounding(along.start_position.abs().max(along.farthest()))?;
+        }
         let wider = along.model.wider();
         let unavailable = [
             (!wider.spring, "a tip without a spring"),
-            (along.noise.is_some(), "noise on the initial surface"),
-            (along.profile.is_some(), "an initial surface"),
             (along.memory == MemoryChoice::Direct, "the memory direct"),
             (along.memory == MemoryChoice::Fft, "the memory fft"),
         ];

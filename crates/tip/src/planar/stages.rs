@@ -17,6 +17,7 @@
 use super::chain::{Curvatures, dot};
 use super::layers::{LANES, Lanes, slopes, values};
 use super::past::Past;
+use super::texture::{Field, Texture};
 use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::footprint::Across;
@@ -42,6 +43,18 @@ pub(super) struct StageEquations<'a> {
     pub(super) left: Stages,
     pub(super) inertia: Option<&'a Inertia>,
     pub(super) depth: Option<Depth>,
+    /// The initial surface, unless it is flat about the tip.
+    pub(super) relief: Option<Relief<'a>>,
+}
+
+/// The initial surface about the tip.
+pub(super) struct Relief<'a> {
+    pub(super) texture: &'a Texture,
+    pub(super) field: &'a Field,
+    /// Position of the tip at the start of the step.
+    pub(super) at: [f64; 2],
+    /// Undecayed part at each stage.
+    pub(super) left: Stages,
 }
 
 /// Displacements at the nodes, along and across, and heights; these are 0 without a depth limit.
@@ -92,6 +105,10 @@ impl StageEquations<'_> {
         let mut at = guess;
         let (mut previous, mut ratio) = (f64::INFINITY, 1.0);
         let mut jacobian = Jacobian { free: None, limited: None };
+        // Positions are rounded, and with them the slopes of the initial surface.
+        let rounding =
+            |relief: &Relief<'_>| f64::EPSILON * relief.at[0].abs().max(relief.at[1].abs());
+        let round_off = ROUND_OFF.max(self.relief.as_ref().map_or(0.0, rounding));
         for iterations in 1..=MOST_ITERATIONS {
             let forces = self.forces(&at);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
@@ -106,11 +123,11 @@ impl StageEquations<'_> {
             let size = size(&correction, &at[2]);
             ratio = (size / previous).min(1.0);
             let within = |j: usize| at[j].iter().all(|d| d.abs() <= most[j]);
-            let stuck = iterations > 3 && ratio > 0.9 && size > 100.0 * ROUND_OFF;
+            let stuck = iterations > 3 && ratio > 0.9 && size > 100.0 * round_off;
             if !(within(0) && within(1)) || stuck {
                 return Solved { iterations, solution: None };
             }
-            if ratio * size <= enough.max(ROUND_OFF) && (iterations > 1 || size <= enough) {
+            if ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
                 let solution = Some(self.solution(&at, forces.curvatures));
                 return Solved { iterations, solution };
             }
@@ -190,6 +207,9 @@ impl StageEquations<'_> {
             let strength = self.alpha * self.left[i];
             forces.curvatures = jet.bend.map(|bend| -strength * bend);
             forces.add(strength, i, &jet, [d, self.stiffness * e]);
+            if let Some(relief) = &self.relief {
+                forces.add_relief(i, &relief.jet(i, [d, e]));
+            }
             forces.slope[0][0][i][i] -= 1.0;
             forces.slope[1][1][i][i] -= self.stiffness;
         }
@@ -230,6 +250,15 @@ struct Jet {
     bend: [f64; 3],
 }
 
+impl Relief<'_> {
+    /// At a displacement from the start of the step.
+    fn jet(&self, stage: usize, [d, e]: [f64; 2]) -> Jet {
+        let jet = self.texture.jet(self.field, [self.at[0] + d, self.at[1] + e]);
+        let of = |a: usize, b: usize| self.left[stage] * jet[a][b];
+        Jet { value: of(0, 0), push: [of(1, 0), of(0, 1)], bend: [of(2, 0), of(1, 1), of(0, 2)] }
+    }
+}
+
 /// The coordinates that a force acts on, or that it is differentiated by.
 const PAIRS: [(usize, usize); 4] = [(0, 0), (0, 1), (1, 0), (1, 1)];
 
@@ -245,6 +274,12 @@ impl Forces {
         for (of, by) in PAIRS {
             self.slope[of][by][i][i] += strength * jet.bend[of + by];
         }
+    }
+
+    /// Adds the initial surface under stage i.
+    fn add_relief(&mut self, i: usize, jet: &Jet) {
+        self.add(-1.0, i, jet, [0.0; 2]);
+        self.curvatures.iter_mut().zip(jet.bend).for_each(|(sum, bend)| *sum += bend);
     }
 
     /// Derivatives of the same groove by the position of stage k, which carved it.
@@ -348,6 +383,7 @@ mod tests {
         past.remember(&[0.3, 0.9, 1.1], &weighted);
         let inertia = Inertia::new(0.4, 0.6, 0.7);
         let limit = Depth { limit: 1.7, side: -1.0 };
+        let texture = Texture::waves();
         for (inertia, depth) in
             [(None, None), (Some(&inertia), None), (Some(&inertia), Some(limit))]
         {
@@ -364,6 +400,12 @@ mod tests {
                 left: RADAU.c.map(|c| 1.0 - 0.2 * c),
                 inertia,
                 depth,
+                relief: Some(Relief {
+                    texture: &texture,
+                    field: &texture.field([0.5, 0.1], [true; 2], 0.0),
+                    at: [0.5, 0.1],
+                    left: RADAU.c.map(|c| 0.8 - 0.1 * c),
+                }),
             };
             let start = [
                 RADAU.c.map(|c| 0.7 * c - 0.2),

@@ -237,13 +237,13 @@ impl Scenario {
         Ok(surface)
     }
 
-    fn noise_range(&self) -> (f64, f64) {
+    pub(crate) fn noise_range(&self) -> (f64, f64) {
         let last = self.farthest().max(self.start_position);
         (self.start_position - NOISE_BEYOND, last + NOISE_BEYOND)
     }
 
     /// The largest position of the support.
-    fn farthest(&self) -> f64 {
+    pub(crate) fn farthest(&self) -> f64 {
         match self.support() {
             Support::Moving(r) => r * self.until,
             Support::None => self.start_position,
@@ -305,9 +305,7 @@ impl Scenario {
         let textured = self.noise.is_some() || self.profile.is_some();
         let last = if textured { self.farthest() } else { 0.0 };
         let x = self.start_position.abs().max(last);
-        if f64::EPSILON * x > SHARE_OF_ROUNDING * self.tolerance {
-            return Err(RunError::TooFar { x, tolerance: self.tolerance });
-        }
+        self.validate_rounding(x)?;
         if let Some(noise) = self.noise {
             let (from, to) = self.noise_range();
             let points = (to - from) / noise.spacing;
@@ -315,6 +313,14 @@ impl Scenario {
             if !(noise.amplitude.is_finite() && noise.amplitude >= 0.0 && fits) {
                 return Err(RunError::Noise { noise, points });
             }
+        }
+        Ok(())
+    }
+
+    /// Checks that positions up to x are rounded finely enough for an initial surface there.
+    pub(crate) fn validate_rounding(&self, x: f64) -> Result<(), RunError> {
+        if f64::EPSILON * x > SHARE_OF_ROUNDING * self.tolerance {
+            return Err(RunError::TooFar { x, tolerance: self.tolerance });
         }
         Ok(())
     }

@@ -13,6 +13,7 @@ fn problem() -> Problem {
         inertia: None,
         healing: None,
         depth_limit: None,
+        relief: |_| [0.0; 3],
         support: |problem, t| problem.r * t,
         force: |_| [0.0; 2],
         start: 0.0,

@@ -12,7 +12,7 @@ fn plain() -> Wider {
 }
 
 /// Largest difference of x0 from the solver of one coordinate.
-fn beside_one_coordinate(scenario: &PlanarScenario, planar: &Trajectory) -> f64 {
+pub(crate) fn beside_one_coordinate(scenario: &PlanarScenario, planar: &Trajectory) -> f64 {
     let line = stickslip_tip::run(&scenario.along).unwrap().trajectory;
     let t = |i: i32| line.start() + (line.end() - line.start()) * f64::from(i) / 2000.0;
     (0..=2000).map(|i| (planar.x0(t(i)) - line.x0(t(i))).abs()).fold(0.0, f64::max)
@@ -244,23 +244,20 @@ fn what_is_not_there_is_refused_by_name() {
         ),
         ("the memory direct", refused(|s| s.along.memory = MemoryChoice::Direct)),
         ("the memory fft", refused(|s| s.along.memory = MemoryChoice::Fft)),
-        (
-            "noise on the initial surface",
-            refused(|s| {
-                s.along.noise = Some(Noise { amplitude: 0.1, spacing: 0.3, seed: 1 });
-            }),
-        ),
-        (
-            "an initial surface",
-            refused(|s| {
-                s.along.profile = Some((vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.0]));
-            }),
-        ),
     ];
     for (what, error) in unavailable {
         assert_eq!(error, PlanarError::Unavailable(what));
         assert!(error.to_string().starts_with(what), "{error}");
     }
+    for spacing in [0.0, -1.0, f64::NAN, 1e-9] {
+        let error = refused(|scenario| scenario.noise_spacing_across = Some(spacing));
+        assert!(matches!(error, PlanarError::NoiseSpacing(_)), "{error}");
+    }
+    let many = refused(|scenario| {
+        scenario.along.noise = Some(Noise { amplitude: 0.1, spacing: 1e-3, seed: 1 });
+        scenario.noise_spacing_across = Some(0.1);
+    });
+    assert!(matches!(many, PlanarError::InitialSurface(_)), "{many}");
     let retreat = refused(|scenario| scenario.along.kick = 300.0);
     assert!(matches!(retreat, PlanarError::Retreat { behind, .. } if behind > 299.0), "{retreat}");
     let late = refused(|scenario| scenario.along.until = 1.0);

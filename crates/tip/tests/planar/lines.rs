@@ -34,6 +34,7 @@ pub(crate) fn problem(scenario: &PlanarScenario, (beta, width): (f64, f64)) -> P
         inertia: model.wider().inertia,
         healing: model.wider().healing_time,
         depth_limit: model.wider().depth_limit,
+        relief: |_| [0.0; 3],
         support: |problem, t| problem.r * t,
         force: |_| [0.0; 2],
         start: along.start_time(),
@@ -44,7 +45,7 @@ pub(crate) fn problem(scenario: &PlanarScenario, (beta, width): (f64, f64)) -> P
 }
 
 /// Largest differences of x0 and y0 at the steps of the reference.
-fn differences(run: &PlanarRun, motion: &Motion) -> [f64; 2] {
+pub(crate) fn differences(run: &PlanarRun, motion: &Motion) -> [f64; 2] {
     let mut worst = [0.0; 2];
     for (t, [x, y]) in motion.t.iter().zip(&motion.position) {
         worst[0] = f64::max(worst[0], (run.trajectory.x0(*t) - x).abs());
@@ -54,7 +55,12 @@ fn differences(run: &PlanarRun, motion: &Motion) -> [f64; 2] {
 }
 
 /// Runs to 1e-9, the default, within 5e-9 of the reference in so many steps; with velocities, which are those of interpolants.
-fn holds(name: &str, scenario: &PlanarScenario, problem: &Problem, steps: usize) -> PlanarRun {
+pub(crate) fn holds(
+    name: &str,
+    scenario: &PlanarScenario,
+    problem: &Problem,
+    steps: usize,
+) -> PlanarRun {
     let run = run(scenario).unwrap();
     let motion = problem.motion(scenario.along.until, steps);
     let [x, y] = differences(&run, &motion);

@@ -7,4 +7,5 @@ mod convergence;
 mod limits;
 mod lines;
 mod reference;
+mod surfaces;
 mod theory;

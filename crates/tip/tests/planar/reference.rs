@@ -42,6 +42,8 @@ pub(crate) struct Problem {
     pub(crate) healing: Option<f64>,
     /// b
     pub(crate) depth_limit: Option<f64>,
+    /// u0 and its slopes along and across.
+    pub(crate) relief: fn([f64; 2]) -> [f64; 3],
     pub(crate) support: fn(&Problem, f64) -> f64,
     /// `F_x` and `F_y`.
     pub(crate) force: fn(f64) -> [f64; 2],
@@ -240,7 +242,9 @@ impl Problem {
             spent,
         };
         let mut visits: Vec<Visit> = (0..panels).flat_map(panel).map(visit).collect();
-        let weight = self.steady_weight(self.height_at(self.start, [end, 0.0], &visits));
+        let relief = (self.relief)([end, 0.0])[0];
+        let height = self.height_at(self.start, [end, 0.0], &visits) - relief;
+        let weight = self.steady_weight(height);
         visits.iter_mut().for_each(|visit| visit.spent *= weight);
         visits
     }
@@ -331,7 +335,9 @@ impl Problem {
         let mut force = (self.force)(t);
         force[0] += (self.support)(self, t) - at[0];
         force[1] -= self.stiffness * at[1];
-        let mut jet = (0.0, force);
+        let left = self.healing.map_or(1.0, |time| (-(t - self.start) / time).exp());
+        let [height, along, across] = (self.relief)(at).map(|told| left * told);
+        let mut jet = (height, [force[0] - along, force[1] - across]);
         for visit in visits {
             self.add(t, at, visit, &mut jet);
         }

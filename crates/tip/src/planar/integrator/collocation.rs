@@ -1,7 +1,7 @@
 //! Steps by collocation, with their error control.
 
 use super::super::scenario::PlanarError;
-use super::super::stages::{Solution, StageEquations, Unknowns};
+use super::super::stages::{Relief, Solution, StageEquations, Unknowns};
 use super::Integrator;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
@@ -18,6 +18,7 @@ const WEIGHT_OF_DEFECT: f64 = 1.5;
 impl Integrator<'_> {
     /// Makes a step that ends at `until` at the latest.
     pub(super) fn step_by_collocation(&mut self, until: f64) -> Result<(), PlanarError> {
+        self.enter_field();
         let now = self.forces_now();
         if self.wider().inertia.is_none() {
             self.velocity[0] = now[0];
@@ -43,10 +44,18 @@ impl Integrator<'_> {
         }
     }
 
-    /// Longest step to try: it does not skip a pulse or move the tip too far.
+    /// Longest step to try: it does not skip a pulse, move the tip too far, or lead far beyond the field.
     fn length_limit(&self) -> f64 {
         let speed = self.effective(self.velocity).max(1e-300);
-        self.longest_step().min(self.longest_displacement() / speed)
+        let mut limit = self.longest_step().min(self.longest_displacement() / speed);
+        let at = [self.position(), self.y];
+        for ((ends, x), v) in self.field.ends.iter().zip(at).zip(self.velocity) {
+            let ahead = if v >= 0.0 { ends.high - x } else { x - ends.low };
+            if ahead.is_finite() {
+                limit = limit.min(1.2 * ahead.max(ends.slack) / v.abs().max(1e-300));
+            }
+        }
+        limit
     }
 
     fn longest_displacement(&self) -> f64 {
@@ -71,6 +80,10 @@ impl Integrator<'_> {
         let moved = moves.fold(0.0, f64::max);
         if moved > OVERSHOOT * longest && !self.control.is_fixed() {
             return Err(Retry::Shorter(h * (0.8 * OVERSHOOT * longest / moved).max(0.1)));
+        }
+        let at = |j: usize, tau: f64| RADAU.value(&solution.displacement[j], tau);
+        if let Some(tau) = self.leaves_field(&RADAU.c, [along, across], at) {
+            return Err(Retry::ToKnot(tau * h));
         }
         let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
         let lowest = along.iter().copied().fold(0.0, f64::min);
@@ -113,6 +126,12 @@ impl Integrator<'_> {
                 .corner
                 .zip(wider.depth_limit)
                 .map(|(corner, limit)| Depth { limit, side: corner.side }),
+            relief: (!self.field.is_flat()).then(|| Relief {
+                texture: &self.texture,
+                field: &self.field,
+                at: [self.position(), self.y],
+                left: RADAU.c.map(|c| self.relief_left(self.t + h * c)),
+            }),
         }
     }
 

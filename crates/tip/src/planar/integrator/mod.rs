@@ -12,12 +12,15 @@ use super::layers::{LANES, Lanes, slopes, values};
 use super::modes::Modes;
 use super::past::{Past, TooFar};
 use super::scenario::{PlanarError, PlanarScenario};
+use super::spline::Jet;
+use super::texture::{Field, Texture};
 use crate::collocation::Stages;
 use crate::footprint::Across;
 use crate::history::Heights;
 use crate::integrator::Work;
 use crate::integrator::control::Control;
 use crate::integrator::corner::Corner;
+use crate::integrator::landing::leaves;
 use crate::integrator::taylor::switch::Switch;
 use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
@@ -36,6 +39,10 @@ pub(super) struct Integrator<'a> {
     /// Along and across.
     force: [&'a Force; 2],
     support: Support,
+    /// The initial surface, except for the groove of steady motion.
+    texture: Texture,
+    /// The part of it on which the present step began.
+    field: Field,
     past: Past,
     frame: Frame,
     control: Control,
@@ -46,6 +53,8 @@ pub(super) struct Integrator<'a> {
     switch: Switch,
     /// End time of the present series or stages; steps already made but not yet returned lie before it.
     t: f64,
+    /// Start time of the run.
+    start: f64,
     /// R - x0
     extension: f64,
     y: f64,
@@ -90,6 +99,8 @@ impl<'a> Integrator<'a> {
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();
+        let texture = scenario.texture()?;
+        let (x, y) = (along.start_position - along.kick, scenario.kick_across);
         let mut integrator = Self {
             frame: Frame::new(footprint.1.width, reach, accuracy),
             chain: Chain::new(length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT)),
@@ -101,18 +112,21 @@ impl<'a> Integrator<'a> {
             stiffness: scenario.stiffness_across,
             force: [&along.force, &scenario.force_across],
             support: along.support(),
+            field: texture.field([x, y], [true; 2], target),
+            texture,
             past: Past::new(modes, lattice),
             control,
             t: along.start_time(),
+            start: along.start_time(),
             extension: along.start_extension() + along.kick,
-            y: scenario.kick_across,
+            y,
             velocity: [along.velocity_at_start(), 0.0],
             last: None,
             made: VecDeque::new(),
             work: Work::default(),
             room: vec![],
         };
-        let (x, y) = (integrator.position(), integrator.y);
+        let x = integrator.position();
         let range = (y.min(0.0), y.max(0.0));
         integrator.frame.visit(&mut integrator.past, integrator.t, (x, x), range)?;
         if along.start == Start::Steady {
@@ -254,9 +268,10 @@ impl<'a> Integrator<'a> {
         slopes(eta, phi, psi);
         let force = self.force.map(|force| force.value(self.t.next_up()));
         let across = super::chain::dot(psi, value) / self.frame.width();
+        let relief = self.relief_now().map_or([0.0; 2], |jet| [jet[1][0], jet[0][1]]);
         [
-            super::chain::dot(phi, slope) + self.extension + force[0],
-            across - self.stiffness * self.y + force[1],
+            super::chain::dot(phi, slope) + self.extension + force[0] - relief[0],
+            across - self.stiffness * self.y + force[1] - relief[1],
         ]
     }
 
@@ -267,7 +282,48 @@ impl<'a> Integrator<'a> {
         let [phi, value, slope, curvature] = &mut room;
         self.past.at(0.0, &mut [&mut *value, slope, curvature]);
         values(self.frame.eta(self.y), self.model.alpha(), phi);
-        -super::chain::dot(phi, value)
+        let relief = self.relief_now().map_or(0.0, |jet| jet[0][0]);
+        relief - super::chain::dot(phi, value)
+    }
+
+    /// Sets the field that contains the tip, or that it is about to enter.
+    fn enter_field(&mut self) {
+        if !self.texture.is_flat() {
+            let at = [self.position(), self.y];
+            let forward = self.velocity.map(|v| v >= 0.0);
+            self.field = self.texture.field(at, forward, self.control.target());
+        }
+    }
+
+    /// Undecayed part of the initial surface, from the start of the run to t.
+    fn relief_left(&self, t: f64) -> f64 {
+        self.wider().left_after(t - self.start)
+    }
+
+    /// Undecayed part of the initial surface under the tip, with derivatives, unless it is flat.
+    fn relief_now(&self) -> Option<Jet> {
+        if self.field.is_flat() {
+            return None;
+        }
+        let (jet, left) =
+            (self.texture.jet(&self.field, [self.position(), self.y]), self.relief_left(self.t));
+        Some(jet.map(|row| row.map(|entry| left * entry)))
+    }
+
+    /// Part of a step at which it leaves the field, if it does, from the displacements at these parts of it.
+    fn leaves_field(
+        &self,
+        parts: &[f64],
+        displacement: [&[f64]; 2],
+        at: impl Fn(usize, f64) -> f64,
+    ) -> Option<f64> {
+        let leaves = |j: usize| {
+            let ends = &self.field.ends[j];
+            let range = (ends.low, ends.high, ends.slack);
+            let from = [self.position(), self.y][j];
+            leaves(range, from, (parts, displacement[j]), |part| at(j, part))
+        };
+        [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
     }
 
     /// Changes the side of the kink for the next attempt; false if the other side has been tried.

@@ -54,6 +54,7 @@ impl Integrator<'_> {
 
     /// Makes a step, if there is a series for it that leads farther than collocation.
     fn expand(&mut self, end: f64) -> Result<bool, PlanarError> {
+        self.enter_field();
         for _ in 0..SIDES {
             let plan = if self.look_ahead() { self.plan(end) } else { None };
             let Some(plan) = plan else { return Ok(false) };
@@ -82,6 +83,7 @@ impl Integrator<'_> {
         self.chain.stand_at(self.frame.eta(self.y));
         let acting = Acting {
             depth: self.weight_now(),
+            relief: self.relief_now(),
             stiffness: self.stiffness,
             support: self.support.velocity(self.t),
             healing: self.healing(),
@@ -97,8 +99,9 @@ impl Integrator<'_> {
 
     /// w now and σ/b, with a depth limit, from the series as it starts.
     fn weight_now(&mut self) -> Option<(f64, f64)> {
+        let relief = self.relief_now().map_or(0.0, |jet| jet[0][0]);
         let (corner, limit) = self.corner.as_mut().zip(self.model.wider().depth_limit)?;
-        corner.stand_at(-self.chain.depth_now());
+        corner.stand_at(relief - self.chain.depth_now());
         Some((exp(-corner.side * corner.height / limit), corner.side / limit))
     }
 
@@ -145,7 +148,11 @@ impl Integrator<'_> {
         let length = over.min(MOST_PIECES as f64 * piece);
         let fastest = self.effective([ahead[0].fastest, ahead[1].fastest]) / over;
         let (eta, width) = (self.frame.eta(self.y), self.frame.width());
-        let curvatures = self.chain.curvatures(eta, width, &mut self.room);
+        let mut curvatures = self.chain.curvatures(eta, width, &mut self.room);
+        if let Some(jet) = self.relief_now() {
+            let relief = [jet[2][0], jet[1][1], jet[0][2]];
+            curvatures.iter_mut().zip(relief).for_each(|(sum, relief)| *sum += relief);
+        }
         let fades = self.fastest(curvatures);
         // A step of collocation leads no farther either.
         let most = limited / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
@@ -200,7 +207,8 @@ impl Integrator<'_> {
                 });
             let shorter = match met {
                 AtCorner::Apart => {
-                    let Some(shorter) = self.broken(&nodes.parts, (along, across)) else {
+                    let at = (&*nodes.parts, total);
+                    let Some(shorter) = self.broken(at, (along, across)) else {
                         self.remember_series(fastest, total)?;
                         self.accept_series((along, across), height, total);
                         return Ok(Made::Step);
@@ -217,8 +225,18 @@ impl Integrator<'_> {
         Ok(Made::Nothing)
     }
 
-    /// A part of a step that goes too far back for the exponentials, or too far across for the layers.
-    fn broken(&self, parts: &[f64], (along, across): (&[f64], &[f64])) -> Option<f64> {
+    /// A part of a step of this length that leads out of the field, too far back for the exponentials, or too far
+    /// across for the layers.
+    fn broken(
+        &self,
+        (parts, total): (&[f64], f64),
+        (along, across): (&[f64], &[f64]),
+    ) -> Option<f64> {
+        let displacement = self.chain.displacement();
+        let at = |j: usize, part: f64| pieces::value(displacement[j].coefficients(), part * total);
+        if let Some(part) = self.leaves_field(parts, [along, across], at) {
+            return Some(part);
+        }
         let mut farthest = self.past.behind();
         for ((part, x), y) in parts.iter().zip(along).zip(across) {
             farthest = farthest.max(*x);

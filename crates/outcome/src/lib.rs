@@ -21,6 +21,7 @@ mod sequence;
 mod snaking;
 mod thinned;
 mod watched;
+mod watched_across;
 
 pub use creep::Creeping;
 pub use judge::judge;
@@ -28,8 +29,9 @@ pub use motion::{Motion, motion};
 pub use observer::Observer;
 pub use oscillation::Oscillation;
 pub use remark::Remark;
-pub use snaking::{Snaking, largest_across, snaking};
+pub use snaking::{Snaking, SnakingObserver, snaking};
 pub use watched::{Watched, judge_trajectory, run_and_judge};
+pub use watched_across::WatchedAcross;
 
 /// The kinds of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -46,6 +46,7 @@ pub use stickslip_units as units;
 pub use stickslip_verify as verify;
 
 pub use ask::Ask;
+pub use ask::across::{became_across, history_across, sample_across};
 pub use ask::boundary::{
     Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
     SpacingName,
@@ -78,7 +79,7 @@ pub use ask::raster_stability::{
 pub use ask::response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
 pub use ask::run::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
-    SupportPathParameters,
+    SupportPathParameters, SurfaceTable,
 };
 pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became};
 pub use ask::sampling::{Sampling, Times};

@@ -35,6 +35,11 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
+    /// Table u0(x,y) added to the initial surface of a tip that gives way across the scan: CSV `x,y,u` with a row for
+    /// each point of a grid, interpolated by a bicubic spline.
+    #[arg(long, value_name = "FILE", help_heading = "Across the scan")]
+    pub(crate) initial_surface_across: Option<PathBuf>,
+
     /// File to write: .json for the document, .csv for the samples, .npz for samples and history as NumPy arrays,
     /// .jsonl for samples written during the run, in constant memory; `-` is standard output [default: -].
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]

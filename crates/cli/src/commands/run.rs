@@ -4,6 +4,7 @@ mod across;
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
 mod integration;
+mod motion;
 mod order;
 mod record;
 mod resume;
@@ -18,12 +19,13 @@ use crate::files::place::{Place, Target as File, place};
 use crate::files::stream::Stream;
 use crate::interrupt::Interrupt;
 use checkpoint::Checkpoints;
-use integration::Integration;
-use record::{Record, SAMPLE_NUMBERS, Sink};
+use integration::{Integrated, Integration};
+use motion::{Motion, Recorded};
+use record::{Record, Sink};
 use std::path::Path;
 use stickslip::{Order, RunDocument, RunEnd, RunFormat};
 use stickslip_outcome::Watched;
-use stickslip_tip::{RunError, STEP_NUMBERS, Scenario};
+use stickslip_tip::{RunError, Scenario};
 use write::Target;
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -35,8 +37,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
     let order = order::order(arguments)?;
-    if order.parameters.stiffness_across.is_some() {
-        return across::run(&order, arguments);
+    let refusal_of = |failure| refusal(failure, &arguments.options.tip, &order::files(arguments));
+    if let Some(scenario) = order.parameters.prepared_across().map_err(refusal_of)? {
+        return across::start(arguments, &order, &scenario);
     }
     let scenario = order.parameters.prepared()?;
     let refused = |error: RunError| {
@@ -44,27 +47,38 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     };
     let surface = scenario.initial_surface().map_err(refused)?;
     let running = Watched::new(&scenario, &surface).map_err(refused)?;
+    let (integrated, target) = integrated(arguments, &order, &scenario, running)?;
+    write::all(&order, &scenario, &surface, integrated, target)
+}
+
+/// The finished run of a motion that is at the start of a scenario, and its output.
+fn integrated<R: Motion>(
+    arguments: &RunArguments,
+    order: &Order,
+    scenario: &Scenario,
+    running: R,
+) -> Result<(Integrated<R>, Target), Failure> {
     let interrupt = Interrupt::listen()?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
-    let (target, sink) = open(arguments, &order, checkpoint.as_ref().map(File::path))?;
+    let numbers = R::Step::NUMBERS;
+    let (target, sink) = open(arguments, order, checkpoint.as_ref().map(File::path), numbers)?;
 
-    let mut record = record(&order, &scenario, sink);
-    write::head(&mut record, &order, &scenario)?;
+    let mut record = record(order, scenario, sink);
+    write::head(&mut record, order, scenario)?;
     let start = scenario.start_time();
     let mut integration = Integration {
         running,
         record,
         checkpoints: checkpoint
             .zip(order.checkpoint_every)
-            .map(|(file, every)| Checkpoints::new(file, &order, start, every, start)),
+            .map(|(file, every)| Checkpoints::new(file, order, start, every, start)),
         interrupt,
         seconds: 0.0,
     };
     integration.checkpoint()?;
-    let integrated = integration.finish(&scenario)?;
-    write::all(&order, &scenario, &surface, integrated, target)
+    Ok((integration.finish(scenario)?, target))
 }
 
 /// A place that must be a file.
@@ -83,6 +97,7 @@ fn open(
     arguments: &RunArguments,
     order: &Order,
     checkpoint: Option<&Path>,
+    [of_step, of_sample]: [usize; 2],
 ) -> Result<(Target, Sink), Failure> {
     let (output, fields) = (arguments.output(), &arguments.fields);
     if order.format == RunFormat::Jsonl {
@@ -98,7 +113,7 @@ fn open(
         return Ok((Target::Lines(fields), Sink::Lines(stream)));
     }
     let target = Target::Document(job(order, output, arguments.plot.as_deref(), fields)?);
-    let numbers = if keeps_history(order) { STEP_NUMBERS } else { SAMPLE_NUMBERS };
+    let numbers = if keeps_history(order) { of_step } else { of_sample };
     let journal = |path| record::journal(path, numbers);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
 }
@@ -119,7 +134,7 @@ fn job(
     Job::of_format::<RunDocument>(format, output, fields, plot)
 }
 
-fn record(order: &Order, scenario: &Scenario, sink: Sink) -> Record {
+fn record<S: Recorded>(order: &Order, scenario: &Scenario, sink: Sink) -> Record<S> {
     Record::new(scenario, order.samples.clone(), keeps_history(order), sink)
 }
 

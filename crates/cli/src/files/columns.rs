@@ -6,7 +6,7 @@ use super::sheet::{Sheet, parse_sheet};
 use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
 use std::path::Path;
-use stickslip::KnownScales;
+use stickslip::{KnownScales, SurfaceTable};
 use stickslip_raster::AreaLine;
 
 /// Two columns read from a file.
@@ -35,6 +35,46 @@ pub(crate) fn read_area(
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
     let columns = y.into_iter().zip(start).zip(length);
     Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
+}
+
+/// Heights at all points of a grid, x,y,u, in any order.
+pub(crate) fn read_surface_table(
+    option: &str,
+    path: &Path,
+    scales: Option<&KnownScales>,
+) -> Result<SurfaceTable, Failure> {
+    let text = read_text(option, path, LARGEST_TABLE)?;
+    let named = |message: String| Failure::input(format!("{option} {}", path.display()), message);
+    surface_table(parse_table(&text, "x,y,u", scales).map_err(named)?).map_err(named)
+}
+
+fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
+    let axis = |values: &[f64]| {
+        let mut axis = values.to_vec();
+        axis.sort_by(f64::total_cmp);
+        axis.dedup();
+        axis
+    };
+    let (all_x, all_y) = (axis(&x), axis(&y));
+    let mut rows = vec![vec![None; all_x.len()]; all_y.len()];
+    let place = |axis: &[f64], value: f64| axis.partition_point(|known| *known < value);
+    for (i, u) in u.iter().enumerate() {
+        let entry = &mut rows[place(&all_y, y[i])][place(&all_x, x[i])];
+        if entry.replace(*u).is_some() {
+            return Err(format!("the point x = {}, y = {} occurs twice", x[i], y[i]));
+        }
+    }
+    let whole = |row: Vec<Option<f64>>| row.into_iter().collect::<Option<Vec<f64>>>();
+    let u: Option<Vec<_>> = rows.into_iter().map(whole).collect();
+    let (points, needed) = (x.len(), all_x.len() * all_y.len());
+    let u = u.ok_or_else(|| {
+        format!(
+            "{points} points are no grid: {} x and {} y make {needed}",
+            all_x.len(),
+            all_y.len()
+        )
+    })?;
+    Ok(SurfaceTable { x: all_x, y: all_y, u })
 }
 
 /// A profile x,u; or one surface t,x,u, as written by `surface`.
@@ -133,6 +173,18 @@ fn judge_order(headings: &[Heading], names: &str) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_grid_is_put_together_from_points_in_any_order() {
+        let table = |text: &str| surface_table(parse_table(text, "x,y,u", None).unwrap());
+        let found = table("x,y,u\n1.5,2,6\n0.5,2,5\n0.5,1,3\n1.5,1,4\n").unwrap();
+        assert_eq!((found.x, found.y), (vec![0.5, 1.5], vec![1.0, 2.0]));
+        assert_eq!(found.u, [[3.0, 4.0], [5.0, 6.0]]);
+        let missing = table("x,y,u\n1.5,2,6\n0.5,2,5\n0.5,1,3\n").unwrap_err();
+        assert!(missing.contains("3 points are no grid"), "{missing}");
+        let twice = table("x,y,u\n1.5,2,6\n1.5,2,5\n").unwrap_err();
+        assert!(twice.contains("twice"), "{twice}");
+    }
 
     #[test]
     fn a_heading_and_comments_are_skipped() {

@@ -5,17 +5,17 @@ use crate::{
     Context, History, RegimeName, SteadyState, SwingDocument, Times, TransientDocument,
     WorkDocument,
 };
-use stickslip_outcome::{Observer, Outcome, judge, largest_across, snaking};
+use stickslip_outcome::{Observer, Outcome, WatchedAcross, judge};
 use stickslip_stability::Snaking;
-use stickslip_tip::Wider;
-use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Trajectory};
+use stickslip_tip::planar::{PlanarError, PlanarScenario, Step, Trajectory};
+use stickslip_tip::{Support, Wider};
 
 /// A deviation across the scan counts as decayed if it is at most this many tolerances at the end of a run.
 const DIED_OUT: f64 = 10.0;
 /// The last part of a run, as a fraction of it, in which this must hold.
 const LATE: f64 = 0.25;
 
-/// The document of a run up to its end or its cancellation; `None` if it has no step.
+/// The answer of a run up to its end or its cancellation; `None` if it has no step.
 pub(super) fn found(
     scenario: &PlanarScenario,
     times: &Times,
@@ -23,40 +23,50 @@ pub(super) fn found(
 ) -> Result<Option<(RunFound, Vec<String>)>, PlanarError> {
     let along = &scenario.along;
     let span = (along.start_time(), along.until);
-    let mut running = PlanarRunning::new(scenario)?;
-    let (began, mut steps, mut observer) = (context.seconds(), vec![], Observer::new(along));
+    let mut running = WatchedAcross::new(scenario)?;
+    let (began, mut steps) = (context.seconds(), vec![]);
     while !context.is_cancelled()
         && let Some(step) = running.step()?
     {
-        observer.observe(&step.along);
         steps.push(step);
         context.stepped(span, step.end(), steps.len());
     }
-    let Some(last) = steps.last() else { return Ok(None) };
-    let (end, seconds) = (last.end(), context.seconds() - began);
-    let layers = running.layers();
-    let reason = format!("the only one across the scan; up to {} layers", layers.most);
-    let work = WorkDocument::of(&running.work(), ("modes", reason), seconds);
-    let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
-    let late = end - LATE * (end - span.0);
-    let has_died_out = largest_across(&trajectory, late) <= DIED_OUT * along.tolerance;
-    let swing = snaking(&trajectory, along.tolerance).filter(|_| !has_died_out);
-    let ended = RunEnd {
-        interrupted: end < span.1,
-        ..became(scenario, has_died_out, &observer, (end, work))?
-    };
-    let mut remarks = ended.remarks.clone();
-    remarks.extend(undisturbed(scenario).filter(|_| has_died_out));
-    let steady_state = SteadyState::of(&along.model);
-    let samples = samples(&trajectory, times, along);
-    let history = Some(history(&trajectory, along.model.wider()));
-    let mut found = RunFound::new(steady_state, &samples, history, ended);
-    if let Some(swing) = swing {
-        found.regime = RegimeName::Snaking;
-        found.transient = None;
-        found.snaking = Some(SwingDocument::of(&swing, along.model.r()));
+    if steps.is_empty() {
+        return Ok(None);
     }
-    Ok(Some((found, remarks)))
+    let ended = became_across(scenario, &running, context.seconds() - began)?;
+    let ended = RunEnd { interrupted: ended.end < span.1, ..ended };
+    let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
+    let samples = samples(&trajectory, times, along);
+    let (steady_state, remarks) = (SteadyState::of(&along.model), ended.remarks.clone());
+    let history = Some(history_across(&trajectory, along.model.wider()));
+    Ok(Some((RunFound::new(steady_state, &samples, history, ended), remarks)))
+}
+
+/// The result of a run that took this many seconds and has at least one step.
+///
+/// # Errors
+/// The initial surface cannot be had.
+pub fn became_across(
+    scenario: &PlanarScenario,
+    running: &WatchedAcross,
+    seconds: f64,
+) -> Result<RunEnd, PlanarError> {
+    let along = &scenario.along;
+    let reason = format!("the only one across the scan; up to {} layers", running.layers().most);
+    let work = WorkDocument::of(&running.work(), ("modes", reason), seconds);
+    let across = running.across();
+    let has_died_out = across.largest_late(LATE) <= DIED_OUT * along.tolerance;
+    let swing = across.snaking(along.tolerance).filter(|_| !has_died_out);
+    let end = running.last().map_or(running.t(), Step::end);
+    let mut ended = became(scenario, has_died_out, running.along(), (end, work))?;
+    ended.remarks.extend(undisturbed(scenario).filter(|_| has_died_out));
+    if let Some(swing) = swing {
+        ended.regime = RegimeName::Snaking;
+        ended.transient = None;
+        ended.snaking = Some(SwingDocument::of(&swing, along.model.r()));
+    }
+    Ok(ended)
 }
 
 /// The regime of the motion along the scan if the motion across it has decayed; otherwise that it has not settled.
@@ -77,6 +87,7 @@ fn became(
         end,
         regime: RegimeName::Transient,
         oscillation: None,
+        snaking: None,
         creep: None,
         drifting: None,
         transient: Some(TransientDocument { towards: None, time: None }),
@@ -90,7 +101,9 @@ fn became(
 /// would grow.
 fn undisturbed(scenario: &PlanarScenario) -> Option<String> {
     let model = &scenario.along.model;
-    let is_pushed = scenario.kick_across.abs() > 0.0;
+    let is_pushed = scenario.kick_across.abs() > 0.0
+        || scenario.noise_spacing_across.is_some()
+        || scenario.profile_across.is_some();
     let theory = || {
         let place = (model.r(), scenario.stiffness_across);
         Snaking::new(model.tip().footprint()?, *model.wider(), place).ok()
@@ -110,20 +123,19 @@ fn samples(
     along: &stickslip_tip::Scenario,
 ) -> Vec<SampleLine> {
     let (support, wider, end) = (along.support(), along.model.wider(), trajectory.end());
-    let sample = |t: f64| {
-        let step = trajectory.step_at(t);
-        let [_, velocity_y] = step.velocity(t);
-        SampleLine {
-            y0: Some(step.y0(t)),
-            velocity_y: Some(velocity_y),
-            ..SampleLine::of(&step.along, (&support, wider), t)
-        }
-    };
+    let sample = |t: f64| sample_across(trajectory.step_at(t), (&support, wider), t);
     times.all().into_iter().filter(|t| *t <= end).map(sample).collect()
 }
 
+/// The motion at a time within one of its steps.
+pub fn sample_across(step: &Step, of: (&Support, &Wider), t: f64) -> SampleLine {
+    let [_, velocity_y] = step.velocity(t);
+    let along = SampleLine::of(&step.along, of, t);
+    SampleLine { y0: Some(step.y0(t)), velocity_y: Some(velocity_y), ..along }
+}
+
 /// The history of the motion along the scan, together with y0.
-fn history(trajectory: &Trajectory, wider: &Wider) -> History {
+pub fn history_across(trajectory: &Trajectory, wider: &Wider) -> History {
     let steps = trajectory.steps();
     let along = steps.iter().map(|step| step.along).collect();
     let support = trajectory.support().clone();

@@ -11,7 +11,7 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::Watched;
-use stickslip_tip::planar::{PlanarError, PlanarScenario};
+use stickslip_tip::planar::{HeightTable, PlanarError, PlanarScenario, TextureError};
 use stickslip_tip::{
     Force, ForceError, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Support,
     SupportPath, TipFunction, Trajectory,
@@ -91,6 +91,14 @@ pub struct Run {
     #[schemars(extend("x-option" = option("V", "Across the scan", 32)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
+    /// Distance of independent rows of noise across the scan, its correlation length, in σ, if the tip is free to move
+    /// there; by default noise does not depend on y.
+    #[schemars(extend("x-option" = option("C", "Across the scan", 33)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise_spacing_across: Option<f64>,
+    /// Table u0(x,y) added to the initial surface, if the tip is free to move across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_surface_across: Option<SurfaceTable>,
     /// Times of the samples.
     #[serde(flatten)]
     pub sampling: Sampling,
@@ -181,6 +189,19 @@ pub struct Profile {
     pub u: Vec<f64>,
 }
 
+/// Heights u at the points (x, y) of a grid; a bicubic spline interpolates them. It is 0 before the first x and behind
+/// the last, and beyond the first and last y it is that of the nearest row.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceTable {
+    /// Positions along the scan, ascending, in σ.
+    pub x: Vec<f64>,
+    /// Positions across it, ascending, in σ.
+    pub y: Vec<f64>,
+    /// Heights in kσ²/a, one row for each y.
+    pub u: Vec<Vec<f64>>,
+}
+
 /// A pulse, amplitude · exp(-(t-time)²/(2 width²)).
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -257,6 +278,8 @@ impl Run {
             stiffness_across: None,
             kick_across: None,
             width_y: None,
+            noise_spacing_across: None,
+            initial_surface_across: None,
             sampling: Sampling::default(),
         }
     }
@@ -398,27 +421,44 @@ impl Run {
     /// As [`prepared`](Self::prepared); or an option is not available in two coordinates.
     pub fn prepared_across(&self) -> Result<Option<PlanarScenario>, Failure> {
         let Some(stiffness) = self.stiffness_across else {
-            let given = [("kick_across", self.kick_across), ("width_y", self.width_y)];
+            let given = [
+                ("kick_across", self.kick_across),
+                ("width_y", self.width_y),
+                ("noise_spacing_across", self.noise_spacing_across),
+            ];
+            let why = "applies to a tip that moves across the scan: give {stiffness_across} too";
             let stray = given.into_iter().find_map(|(name, value)| Some((name, value?)));
-            return stray.map_or(Ok(None), |(name, value)| {
-                let why =
-                    "applies to a tip that moves across the scan: give {stiffness_across} too";
-                Err(Refused::number(name, value, why).into())
-            });
+            if let Some((name, value)) = stray {
+                return Err(Refused::number(name, value, why).into());
+            }
+            return match self.initial_surface_across {
+                None => Ok(None),
+                Some(_) => Err(Refused::whole("initial_surface_across", why).into()),
+            };
         };
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         let (alpha, r) = (self.indentation.alpha.unwrap_or(f64::NAN), self.velocity()?);
         let tip = TipFunction::of_footprint(footprint);
         let model = Model::under(self.law.into(), tip, alpha, r).map_err(Refused::from)?;
         let along = Scenario { model, ..self.prepared()? };
-        let kick_across = self.kick_across.unwrap_or_default();
-        let scenario = PlanarScenario { kick_across, ..PlanarScenario::new(along, stiffness) };
+        if let Some(spacing) = self.noise_spacing_across.filter(|_| along.noise.is_none()) {
+            let why = "is of noise: give {noise} too";
+            return Err(Refused::number("noise_spacing_across", spacing, why).into());
+        }
+        let table = self.initial_surface_across.as_ref().map(SurfaceTable::heights).transpose();
+        let scenario = PlanarScenario {
+            kick_across: self.kick_across.unwrap_or_default(),
+            noise_spacing_across: self.noise_spacing_across,
+            profile_across: table
+                .map_err(|error| Refused::whole("initial_surface_across", error))?,
+            ..PlanarScenario::new(along, stiffness)
+        };
         scenario.validate().map_err(|error| self.refused_across(error))?;
         Ok(Some(scenario))
     }
 
     /// The rejection of the parameter that caused an error of a run in two coordinates; or the failure.
-    fn refused_across(&self, error: PlanarError) -> Failure {
+    pub fn refused_across(&self, error: PlanarError) -> Failure {
         let stiffness = self.stiffness_across.unwrap_or_default();
         let number = |name: &'static str, value: f64| Refused::number(name, value, &error).into();
         match error {
@@ -427,6 +467,11 @@ impl Run {
                 number("stiffness_across", stiffness)
             }
             PlanarError::Kick(kick) => number("kick_across", kick),
+            PlanarError::NoiseSpacing(spacing) => number("noise_spacing_across", spacing),
+            PlanarError::InitialSurface(TextureError::Points { .. }) => {
+                Refused::whole("noise_spacing_across", error).into()
+            }
+            PlanarError::InitialSurface(_) => Refused::whole("initial_surface", error).into(),
             PlanarError::NoFootprint => Refused::whole("width_y", error).into(),
             PlanarError::Footprint { .. } => Refused::whole("tip", error).into(),
             error => Failure::Failed(error.to_string()),
@@ -600,6 +645,17 @@ impl From<&SupportPath> for SupportPathParameters {
 impl SupportPathParameters {
     fn path(&self) -> Result<SupportPath, RunError> {
         SupportPath::new(self.t.clone(), self.displacement.clone()).map_err(RunError::from)
+    }
+}
+
+impl SurfaceTable {
+    fn heights(&self) -> Result<HeightTable, String> {
+        let uneven = self.u.iter().position(|row| row.len() != self.x.len());
+        if let Some(row) = uneven {
+            return Err(format!("row {} of u does not have one height for each x", row + 1));
+        }
+        let heights = HeightTable::new(self.x.clone(), self.y.clone(), self.u.concat());
+        heights.map_err(|error| error.to_string())
     }
 }
 

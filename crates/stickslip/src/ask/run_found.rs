@@ -64,7 +64,7 @@ impl RunFound {
             history,
             regime: end.regime,
             oscillation: end.oscillation,
-            snaking: None,
+            snaking: end.snaking,
             loops: None,
             creep: end.creep,
             drifting: end.drifting,
@@ -177,6 +177,9 @@ pub struct RunEnd {
     pub regime: RegimeName,
     /// Period and amplitudes, if the regime is stick-slip.
     pub oscillation: Option<OscillationDocument>,
+    /// Period and amplitudes, if the regime is snaking.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub snaking: Option<SwingDocument>,
     /// The rate of creep, if the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
@@ -208,6 +211,7 @@ impl RunEnd {
             end,
             regime: outcome.regime.into(),
             oscillation,
+            snaking: None,
             creep: outcome.creep.map(Into::into),
             drifting: outcome.drifting.map(Into::into),
             transient: outcome.prospect.map(Into::into),

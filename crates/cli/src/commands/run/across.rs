@@ -1,36 +1,91 @@
 //! `stickslip run --stiffness-across`.
 
-use super::{job, order};
+use super::integration::Integrated;
+use super::record::Sink;
+use super::write::{Target, Written};
 use crate::arguments::RunArguments;
-use crate::commands::ask::{context_cancelled_by, refusal};
-use crate::commands::told;
+use crate::commands::ask::refusal;
+use crate::commands::{job, told};
 use crate::failure::Failure;
 use crate::host;
-use crate::interrupt::Interrupt;
 use crate::made::pictured;
-use std::sync::Arc;
-use stickslip::{Ask, Order, Physical};
+use crate::message::remark;
+use std::path::Path;
+use stickslip::{Order, Physical, RunEnd, RunFormat, became_across, history_across};
+use stickslip_outcome::WatchedAcross;
+use stickslip_tip::planar::{PlanarScenario, Trajectory};
+use stickslip_tip::stop;
 
-/// The run, up to its end or to a signal.
-pub(super) fn run(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
-    let fields = &arguments.fields;
-    let job = job(order, arguments.output(), arguments.plot.as_deref(), fields)?;
-    let interrupt = Interrupt::listen()?;
-    let context = context_cancelled_by(Arc::clone(interrupt.flag()));
-    let found = order.parameters.clone().answered(&context);
-    let signal = interrupt.signal();
-    let mut document = match (found, signal) {
-        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
-        (Err(failure), None) => {
-            return Err(refusal(failure, &arguments.options.tip, &order::files(arguments)));
+/// The run from its start.
+pub(super) fn start(
+    arguments: &RunArguments,
+    order: &Order,
+    scenario: &PlanarScenario,
+) -> Result<(), Failure> {
+    let running = WatchedAcross::new(scenario).map_err(|error| {
+        let failure = order.parameters.refused_across(error);
+        refusal(failure, &arguments.options.tip, &super::order::files(arguments))
+    })?;
+    let (integrated, target) = super::integrated(arguments, order, &scenario.along, running)?;
+    write(order, scenario, integrated, target)
+}
+
+/// Writes the whole document, or the last line; and the figure.
+pub(super) fn write(
+    order: &Order,
+    scenario: &PlanarScenario,
+    mut integrated: Integrated<WatchedAcross>,
+    target: Target,
+) -> Result<(), Failure> {
+    let end = end(scenario, &integrated)?;
+    let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
+    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
+        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
+    }
+    match target {
+        Target::Lines(fields) => {
+            let Sink::Lines(mut stream) = integrated.record.sink else {
+                unreachable!("lines are written to a stream")
+            };
+            stream.line(&end)?;
+            stream.finish()?;
+            job::after(&end, &told::of_lines(&end), &fields, order.output != Path::new("-"))?;
         }
-        (Ok(document), _) => document.in_units(order.scales.as_ref()),
-    };
-    document.history.take_if(|_| !order.history);
-    let told = told::of_across(&document).in_units(document.physical.as_ref());
-    let figure = job.write_told(&document, &told)?;
-    let drawn = figure.map_or(Ok(()), |figure| figure.draw(&document));
-    host::give(|| told.of(pictured(document)));
-    drawn?;
+        Target::Document(job) => {
+            let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
+            let steps = integrated.record.steps.take();
+            let trajectory = steps.map(|steps| Trajectory::new(wider, support, steps));
+            let history = trajectory.as_ref().map(|trajectory| history_across(trajectory, &wider));
+            let reached = signal.map(|_| end.end);
+            let samples = &integrated.record.samples;
+            let kept = history.clone().filter(|_| order.history);
+            let document = order.parameters.clone().document(samples, kept, end);
+            let mut document = document.in_units(order.scales.as_ref());
+            let told = told::of_across(&document).in_units(document.physical.as_ref());
+            let figure = job.write_told(&Written { document: &document, reached }, &told)?;
+            if let Some(figure) = figure {
+                // Drawn from the history, whether or not it is written.
+                document.history = history;
+                figure.draw(&document)?;
+                document.history.take_if(|_| !order.history);
+            }
+            host::give(|| told.of(pictured(document)));
+        }
+    }
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+}
+
+/// The result of the run.
+fn end(
+    scenario: &PlanarScenario,
+    integrated: &Integrated<WatchedAcross>,
+) -> Result<RunEnd, Failure> {
+    let Integrated { running, seconds, interrupt, .. } = integrated;
+    if running.last().is_none() {
+        return Err(Failure::Run("the run has no steps".into()));
+    }
+    let became = || became_across(scenario, running, *seconds);
+    let found = stop::where_asked_by(interrupt.flag(), became);
+    let found = found.map_err(|error| Failure::Run(error.to_string()))?;
+    Ok(RunEnd { interrupted: interrupt.signal().is_some(), ..found })
 }

@@ -1,5 +1,6 @@
 //! Checkpoints, written so that a kill at any time leaves the last complete one.
 
+use super::motion::Motion;
 use super::record::Record;
 use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::{Failure, Typed};
@@ -10,7 +11,6 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use stickslip::{CheckpointHead, FORMAT_VERSION, Order, Software};
-use stickslip_outcome::Watched;
 use stickslip_tip::state::State;
 
 /// Default number of checkpoints of a run.
@@ -57,10 +57,10 @@ impl Checkpoints {
         t >= self.due
     }
 
-    pub(super) fn write(
+    pub(super) fn write<R: Motion>(
         &mut self,
-        running: &Watched,
-        record: &mut Record,
+        running: &R,
+        record: &mut Record<R::Step>,
         seconds: f64,
     ) -> Result<(), Failure> {
         let done = record.sync().and_then(|written| {

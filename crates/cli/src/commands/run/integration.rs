@@ -1,18 +1,18 @@
 //! The integration, step by step to the end or to a signal.
 
 use super::checkpoint::Checkpoints;
+use super::motion::{Motion, Recorded};
 use super::record::Record;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use std::time::Instant;
-use stickslip_outcome::Watched;
-use stickslip_tip::{Scenario, Step, stop};
+use stickslip_tip::{Scenario, stop};
 
 /// A run in progress, with its outputs.
-pub(super) struct Integration<'a> {
-    pub(super) running: Watched<'a>,
-    pub(super) record: Record,
+pub(super) struct Integration<R: Motion> {
+    pub(super) running: R,
+    pub(super) record: Record<R::Step>,
     pub(super) checkpoints: Option<Checkpoints>,
     pub(super) interrupt: Interrupt,
     /// Time spent before a resume, in seconds.
@@ -20,14 +20,14 @@ pub(super) struct Integration<'a> {
 }
 
 /// A finished run.
-pub(super) struct Integrated<'a> {
-    pub(super) running: Watched<'a>,
-    pub(super) record: Record,
+pub(super) struct Integrated<R: Motion> {
+    pub(super) running: R,
+    pub(super) record: Record<R::Step>,
     pub(super) seconds: f64,
     pub(super) interrupt: Interrupt,
 }
 
-impl<'a> Integration<'a> {
+impl<R: Motion> Integration<R> {
     /// Writes a checkpoint, if requested.
     pub(super) fn checkpoint(&mut self) -> Result<(), Failure> {
         match &mut self.checkpoints {
@@ -36,7 +36,7 @@ impl<'a> Integration<'a> {
         }
     }
 
-    fn step(&mut self) -> Result<Option<Step>, Failure> {
+    fn step(&mut self) -> Result<Option<R::Step>, Failure> {
         let step = stop::where_asked_by(self.interrupt.flag(), || self.running.step());
         step.map_err(|error| match self.record.keep_part() {
             None => Failure::Run(error.to_string()),
@@ -48,7 +48,7 @@ impl<'a> Integration<'a> {
     }
 
     /// Integrates to the end of the scenario.
-    pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<'a>, Failure> {
+    pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<R>, Failure> {
         let mut progress = Progress::new(scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
         let (mut signal, mut is_whole) = (None, true);
@@ -57,13 +57,14 @@ impl<'a> Integration<'a> {
         {
             let interrupt = &self.interrupt;
             is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
-            progress.counted(step.end(), || format!("t = {:.6}", step.end()));
+            let end = step.along().end();
+            progress.counted(end, || format!("t = {end:.6}"));
             signal = self.interrupt.signal();
             // Of a step whose samples were not all taken there is none: the last one is before it.
             if !is_whole {
                 break;
             }
-            let due = |c: &Checkpoints| c.is_due(step.end()) || signal.is_some();
+            let due = |c: &Checkpoints| c.is_due(end) || signal.is_some();
             if self.checkpoints.as_ref().is_some_and(due) {
                 self.seconds = before + started.elapsed().as_secs_f64();
                 self.checkpoint()?;

@@ -7,6 +7,7 @@ use crate::commands::ask::{context, refusal};
 use crate::commands::in_units::scales;
 use crate::commands::job;
 use crate::failure::Failure;
+use crate::files::columns::read_surface_table;
 use crate::files::distinct::{Named, distinct};
 use crate::files::paths::resolved;
 use serde_json::Value;
@@ -23,6 +24,14 @@ pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
     let files = files(arguments);
     let question: Run = parameter::question(values)?;
     let question = disturbed(question, disturbance, support_path.as_deref(), scales.as_ref())?;
+    let question = match &arguments.initial_surface_across {
+        None => question,
+        Some(path) => {
+            let option = "--initial-surface-across";
+            let table = read_surface_table(option, path, scales.as_ref())?;
+            Run { initial_surface_across: Some(table), ..question }
+        }
+    };
     let question =
         question.resolved(&context()).map_err(|failure| refusal(failure, &options.tip, &files))?;
     let scenario = question.prepared().map_err(|failure| refusal(failure, &options.tip, &files))?;
@@ -77,11 +86,7 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
 
 /// Rejects options that are not available for a tip that is free to move across the scan.
 fn judge_across(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
-    let unavailable = [
-        ("--verify", arguments.verify),
-        ("--checkpoint", arguments.checkpoint.is_some()),
-        ("--format jsonl", order.format == RunFormat::Jsonl),
-    ];
+    let unavailable = [("--verify", arguments.verify)];
     let is_across = order.parameters.stiffness_across.is_some();
     match unavailable.into_iter().find(|(_, given)| is_across && *given) {
         None => Ok(()),
@@ -97,7 +102,8 @@ pub(super) fn files(arguments: &RunArguments) -> Vec<Named<'_>> {
     let RunArguments { options, disturbance, support_path, .. } = arguments;
     let [tip_file, parameters] = options.files();
     let read = files_read(tip_file.1, disturbance, support_path.as_deref());
-    [&read[..], &[parameters]].concat()
+    let across = ("--initial-surface-across", arguments.initial_surface_across.as_deref());
+    [&read[..], &[across, parameters]].concat()
 }
 
 /// Checks that the files are different, and that a checkpoint can store their names.

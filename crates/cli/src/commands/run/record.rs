@@ -1,5 +1,6 @@
 //! Record of a run in progress: its samples, in memory or written immediately, and its history.
 
+use super::motion::Recorded;
 use crate::failure::Failure;
 use crate::files::place::taken;
 use crate::files::rows::{Rows, journal_of};
@@ -7,10 +8,10 @@ use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip::{Mark, SampleLine, Times};
-use stickslip_tip::{MOST_STEPS, STEP_NUMBERS, Scenario, Step, Support, Wider};
+use stickslip_tip::{MOST_STEPS, Scenario, Step, Support, Wider};
 
 /// The record of a run.
-pub(super) struct Record {
+pub(super) struct Record<S = Step> {
     support: Support,
     wider: Wider,
     times: Times,
@@ -20,7 +21,7 @@ pub(super) struct Record {
     pub(super) taken: u64,
     pub(super) samples: Vec<SampleLine>,
     /// The history, if it is kept.
-    pub(super) steps: Option<Vec<Step>>,
+    pub(super) steps: Option<Vec<S>>,
     pub(super) sink: Sink,
 }
 
@@ -34,13 +35,10 @@ pub(super) enum Sink {
     Journal(PathBuf, Rows),
 }
 
-/// Numbers per sample in a journal.
-pub(super) const SAMPLE_NUMBERS: usize = 7;
-
 /// Samples between two checks of the signals; a step may be as long as the run and contain all its samples.
 const SAMPLES_PER_LOOK: u64 = 1024;
 
-impl Record {
+impl<S: Recorded> Record<S> {
     pub(super) fn new(scenario: &Scenario, times: Times, keeps_history: bool, sink: Sink) -> Self {
         let (support, wider) = (scenario.support(), *scenario.model.wider());
         let (times, places) = times.in_order();
@@ -51,26 +49,28 @@ impl Record {
     /// Records a step, and returns whether all its samples were taken before a signal.
     pub(super) fn take(
         &mut self,
-        step: &Step,
+        step: &S,
         is_stopped: impl Fn() -> bool,
     ) -> Result<bool, Failure> {
         if let Some(steps) = &mut self.steps {
             if steps.len() == MOST_STEPS {
-                return Err(history_too_long(step.t));
+                return Err(history_too_long(step.along().t));
             }
             steps.push(*step);
             if let Sink::Journal(path, journal) = &mut self.sink {
-                journal.write(step.numbers()).map_err(|error| failed(path, error))?;
+                step.write(journal).map_err(|error| failed(path, error))?;
             }
         }
         // A time at which one step ends is the next one's.
-        self.sample(step, |t| t < step.end(), is_stopped)
+        let end = step.along().end();
+        self.sample(step, |t| t < end, is_stopped)
     }
 
     /// Takes the samples at the very end of the last step, unless they were taken.
-    pub(super) fn end(&mut self, last: Option<&Step>) -> Result<(), Failure> {
+    pub(super) fn end(&mut self, last: Option<&S>) -> Result<(), Failure> {
         if let Some(last) = last {
-            self.sample(last, |t| t <= last.end(), || false)?;
+            let end = last.along().end();
+            self.sample(last, |t| t <= end, || false)?;
         }
         if !self.places.is_empty() {
             let places = self.places.iter().copied().zip(self.samples.drain(..));
@@ -83,7 +83,7 @@ impl Record {
 
     fn sample(
         &mut self,
-        step: &Step,
+        step: &S,
         is_due: impl Fn(f64) -> bool,
         is_stopped: impl Fn() -> bool,
     ) -> Result<bool, Failure> {
@@ -91,11 +91,11 @@ impl Record {
             if self.taken.is_multiple_of(SAMPLES_PER_LOOK) && is_stopped() {
                 return Ok(false);
             }
-            let sample = SampleLine::of(step, (&self.support, &self.wider), t);
+            let sample = step.sample((&self.support, &self.wider), t);
             match &mut self.sink {
                 Sink::Lines(stream) => stream.line(&sample)?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
-                    journal.write(numbers_of(&sample)).map_err(|error| failed(path, error))?;
+                    S::write_sample(&sample, journal).map_err(|error| failed(path, error))?;
                     self.samples.push(sample);
                 }
                 _ => self.samples.push(sample),
@@ -131,9 +131,9 @@ impl Record {
             })
         };
         let rows = if self.steps.is_some() {
-            let (rows, steps) = Rows::resume::<STEP_NUMBERS>(path, mark).map_err(unusable)?;
-            let steps: Vec<Step> = steps.into_iter().map(Step::from_numbers).collect();
-            if !follow_each_other(&steps, t) {
+            let (rows, steps) = S::read(path, mark).map_err(unusable)?;
+            let along: Vec<Step> = steps.iter().map(|step| *step.along()).collect();
+            if !follow_each_other(&along, t) {
                 return Err(unusable(io::Error::other(OTHER_ROWS)));
             }
             for step in &steps {
@@ -141,8 +141,8 @@ impl Record {
             }
             rows
         } else {
-            let (rows, samples) = Rows::resume::<SAMPLE_NUMBERS>(path, mark).map_err(unusable)?;
-            self.samples.extend(samples.into_iter().map(sample_of));
+            let (rows, samples) = S::read_samples(path, mark).map_err(unusable)?;
+            self.samples.extend(samples);
             self.taken = self.samples.len() as u64;
             let due = |(i, sample): (u64, &SampleLine)| self.times.at(i) == Some(sample.t);
             if !(0..).zip(&self.samples).all(due) {
@@ -153,20 +153,6 @@ impl Record {
         self.sink = Sink::Journal(path.into(), rows);
         Ok(())
     }
-}
-
-/// A sample as a row of a journal, with NaN for missing values.
-fn numbers_of(sample: &SampleLine) -> [f64; SAMPLE_NUMBERS] {
-    let SampleLine { t, l, lag, x0, velocity, height, weight, .. } = *sample;
-    let [l, lag, height, weight] = [l, lag, height, weight].map(|x| x.unwrap_or(f64::NAN));
-    [t, l, lag, x0, velocity, height, weight]
-}
-
-fn sample_of([t, l, lag, x0, velocity, height, weight]: [f64; SAMPLE_NUMBERS]) -> SampleLine {
-    let there = |x: f64| (!x.is_nan()).then_some(x);
-    let [l, lag, height, weight] = [l, lag, height, weight].map(there);
-    let (y0, velocity_y) = (None, None);
-    SampleLine { t, l, lag, x0, velocity, height, weight, y0, velocity_y }
 }
 
 const OTHER_ROWS: &str = "its rows are not those of the run";

@@ -1,23 +1,25 @@
 //! Resume of a run from a checkpoint.
 
 use super::checkpoint::{self, Checkpoints};
-use super::integration::Integration;
+use super::integration::{Integrated, Integration};
+use super::motion::Motion;
 use super::record::Sink;
 use super::write::{self, Target};
-use super::{file, job, record};
+use super::{across, file, job, record};
 use crate::arguments::RunArguments;
 use crate::commands::fields::Fields;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::paths::{folder_of, resolved};
+use crate::files::place::Target as File;
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
 use crate::files::within::found_from;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stickslip::{CheckpointHead, Order, RunEnd, RunFormat};
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::Scenario;
 
 /// Resumes the run of a checkpoint.
@@ -27,39 +29,69 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     let (mut head, state) = checkpoint::read(path)?;
     let before = folder_of(checkpoint.path()).join(&head.order.output);
     redirect(&mut head.order, checkpoint.path(), arguments)?;
-    let scenario = head.order.parameters.scenario().map_err(|error| named(error.to_string()))?;
+    let parameters = &head.order.parameters;
+    let across = parameters.prepared_across();
+    let across = across.map_err(|error| named(error.described(str::to_owned)))?;
+    let place = Place { checkpoint, before, arguments };
+    if let Some(scenario) = across {
+        let running = WatchedAcross::resumed(&scenario, &state);
+        let running = running.map_err(|error| named(error.to_string()))?;
+        let (integrated, target) = resumed(&head, place, &scenario.along, running)?;
+        return across::write(&head.order, &scenario, integrated, target);
+    }
+    let scenario = parameters.scenario().map_err(|error| named(error.to_string()))?;
     let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
     let running = Watched::resumed(&scenario, &surface, &state);
     let running = running.map_err(|error| named(error.to_string()))?;
-    judge(&head, running.t(), &scenario).map_err(|message| named(message.into()))?;
-    let order = head.order;
+    let (integrated, target) = resumed(&head, place, &scenario, running)?;
+    write::all(&head.order, &scenario, &surface, integrated, target)
+}
+
+/// The checkpoint of a run and the file that it wrote before.
+struct Place<'a> {
+    checkpoint: File,
+    before: PathBuf,
+    arguments: &'a RunArguments,
+}
+
+/// The finished run of a motion that was resumed, and its output.
+fn resumed<R: Motion>(
+    head: &CheckpointHead,
+    Place { checkpoint, before, arguments }: Place<'_>,
+    scenario: &Scenario,
+    running: R,
+) -> Result<(Integrated<R>, Target), Failure> {
+    let order = &head.order;
+    judge(head, running.t(), scenario).map_err(|message| {
+        let path = arguments.resume.as_deref().unwrap_or(checkpoint.path());
+        Failure::input(format!("--resume {}", path.display()), message)
+    })?;
     let interrupt = Interrupt::listen()?;
     let (target, record) = if order.format == RunFormat::Jsonl {
         let target = file("--output", &order.output)?;
         // What the run has written may have its name by now, and have kept the one from before.
         let others = [target.path().to_path_buf(), part_of(&before), before];
         let stream = Stream::resume(target, head.written, &others)?;
-        let mut record = record(&order, &scenario, Sink::Lines(stream));
+        let mut record = record(order, scenario, Sink::Lines(stream));
         record.taken = head.samples;
         (Target::Lines(Fields::asked::<RunEnd>(&arguments.fields.print)?), record)
     } else {
-        let job = job(&order, &order.output, order.plot.as_deref(), &arguments.fields)?;
-        let mut record = record(&order, &scenario, Sink::Memory);
+        let job = job(order, &order.output, order.plot.as_deref(), &arguments.fields)?;
+        let mut record = record(order, scenario, Sink::Memory);
         record.resume(&journal_of(checkpoint.path()), head.written, running.t())?;
         (Target::Document(job), record)
     };
     let (t, until) = (running.t(), scenario.until);
     remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
-    let checkpoints = Some(Checkpoints::new(checkpoint, &order, start, every, t));
+    let checkpoints = Some(Checkpoints::new(checkpoint, order, start, every, t));
     let seconds = head.seconds;
     let mut integration = Integration { running, record, checkpoints, interrupt, seconds };
     if arguments.output.is_some() || arguments.plot.is_some() {
         // From here on it is gone on with at the new places.
         integration.checkpoint()?;
     }
-    let integrated = integration.finish(&scenario)?;
-    write::all(&order, &scenario, &surface, integrated, target)
+    Ok((integration.finish(scenario)?, target))
 }
 
 /// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from a

@@ -15,6 +15,7 @@ use stickslip::{
     Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunFound, RunHead,
     SteadyState, Tabular, became,
 };
+use stickslip_outcome::Watched;
 use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
 
 /// The output of a run.
@@ -26,7 +27,11 @@ pub(super) enum Target {
 }
 
 /// Writes the first line, if the output is lines.
-pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> Result<(), Failure> {
+pub(super) fn head<S>(
+    record: &mut Record<S>,
+    order: &Order,
+    scenario: &Scenario,
+) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
             stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
@@ -39,7 +44,7 @@ pub(super) fn head(record: &mut Record, order: &Order, scenario: &Scenario) -> R
 fn end(
     scenario: &Scenario,
     initial: &InitialSurface,
-    integrated: &Integrated,
+    integrated: &Integrated<Watched>,
 ) -> Result<RunEnd, Failure> {
     let Integrated { running, seconds, interrupt, .. } = integrated;
     let found =
@@ -52,7 +57,7 @@ pub(super) fn all(
     order: &Order,
     scenario: &Scenario,
     initial: &InitialSurface,
-    mut integrated: Integrated,
+    mut integrated: Integrated<Watched>,
     target: Target,
 ) -> Result<(), Failure> {
     let end = end(scenario, initial, &integrated)?;
@@ -112,11 +117,11 @@ pub(super) fn all(
 /// A document for output. An incomplete one is marked as such in every format, in JSON by `interrupted`.
 #[derive(Serialize)]
 #[serde(transparent)]
-struct Written<'a> {
-    document: &'a RunDocument,
+pub(super) struct Written<'a> {
+    pub(super) document: &'a RunDocument,
     /// Time at which a signal ended the run.
     #[serde(skip)]
-    reached: Option<f64>,
+    pub(super) reached: Option<f64>,
 }
 
 impl Tabular for Written<'_> {

@@ -410,6 +410,7 @@ fn end_of(run: &RunDocument) -> RunEnd {
         end: run.parameters.until,
         regime: run.regime,
         oscillation: run.oscillation.clone(),
+        snaking: run.snaking.clone(),
         creep: run.creep.clone(),
         drifting: run.drifting.clone(),
         transient: run.transient.clone(),

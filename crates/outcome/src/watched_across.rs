@@ -1,0 +1,101 @@
+//! A run in two coordinates that is classified while it proceeds.
+
+use crate::{Observer, SnakingObserver};
+use stickslip_tip::planar::{Layers, PlanarError, PlanarRunning, PlanarScenario, Step};
+use stickslip_tip::state::State;
+use stickslip_tip::{RunError, Work};
+
+/// A tip on its way through a scenario in two coordinates, with the data that classify its motion.
+pub struct WatchedAcross<'a> {
+    running: PlanarRunning<'a>,
+    along: Observer,
+    across: SnakingObserver,
+}
+
+impl<'a> WatchedAcross<'a> {
+    /// A tip at the start of a scenario.
+    ///
+    /// # Errors
+    /// A parameter out of range, or an option that is not available in two coordinates.
+    pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
+        Ok(Self {
+            running: PlanarRunning::new(scenario)?,
+            along: Observer::new(&scenario.along),
+            across: SnakingObserver::new(scenario),
+        })
+    }
+
+    /// Resumes the run where [`save`](Self::save) was called. Every later step is the same to the last bit as without
+    /// the interruption.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a state that is not one of this scenario.
+    pub fn resumed(scenario: &'a PlanarScenario, state: &State) -> Result<Self, PlanarError> {
+        let mut state = state.reader();
+        let running = PlanarRunning::resumed(scenario, &mut state)?;
+        let mut watched = Self { running, ..Self::new(scenario)? };
+        watched.along.restore(&mut state).map_err(RunError::from)?;
+        watched.across.restore(&mut state).map_err(RunError::from)?;
+        state.finish().map_err(RunError::from)?;
+        Ok(watched)
+    }
+
+    /// The complete state: with the scenario, it determines the rest of the run and its outcome.
+    #[must_use]
+    pub fn save(&self) -> State {
+        let mut state = State::default();
+        self.running.save(&mut state);
+        self.along.save(&mut state);
+        self.across.save(&mut state);
+        state
+    }
+
+    /// Makes the next step; `None` at the end of the scenario.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
+    pub fn step(&mut self) -> Result<Option<Step>, PlanarError> {
+        let step = self.running.step()?;
+        if let Some(step) = &step {
+            self.along.observe(&step.along);
+            self.across.observe(step);
+        }
+        Ok(step)
+    }
+
+    /// The last step.
+    #[must_use]
+    pub fn last(&self) -> Option<&Step> {
+        self.across.last()
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.running.t()
+    }
+
+    /// The motion along the scan.
+    #[must_use]
+    pub fn along(&self) -> &Observer {
+        &self.along
+    }
+
+    /// The motion across it.
+    #[must_use]
+    pub fn across(&self) -> &SnakingObserver {
+        &self.across
+    }
+
+    /// Work counts so far.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.running.work()
+    }
+
+    /// Number of layers so far, and their error.
+    #[must_use]
+    pub fn layers(&self) -> Layers {
+        self.running.layers()
+    }
+}

@@ -9,7 +9,7 @@ use rustfft::num_complex::Complex;
 use crate::lattice::dyadic_at_most;
 use crate::plan::{UPSAMPLING, fast_length};
 use crate::window::{WIDTH, Window};
-use crate::{Density, Field};
+use crate::{Density, Field, Rows};
 
 /// Fourier transforms of densities, and inverse transforms to fields, over one range of x:
 ///
@@ -100,6 +100,25 @@ impl Spectra {
         let inside = range.is_empty() || (range.start >= self.first && range.end <= end);
         assert!(inside, "sources in the cells {range:?}, beyond {}..{end}", self.first);
         density.copy_window(self.first, &mut self.cells);
+        self.transformed()
+    }
+
+    /// Empty rows over the range, for sources or for sums.
+    pub fn rows(&self, count: usize) -> Rows {
+        Rows::new(self.spacing, self.first, self.length, count)
+    }
+
+    /// ρ̂ of a row of sources.
+    ///
+    /// # Panics
+    /// There is no such row, or the rows are those of another range.
+    pub fn of_row(&mut self, rows: &Rows, row: usize) -> Vec<Complex<f64>> {
+        rows.copy(row, &mut self.cells);
+        self.transformed()
+    }
+
+    /// The transform of the cells.
+    fn transformed(&mut self) -> Vec<Complex<f64>> {
         self.forward
             .process_with_scratch(&mut self.cells, &mut self.modes, &mut self.scratch)
             .expect("buffers have the lengths of the plan");
@@ -111,6 +130,23 @@ impl Spectra {
     /// # Panics
     /// The number of Ŝ differs from that of wave numbers.
     pub fn field(&mut self, spectrum: &[Complex<f64>]) -> Field {
+        let mut cells = vec![0.0; self.length];
+        self.invert(spectrum, &mut cells);
+        Field::of_cells(self.spacing, self.first, cells)
+    }
+
+    /// Sets a row of sums to S(x) from these Ŝ.
+    ///
+    /// # Panics
+    /// As [`field`](Self::field); there is no such row.
+    pub fn set_row(&mut self, rows: &mut Rows, row: usize, spectrum: &[Complex<f64>]) {
+        let mut cells = std::mem::take(&mut self.cells);
+        self.invert(spectrum, &mut cells);
+        rows.set(row, &cells);
+        self.cells = cells;
+    }
+
+    fn invert(&mut self, spectrum: &[Complex<f64>], cells: &mut [f64]) {
         assert_eq!(spectrum.len(), self.window.len(), "one number for each wave number");
         let scale = 1.0 / (self.spacing * self.length as f64);
         let (kept, cut) = self.modes.split_at_mut(spectrum.len());
@@ -120,10 +156,8 @@ impl Spectra {
         cut.fill(Complex::default());
         // A sum of reals; said so because the transform back refuses anything else here.
         self.modes[0].im = 0.0;
-        let mut cells = vec![0.0; self.length];
         self.backward
-            .process_with_scratch(&mut self.modes, &mut cells, &mut self.scratch)
+            .process_with_scratch(&mut self.modes, cells, &mut self.scratch)
             .expect("buffers have the lengths of the plan");
-        Field::of_cells(self.spacing, self.first, cells)
     }
 }

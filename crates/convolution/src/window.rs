@@ -92,6 +92,19 @@ impl Window {
         unfold(even, odd.map(|o| o * s))
     }
 
+    /// The sixteen weights, and their derivatives with respect to the offset.
+    pub fn weights_and_slopes(&self, offset: f64) -> ([f64; WIDTH], [f64; WIDTH]) {
+        let s = 2.0 * offset - 1.0;
+        let parts: [_; HALF] = from_fn(|k| {
+            let (even, even_slope) = horner(&self.even_of[k], s * s);
+            let (odd, odd_slope) = horner(&self.odd_of[k], s * s);
+            // Slopes of e(s²) and of s·o(s²); the offset runs twice as slowly as s.
+            [even, s * odd, 4.0 * s * even_slope, 2.0 * odd + 4.0 * s * s * odd_slope]
+        });
+        let of = |i: usize| parts.map(|part| part[i]);
+        (unfold(of(0), of(1)), unfold(of(2), of(3)))
+    }
+
     /// `Σ_k weight_k cells_k` and its derivative with respect to the offset.
     ///
     /// Cells are contracted with the coefficients first, which gives one polynomial in the offset; its derivative is

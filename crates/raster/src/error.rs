@@ -2,6 +2,7 @@
 
 use crate::path::AreaLine;
 use stickslip_tip::RunError;
+use stickslip_tip::planar::PlanarError;
 use thiserror::Error;
 
 /// The reason why a raster was rejected or could not be finished.
@@ -95,6 +96,24 @@ pub enum RasterError {
         /// The error of the run.
         error: RunError,
     },
+    /// A line of a tip that is free to move across could not be run.
+    #[error("line {line}: {error}")]
+    Free {
+        /// Index of the line, from 1.
+        line: usize,
+        /// The error of the run.
+        error: PlanarError,
+    },
+}
+
+impl RasterError {
+    /// The error of a line, counted from 0, in two coordinates.
+    pub(crate) fn of_free(n: usize, error: PlanarError) -> Self {
+        match error {
+            PlanarError::Along(error) => Self::Line { line: n + 1, error },
+            error => Self::Free { line: n + 1, error },
+        }
+    }
 }
 
 /// Largest number of lines; their histories take about 20 kB each at 100 widths.

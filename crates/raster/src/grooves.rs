@@ -13,12 +13,13 @@
 
 use crate::line::Line;
 use crate::path::Track;
-use crate::plan::Plan;
+use crate::plan::{Plan, WIDTHS};
 use num_complex::Complex64;
 use stickslip_convolution::{Density, Spectra};
-use stickslip_tip::{Footprint, Layer, Relief, Wider};
+use stickslip_tip::planar::{EarlierGrooves, GrooveRows, RowLattice};
+use stickslip_tip::{Across, Footprint, Layer, Relief, Wider};
 
-/// ρ̂ of all lines at one y.
+/// ρ̂ of all lines at one y; for a tip that is free to move across, what all lines leave on one row of a lattice.
 struct Row {
     y: f64,
     spectrum: Vec<Complex64>,
@@ -32,10 +33,18 @@ struct Stretch {
     layers: Vec<Vec<f64>>,
 }
 
+/// Initial distance from a line, in widths of the footprint, up to which the surface is prepared for a tip that is
+/// free to move across.
+const WIDE: f64 = 5.0;
+
 /// ρ̂ of all lines that are still within reach.
 pub(crate) struct Grooves {
     footprint: Footprint,
     alpha: f64,
+    /// The rows on which a tip that is free to move across leaves its grooves, and the largest distance from its line
+    /// at which all of them are present.
+    lattice: Option<RowLattice>,
+    wide: f64,
     /// Law of healing, by which a groove is reduced after another line.
     wider: Wider,
     r: f64,
@@ -84,6 +93,8 @@ impl Grooves {
         let (reach_along, band, supports) = (plan.reach_along(), plan.band(), plan.area.ends());
         Self {
             alpha: plan.law.model.alpha(),
+            lattice: plan.free.as_ref().map(|_| RowLattice::of(&plan.footprint)),
+            wide: plan.free.as_ref().map_or(0.0, |_| WIDE * plan.reach_across() / WIDTHS),
             wider: *plan.law.model.wider(),
             r: plan.law.model.r(),
             reach_across: plan.reach_across(),
@@ -102,33 +113,71 @@ impl Grooves {
     /// Adds the last of these lines; the earlier ones were added before.
     pub(crate) fn add(&mut self, lines: &[Line]) {
         let Some(line) = lines.last() else { return };
-        let (positions, weights) = line.residence();
+        let (positions, _) = line.residence();
         let outside = |x: &f64| (self.supports.0 - x).max(x - self.supports.1);
         let farthest = positions.iter().map(outside).fold(0.0, f64::max);
         if farthest > self.spare {
             self.widen(farthest, lines);
             return;
         }
-        self.put(&line.track(), &positions, &weights);
+        self.put(line);
     }
 
-    fn put(&mut self, track: &Track, positions: &[f64], weights: &[f64]) {
-        let (y, left) = (track.y, self.wider.left_after(track.length / self.r));
+    fn put(&mut self, line: &Line) {
+        let left = self.wider.left_after(line.track().length / self.r);
         if left < 1.0 {
             self.rows.iter_mut().flat_map(|row| &mut row.spectrum).for_each(|rho| *rho *= left);
         }
-        let mut density = Density::new(self.stretch.spectra.spacing());
-        positions.iter().zip(weights).for_each(|(x, weight)| density.add(*x, *weight));
-        let spectrum = self.stretch.spectra.of(&density);
-        match self.rows.iter_mut().rev().find(|row| same(row.y, y)) {
-            Some(row) => row.spectrum.iter_mut().zip(&spectrum).for_each(|(all, new)| *all += new),
-            None => self.rows.push(Row { y, spectrum }),
+        let new = match self.lattice {
+            None => vec![self.row(line)],
+            Some(lattice) => self.rows_of(line, &lattice),
+        };
+        for Row { y, spectrum } in new {
+            match self.rows.iter_mut().rev().find(|row| same(row.y, y)) {
+                Some(row) => {
+                    row.spectrum.iter_mut().zip(&spectrum).for_each(|(all, new)| *all += new);
+                }
+                None => self.rows.push(Row { y, spectrum }),
+            }
         }
         self.count += 1;
         if let Some((low, high)) = self.ahead.get(self.count) {
-            let (low, high) = (low - self.reach_across, high + self.reach_across);
+            let beyond = self.reach_across + self.wide;
+            let (low, high) = (low - beyond, high + beyond);
             self.rows.retain(|row| row.y >= low && row.y <= high);
         }
+    }
+
+    /// ρ̂ of a line of a tip that is held on it.
+    fn row(&mut self, line: &Line) -> Row {
+        let (positions, weights) = line.residence();
+        let mut density = Density::new(self.stretch.spectra.spacing());
+        positions.iter().zip(&weights).for_each(|(x, weight)| density.add(*x, *weight));
+        Row { y: line.track().y, spectrum: self.stretch.spectra.of(&density) }
+    }
+
+    /// The rows on which a line leaves anything.
+    fn rows_of(&mut self, line: &Line, lattice: &RowLattice) -> Vec<Row> {
+        let visits = line.visits();
+        let ends = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), visit| {
+            (low.min(visit.y), high.max(visit.y))
+        });
+        let (first, last) = lattice.touched(ends);
+        let count = |rows: i64| usize::try_from(rows).unwrap_or(0);
+        let mut densities = self.stretch.spectra.rows(count(last - first + 1));
+        let mut shares = vec![];
+        for visit in visits {
+            let (from, to) = lattice.touched((visit.y, visit.y));
+            shares.resize(count(to - from + 1), 0.0);
+            lattice.shares(visit.y, from, &mut shares);
+            shares.iter_mut().for_each(|share| *share *= visit.weight);
+            densities.add(visit.x, count(from - first), &shares);
+        }
+        let mut row = |n: usize| {
+            let spectrum = self.stretch.spectra.of_row(&densities, n);
+            Row { y: lattice.y(first + n as i64), spectrum }
+        };
+        (0..densities.count()).map(&mut row).collect()
     }
 
     /// Extends the range for a tip this far outside. All transforms are recomputed from the lines, so that they do
@@ -139,12 +188,19 @@ impl Grooves {
         }
         let beyond = self.spare + self.reach_along;
         self.stretch = Stretch::new(&self.footprint, self.band, self.supports, beyond);
+        self.put_again(lines);
+    }
+
+    /// Extends the rows for a tip that moves farther from its line; `lines` are all lines so far.
+    pub(crate) fn widen_across(&mut self, lines: &[Line]) {
+        self.wide *= 2.0;
+        self.put_again(lines);
+    }
+
+    fn put_again(&mut self, lines: &[Line]) {
         self.rows.clear();
         self.count = 0;
-        for line in lines {
-            let (positions, weights) = line.residence();
-            self.put(&line.track(), &positions, &weights);
-        }
+        lines.iter().for_each(|line| self.put(line));
     }
 
     /// Û at y; `None` if no line is within reach.
@@ -159,10 +215,50 @@ impl Grooves {
     /// Adds the grooves of a row at y.
     fn add_groove(&self, row: &Row, y: f64, sum: &mut [Complex64]) {
         for (layer, transform) in self.footprint.layers().iter().zip(&self.stretch.layers) {
-            let height = -self.alpha * layer.across.value(y - row.y);
+            let height = -self.alpha * self.height(layer.across, y - row.y);
             let terms = row.spectrum.iter().zip(transform);
             sum.iter_mut().zip(terms).for_each(|(sum, (rho, g))| *sum += rho * (height * g));
         }
+    }
+
+    /// The factor of a row in the surface at this distance from it.
+    fn height(&self, across: Across, distance: f64) -> f64 {
+        match &self.lattice {
+            None => across.value(distance),
+            Some(lattice) => lattice.height(across, distance),
+        }
+    }
+
+    /// The surface around this track, in the frame of the track, for a tip that is free to move across. `None` if no
+    /// line is within reach.
+    pub(crate) fn around(&mut self, track: &Track) -> Option<EarlierGrooves> {
+        let lattice = self.lattice?;
+        let beyond = self.reach_across + self.wide;
+        let within = |row: &&Row| (row.y - track.y).abs() <= beyond;
+        let rows: Vec<&Row> = self.rows.iter().filter(within).collect();
+        let place = |row: &Row| lattice.row_at(row.y);
+        let first = rows.iter().map(|row| place(row)).min()?;
+        let last = rows.iter().map(|row| place(row)).max()?;
+        let count = usize::try_from(last - first + 1).unwrap_or(0);
+        let Stretch { spectra, wave_numbers, layers: transforms } = &mut self.stretch;
+        let layer = |(layer, transform): (&Layer, &Vec<f64>)| {
+            let (mut heights, mut slopes) = (spectra.rows(count), spectra.rows(count));
+            for row in &rows {
+                let n = usize::try_from(place(row) - first).unwrap_or(0);
+                let terms = row.spectrum.iter().zip(transform);
+                let height: Vec<Complex64> =
+                    terms.map(|(rho, g)| rho * (-self.alpha * g)).collect();
+                let terms = height.iter().zip(&*wave_numbers);
+                let slope: Vec<Complex64> =
+                    terms.map(|(height, k)| Complex64::new(0.0, *k) * height).collect();
+                spectra.set_row(&mut heights, n, &height);
+                spectra.set_row(&mut slopes, n, &slope);
+            }
+            GrooveRows { across: layer.across, heights, slopes }
+        };
+        let layers = self.footprint.layers().iter().zip(&*transforms).map(layer).collect();
+        let frame = (track.y, self.wide);
+        Some(EarlierGrooves::new(lattice, first, layers, frame, (track.start, track.backward)))
     }
 
     /// The surface along this track, in the frame of the track. `None` if no line is within reach.
@@ -184,7 +280,7 @@ impl Grooves {
     }
 
     /// The groove of each line alone at its own y, at every x.
-    pub(crate) fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
+    fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
         let own = |row: &Row| {
             let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
             self.add_groove(row, row.y, &mut sum);
@@ -192,6 +288,41 @@ impl Grooves {
         };
         let spectra: Vec<Vec<Complex64>> = self.rows.iter().map(own).collect();
         spectra.iter().map(|heights| self.read(heights, x)).collect()
+    }
+
+    /// The groove of each of these lines alone at its own y, at every x, after the last of them.
+    pub(crate) fn own_heights_of(plan: &Plan, lines: &[Line], x: &[f64]) -> Vec<Vec<f64>> {
+        let mut all = Self::of_all(plan, lines);
+        if all.lattice.is_none() {
+            return all.own_heights(x);
+        }
+        let mut left = 1.0;
+        let mut own: Vec<Vec<f64>> = vec![];
+        for line in lines.iter().rev() {
+            let heights = all.own_heights_of_free(line, left);
+            own.push(all.read(&heights, x));
+            left *= all.wider.left_after(line.track().length / all.r);
+        }
+        own.reverse();
+        own
+    }
+
+    /// Û of one line alone at its own y, from a tip that is free to move across; `left` of it has not yet healed.
+    fn own_heights_of_free(&mut self, line: &Line, left: f64) -> Vec<Complex64> {
+        let Stretch { spectra, wave_numbers, layers: transforms } = &mut self.stretch;
+        let mut sum = vec![Complex64::default(); wave_numbers.len()];
+        let visits = line.visits();
+        for (layer, transform) in self.footprint.layers().iter().zip(&*transforms) {
+            let mut density = Density::new(spectra.spacing());
+            for visit in &visits {
+                let height = layer.across.value(line.track().y - visit.y);
+                density.add(visit.x, -self.alpha * left * height * visit.weight);
+            }
+            let rho = spectra.of(&density);
+            let terms = rho.iter().zip(transform);
+            sum.iter_mut().zip(terms).for_each(|(sum, (rho, g))| *sum += rho * *g);
+        }
+        sum
     }
 
     fn read(&mut self, heights: &[Complex64], x: &[f64]) -> Vec<f64> {

@@ -29,6 +29,7 @@
 
 mod area;
 mod error;
+mod free;
 mod grooves;
 mod line;
 mod path;
@@ -39,6 +40,7 @@ mod surface;
 
 pub use area::Area;
 pub use error::{MOST_LINES, RasterError};
+pub use free::Free;
 pub use line::Line;
 pub use path::{AreaLine, Path, Track};
 pub use pattern::{Doubt, LineRegime, Pattern, Regime, Written, line_regime, pattern};

@@ -1,7 +1,8 @@
 //! A finished scan line.
 
 use crate::path::Track;
-use stickslip_tip::{Model, Step, Support, Trajectory, Work};
+use stickslip_tip::planar::{self, Visit};
+use stickslip_tip::{Model, STAGES, Stages, Step, Support, Trajectory, Work};
 
 /// The motion of the tip along one line. Time counts from the start of the line.
 #[derive(Debug, Clone)]
@@ -9,6 +10,9 @@ pub struct Line {
     track: Track,
     /// Motion in the frame of the line: the support starts at 0 and moves to larger x.
     trajectory: Trajectory,
+    /// For each step the distance of the tip from the line at its start, and its changes at the nodes; empty if the tip
+    /// is held on the line.
+    across: Vec<(f64, Stages)>,
     work: Work,
 }
 
@@ -20,7 +24,56 @@ impl Line {
     #[must_use]
     pub fn new(track: Track, model: &Model, steps: Vec<Step>, work: Work) -> Self {
         let trajectory = Trajectory::under(*model.wider(), Support::Moving(model.r()), steps);
-        Self { track, trajectory, work }
+        Self { track, trajectory, across: vec![], work }
+    }
+
+    /// A line of a tip that is free to move across it, from its steps in the frame of the line, whose y is 0.
+    ///
+    /// # Panics
+    /// There is no step.
+    #[must_use]
+    pub fn free(track: Track, model: &Model, steps: &[planar::Step], work: Work) -> Self {
+        let along = steps.iter().map(|step| step.along).collect();
+        let across = steps.iter().map(|step| (step.y, step.across)).collect();
+        Self { across, ..Self::new(track, model, along, work) }
+    }
+
+    /// Steps in both coordinates, in the frame of the line; none if the tip is held on the line.
+    pub fn planar_steps(&self) -> impl Iterator<Item = planar::Step> {
+        let steps = self.trajectory.steps().iter().zip(&self.across);
+        steps.map(|(along, (y, across))| planar::Step { along: *along, y: *y, across: *across })
+    }
+
+    /// The step that contains t, in both coordinates; `None` if the tip is held on the line.
+    fn planar_step(&self, t: f64) -> Option<planar::Step> {
+        let steps = self.trajectory.steps();
+        let n = steps.partition_point(|step| step.t <= t).max(1) - 1;
+        let (y, across) = *self.across.get(n)?;
+        Some(planar::Step { along: steps[n], y, across })
+    }
+
+    /// Whether the tip is free to move across the line.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        !self.across.is_empty()
+    }
+
+    /// y0 on the surface: that of the line if the tip is held on it.
+    #[must_use]
+    pub fn y0(&self, t: f64) -> f64 {
+        self.track.y + self.planar_step(t).map_or(0.0, |step| step.y0(t))
+    }
+
+    /// y0'
+    #[must_use]
+    pub fn velocity_y(&self, t: f64) -> f64 {
+        self.planar_step(t).map_or(0.0, |step| step.velocity(t)[1])
+    }
+
+    /// y0 on the surface at the end.
+    pub(crate) fn y0_at_end(&self) -> f64 {
+        let off = self.across.last().map_or(0.0, |(y, across)| y + across[STAGES - 1]);
+        self.track.y + off
     }
 
     /// The path of the support.
@@ -84,5 +137,15 @@ impl Line {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());
         positions.iter_mut().for_each(|x| *x = self.track.x(*x));
         (positions, weights)
+    }
+
+    /// The residence in both coordinates.
+    #[must_use]
+    pub fn visits(&self) -> Vec<Visit> {
+        let (positions, weights) = self.residence();
+        let off = self.across.iter().flat_map(|(y, across)| across.map(|e| y + e));
+        let off = off.chain(std::iter::repeat(0.0));
+        let nodes = positions.into_iter().zip(weights).zip(off);
+        nodes.map(|((x, weight), off)| Visit { x, y: self.track.y + off, weight }).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::area::Area;
 use crate::error::RasterError;
+use crate::free::Free;
 use crate::path::{Path, Track};
 use stickslip_tip::{Footprint, Force, Model, Scenario, Start};
 
@@ -14,6 +15,8 @@ pub struct Plan {
     pub path: Path,
     /// The scanned area.
     pub area: Area,
+    /// Motion across the lines; `None` for a tip that is held on its line.
+    pub free: Option<Free>,
     /// External force on the first line, against the time since its start; it disturbs all later lines.
     pub disturbance: Force,
     /// The law, the tolerance and the memory of every line; start, end, kick and force are set for each line.
@@ -26,6 +29,10 @@ const MOST_WITHIN_REACH: f64 = 1e4;
 /// number, has sums, transforms and their workspace.
 const BYTES_OF_A_WAVE: f64 = 16.0;
 const BYTES_OF_THE_LATTICE: f64 = 320.0;
+/// The same for a tip that is free to move across: rows on which a line leaves anything, most of them shared with its
+/// neighbours; and the surface on some sixty rows, heights and slopes.
+const ROWS_OF_A_LINE: f64 = 3.0;
+const BYTES_OF_A_GROUND: f64 = 4000.0;
 const MOST_MEMORY: f64 = 1e9;
 /// Largest number of lattice points of a line.
 const MOST_POINTS: f64 = 1e7;
@@ -50,7 +57,13 @@ impl Plan {
     #[must_use]
     pub fn over(footprint: Footprint, model: Model, path: Path, area: Area) -> Self {
         let law = Scenario::new(model, area.longest());
-        Self { footprint, path, area, disturbance: Force::default(), law }
+        Self { footprint, path, area, free: None, disturbance: Force::default(), law }
+    }
+
+    /// The same for a tip that is free to move across the lines.
+    #[must_use]
+    pub fn with_free(self, free: Free) -> Self {
+        Self { free: Some(free), ..self }
     }
 
     /// # Errors
@@ -86,7 +99,11 @@ impl Plan {
         self.judge_memory(0.0)?;
         let longest =
             Scenario { until: self.duration_of(self.area.longest()), ..self.line(0, (0.0, 0.0)) };
-        longest.validate().map_err(|error| RasterError::Line { line: 1, error })
+        longest.validate().map_err(|error| RasterError::Line { line: 1, error })?;
+        match &self.free {
+            Some(free) => free.validate(self, longest),
+            None => Ok(()),
+        }
     }
 
     /// Rejects rasters whose grooves do not fit in memory, with tips up to `outside` beyond the range of their
@@ -100,7 +117,11 @@ impl Plan {
         let period = high - low + 6.0 * self.reach_along() + 4.0 * outside;
         let waves = period * self.band() / std::f64::consts::TAU;
         let rows = if self.path == Path::Repeat { 1 } else { self.lines() };
-        let bytes = waves * (BYTES_OF_A_WAVE * rows as f64 + BYTES_OF_THE_LATTICE);
+        let (each, lattice) = match self.free {
+            None => (1.0, BYTES_OF_THE_LATTICE),
+            Some(_) => (ROWS_OF_A_LINE, BYTES_OF_A_GROUND * self.footprint.layers().len() as f64),
+        };
+        let bytes = waves * (BYTES_OF_A_WAVE * each * rows as f64 + lattice);
         if bytes <= MOST_MEMORY {
             return Ok(());
         }

@@ -1,11 +1,13 @@
 //! Scan of the lines one after the other; it can be stopped and resumed between any two.
 
 use crate::error::RasterError;
+use crate::free::Free;
 use crate::grooves::Grooves;
 use crate::line::Line;
 use crate::path::{Path, Track};
 use crate::plan::Plan;
-use stickslip_tip::{InitialSurface, Running, Step, stop};
+use stickslip_tip::planar::{self, EarlierGrooves, PlanarError, PlanarRunning, PlanarScenario};
+use stickslip_tip::{InitialSurface, Running, Step, Work, stop};
 
 /// A raster in progress.
 pub struct Scanning<'a> {
@@ -65,6 +67,18 @@ impl<'a> Scanning<'a> {
         if n == self.plan.lines() {
             return Ok(None);
         }
+        let line = match &self.plan.free {
+            None => self.held_line(n)?,
+            Some(free) => self.free_line(n, free)?,
+        };
+        let Some(line) = line else { return Ok(None) };
+        self.lines.push(line);
+        self.grooves.add(&self.lines);
+        Ok(self.lines.last())
+    }
+
+    /// Line n of a tip that is held on it; `None` if the work is told to stop.
+    fn held_line(&mut self, n: usize) -> Result<Option<Line>, RasterError> {
         let track = self.plan.track(n);
         let surface = self.surface_ahead();
         let scenario = self.plan.line(n, self.begins(track));
@@ -77,11 +91,32 @@ impl<'a> Scanning<'a> {
                 return Ok(None);
             }
         }
-        let line = Line::new(track, &scenario.model, steps, running.work());
-        drop(running);
-        self.lines.push(line);
-        self.grooves.add(&self.lines);
-        Ok(self.lines.last())
+        Ok(Some(Line::new(track, &scenario.model, steps, running.work())))
+    }
+
+    /// Line n of a tip that is free to move across; `None` if the work is told to stop.
+    fn free_line(&mut self, n: usize, free: &Free) -> Result<Option<Line>, RasterError> {
+        let track = self.plan.track(n);
+        let off = match self.lines.last() {
+            None => free.kick,
+            Some(last) if self.plan.path == Path::Zigzag => last.y0_at_end() - track.y,
+            Some(_) => 0.0,
+        };
+        let along = self.plan.line(n, self.begins(track));
+        let scenario = free.scenario(self.plan, along, (n, off));
+        loop {
+            let earlier = self.grooves.around(&track);
+            match run(&scenario, earlier.as_ref()) {
+                Ok(Some((steps, work))) => {
+                    let model = &scenario.along.model;
+                    return Ok(Some(Line::free(track, model, &steps, work)));
+                }
+                Ok(None) => return Ok(None),
+                // The surface farther away from the line is needed too.
+                Err(PlanarError::BeyondGrooves { .. }) => self.grooves.widen_across(&self.lines),
+                Err(error) => return Err(RasterError::of_free(n, error)),
+            }
+        }
     }
 
     /// Distance of the tip ahead of the support at the start of a line, and its velocity, in the frame of the line:
@@ -98,4 +133,23 @@ impl<'a> Scanning<'a> {
     pub fn into_lines(self) -> Vec<Line> {
         self.lines
     }
+}
+
+/// The steps of a line over these grooves; `None` if the work is told to stop.
+fn run(
+    scenario: &PlanarScenario,
+    earlier: Option<&EarlierGrooves>,
+) -> Result<Option<(Vec<planar::Step>, Work)>, PlanarError> {
+    let mut running = match earlier {
+        None => PlanarRunning::new(scenario)?,
+        Some(earlier) => PlanarRunning::over(scenario, earlier)?,
+    };
+    let mut steps = vec![];
+    while let Some(step) = running.step()? {
+        steps.push(step);
+        if stop::is_asked() {
+            return Ok(None);
+        }
+    }
+    Ok(Some((steps, running.work())))
 }

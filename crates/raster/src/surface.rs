@@ -27,13 +27,12 @@ impl Scanned {
         }
         heights
     }
+}
 
-    /// The groove of each line alone at its own y (rows), at every x (columns).
-    #[must_use]
-    pub fn own_grooves(&mut self, x: &[f64]) -> Array2<f64> {
-        let rows = self.grooves.own_heights(x);
-        Array2::from_shape_fn((rows.len(), x.len()), |(n, i)| rows[n][i])
-    }
+/// The groove of each line alone at its own y (rows), at every x (columns).
+pub(crate) fn own_grooves(plan: &Plan, lines: &[Line], x: &[f64]) -> Array2<f64> {
+    let rows = Grooves::own_heights_of(plan, lines, x);
+    Array2::from_shape_fn((rows.len(), x.len()), |(n, i)| rows[n][i])
 }
 
 /// ∫∫ u dx dy after these lines: -α ∫∫f times the time that the tip was there, weighted by the depth limit and

@@ -1,7 +1,7 @@
 //! The model: a tip function, the two numbers α and r, and the terms of the extended model.
 
 use crate::wider::{Wider, WiderError};
-use crate::{TipFunction, lambert};
+use crate::{Footprint, TipFunction, lambert};
 use thiserror::Error;
 
 /// Footprint, indentation rate and support velocity, validated.
@@ -61,6 +61,12 @@ impl Model {
             return Err(ModelError::Cosine);
         }
         Ok(Self { tip, alpha, r, wider })
+    }
+
+    /// The same model with the footprint f(x,y), whose section f(x,0) is that of the model.
+    #[must_use]
+    pub fn with_footprint(self, footprint: Footprint) -> Self {
+        Self { tip: TipFunction::of_footprint(footprint), ..self }
     }
 
     /// The footprint f.

@@ -18,7 +18,7 @@ pub use regime::Regime;
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::Scanned;
+use crate::surface::{Scanned, own_grooves};
 use estimate::Estimate;
 use local::Local;
 use regime::{FLAT, Measures, PITTED};
@@ -178,7 +178,7 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     let ends = (lines.iter().position(is_felt), lines.iter().rposition(is_felt));
     let felt = ends.0.unwrap_or(0)..ends.1.map_or(0, |last| last + 1);
     let heights = Scanned::new(plan, &lines[felt]).heights(&x, &y);
-    let own = Scanned::new(plan, &lines[first..end]).own_grooves(&x);
+    let own = own_grooves(plan, &lines[first..end], &x);
     let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
     let depth = depth::carved(plan, &lines[first..end], pitch);
     let left = plan.law.model.wider().left_after(plan.duration(first));

@@ -3,6 +3,7 @@
 mod against_linear_theory;
 mod by_definition;
 mod definition;
+mod free;
 mod patterns;
 mod resolved;
 mod wider_linear_theory;

@@ -16,6 +16,7 @@
 //! → ∞ the motion becomes that of [`run`](crate::run()).
 
 mod chain;
+mod earlier;
 mod extent;
 mod frame;
 mod ground;
@@ -32,6 +33,7 @@ mod stages;
 mod texture;
 mod weighing;
 
+pub use earlier::{EarlierGrooves, GrooveJet, GrooveRows, RowLattice};
 pub use frame::Layers;
 pub use history::{Step, Trajectory, Visit};
 pub use running::{PlanarRun, PlanarRunning, run};

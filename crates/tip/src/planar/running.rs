@@ -1,5 +1,6 @@
 //! A run in two coordinates.
 
+use super::earlier::EarlierGrooves;
 use super::frame::Layers;
 use super::history::{Step, Trajectory};
 use super::integrator::Integrator;
@@ -35,7 +36,20 @@ impl<'a> PlanarRunning<'a> {
     /// A parameter out of range, or an option that is not available in two coordinates.
     pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         scenario.validate()?;
-        Ok(Self { until: scenario.along.until, integrator: Integrator::new(scenario)? })
+        Ok(Self { until: scenario.along.until, integrator: Integrator::new(scenario, None)? })
+    }
+
+    /// Begins a scenario on the surface that earlier scans left.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn over(
+        scenario: &'a PlanarScenario,
+        earlier: &'a EarlierGrooves,
+    ) -> Result<Self, PlanarError> {
+        scenario.validate()?;
+        let integrator = Integrator::new(scenario, Some(earlier))?;
+        Ok(Self { until: scenario.along.until, integrator })
     }
 
     /// Resumes a run from a state written by [`save`](Self::save). Every later step equals that of the uninterrupted

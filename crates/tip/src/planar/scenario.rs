@@ -79,6 +79,16 @@ pub enum PlanarError {
         /// Range, in widths v.
         range: f64,
     },
+    /// The tip left the part of the surface of earlier scans that was given.
+    #[error(
+        "at t = {t}: the tip is {y} off its line, where the surface of earlier lines is unknown"
+    )]
+    BeyondGrooves {
+        /// Time reached.
+        t: f64,
+        /// y0, in σ.
+        y: f64,
+    },
     /// Exponentials do not fit f'.
     #[error(transparent)]
     Fit(#[from] FitError),

@@ -15,6 +15,7 @@
 //! and w multiplies the columns of b in all three equations.
 
 use super::chain::{Curvatures, dot};
+use super::earlier::{GrooveJet, Under};
 use super::layers::{LANES, Lanes, slopes, values};
 use super::past::Past;
 use super::texture::{Field, Texture};
@@ -43,6 +44,8 @@ pub(super) struct StageEquations<'a> {
     pub(super) left: Stages,
     pub(super) inertia: Option<&'a Inertia>,
     pub(super) depth: Option<Depth>,
+    /// The grooves of earlier lines, if there are any.
+    pub(super) under: Option<Under<'a>>,
     /// The initial surface, unless it is flat about the tip.
     pub(super) relief: Option<Relief<'a>>,
 }
@@ -212,6 +215,9 @@ impl StageEquations<'_> {
             }
             forces.slope[0][0][i][i] -= 1.0;
             forces.slope[1][1][i][i] -= self.stiffness;
+            if let Some(under) = &self.under {
+                forces.add_earlier(i, &under.at(i, [d, e]));
+            }
         }
         self.add_own(at, &mut forces);
         forces
@@ -280,6 +286,13 @@ impl Forces {
     fn add_relief(&mut self, i: usize, jet: &Jet) {
         self.add(-1.0, i, jet, [0.0; 2]);
         self.curvatures.iter_mut().zip(jet.bend).for_each(|(sum, bend)| *sum += bend);
+    }
+
+    /// Adds the grooves of earlier lines under stage i.
+    fn add_earlier(&mut self, i: usize, at: &GrooveJet) {
+        let GrooveJet { height, slope, curvature } = *at;
+        self.add(-1.0, i, &Jet { value: height, push: slope, bend: curvature }, [0.0; 2]);
+        self.curvatures.iter_mut().zip(curvature).for_each(|(sum, bend)| *sum += bend);
     }
 
     /// Derivatives of the same groove by the position of stage k, which carved it.
@@ -406,6 +419,7 @@ mod tests {
                     at: [0.5, 0.1],
                     left: RADAU.c.map(|c| 0.8 - 0.1 * c),
                 }),
+                under: None,
             };
             let start = [
                 RADAU.c.map(|c| 0.7 * c - 0.2),

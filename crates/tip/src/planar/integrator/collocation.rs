@@ -1,5 +1,6 @@
 //! Steps by collocation, with their error control.
 
+use super::super::earlier::Under;
 use super::super::scenario::PlanarError;
 use super::super::stages::{Relief, Solution, StageEquations, Unknowns};
 use super::Integrator;
@@ -132,7 +133,15 @@ impl Integrator<'_> {
                 at: [self.position(), self.y],
                 left: RADAU.c.map(|c| self.relief_left(self.t + h * c)),
             }),
+            under: self.under(h),
         }
+    }
+
+    /// The surface of earlier scans under a step.
+    fn under(&self, h: f64) -> Option<Under<'_>> {
+        let grooves = self.earlier?;
+        let left = RADAU.c.map(|c| self.wider().left_after(self.t + h * c - self.start));
+        Some(Under { grooves, from: [self.position(), self.y], left })
     }
 
     /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
@@ -193,6 +202,9 @@ impl Integrator<'_> {
         self.velocity = [d, e].map(|d| step::velocity_at_end(&d, h));
         self.switch.made(h * self.fastest(solution.curvatures), self.chain.order());
         self.accept(step);
-        Ok(())
+        match self.earlier.filter(|grooves| self.y.abs() > grooves.wide()) {
+            Some(_) => Err(PlanarError::BeyondGrooves { t: self.t, y: self.y }),
+            None => Ok(()),
+        }
     }
 }

@@ -5,6 +5,7 @@ mod saved;
 mod series;
 
 use super::chain::{Chain, Curvatures};
+use super::earlier::{EarlierGrooves, GrooveJet};
 use super::frame::{Frame, Layers};
 use super::history::Step;
 use super::lattice::Lattice;
@@ -43,6 +44,8 @@ pub(super) struct Integrator<'a> {
     texture: Texture,
     /// The part of it on which the present step began.
     field: Field,
+    /// The grooves of earlier lines, as they were at the start.
+    earlier: Option<&'a EarlierGrooves>,
     past: Past,
     frame: Frame,
     control: Control,
@@ -90,12 +93,16 @@ fn may_go_back(PlanarScenario { along, force_across, .. }: &PlanarScenario) -> b
 
 impl<'a> Integrator<'a> {
     /// The integrator at the start of a valid scenario.
-    pub(super) fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
+    pub(super) fn new(
+        scenario: &'a PlanarScenario,
+        earlier: Option<&'a EarlierGrooves>,
+    ) -> Result<Self, PlanarError> {
         let (along, footprint) = (&scenario.along, scenario.footprint()?);
         let model = &along.model;
         let accuracy = accuracy_needed(model, along.tolerance).max(FINEST);
         let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(along))?);
-        let lattice = if may_go_back(scenario) { Lattice::new(footprint.0) } else { None };
+        let goes_back = earlier.is_some() || may_go_back(scenario);
+        let lattice = if goes_back { Lattice::new(footprint.0) } else { None };
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();
@@ -114,6 +121,7 @@ impl<'a> Integrator<'a> {
             support: along.support(),
             field: texture.field([x, y], [true; 2], target),
             texture,
+            earlier,
             past: Past::new(modes, lattice),
             control,
             t: along.start_time(),
@@ -269,9 +277,11 @@ impl<'a> Integrator<'a> {
         let force = self.force.map(|force| force.value(self.t.next_up()));
         let across = super::chain::dot(psi, value) / self.frame.width();
         let relief = self.relief_now().map_or([0.0; 2], |jet| [jet[1][0], jet[0][1]]);
+        let earlier = self.earlier_now().slope;
+        let under = [relief[0] + earlier[0], relief[1] + earlier[1]];
         [
-            super::chain::dot(phi, slope) + self.extension + force[0] - relief[0],
-            across - self.stiffness * self.y + force[1] - relief[1],
+            super::chain::dot(phi, slope) - under[0] + self.extension + force[0],
+            across - under[1] - self.stiffness * self.y + force[1],
         ]
     }
 
@@ -283,7 +293,7 @@ impl<'a> Integrator<'a> {
         self.past.at(0.0, &mut [&mut *value, slope, curvature]);
         values(self.frame.eta(self.y), self.model.alpha(), phi);
         let relief = self.relief_now().map_or(0.0, |jet| jet[0][0]);
-        relief - super::chain::dot(phi, value)
+        relief + self.earlier_now().height - super::chain::dot(phi, value)
     }
 
     /// Sets the field that contains the tip, or that it is about to enter.
@@ -324,6 +334,13 @@ impl<'a> Integrator<'a> {
             leaves(range, from, (parts, displacement[j]), |part| at(j, part))
         };
         [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
+    }
+
+    /// The grooves of earlier lines under the tip.
+    fn earlier_now(&self) -> GrooveJet {
+        let left = self.wider().left_after(self.t - self.start);
+        let under = self.earlier.map(|grooves| grooves.at(self.position(), self.y));
+        under.map_or_else(GrooveJet::default, |jet| jet.times(left))
     }
 
     /// Changes the side of the kink for the next attempt; false if the other side has been tried.

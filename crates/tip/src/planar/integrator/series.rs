@@ -69,7 +69,8 @@ impl Integrator<'_> {
 
     /// The series from here on; false where there is none.
     fn look_ahead(&mut self) -> bool {
-        if !self.past.knows_series() {
+        // Grooves of earlier lines have derivatives up to the second only.
+        if self.earlier.is_some() || !self.past.knows_series() {
             return false;
         }
         let (order, alpha) = (self.chain.order(), self.model.alpha());

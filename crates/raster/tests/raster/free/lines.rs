@@ -1,0 +1,140 @@
+//! Lines and surfaces against the reference, which sums over every position of every line.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use super::reference::{Law, Reference, Terms, Way};
+use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
+use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction, Wider};
+
+fn scanned(plan: &Plan) -> Vec<Line> {
+    let mut scanning = Scanning::new(plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    scanning.into_lines()
+}
+
+/// (48) with these side lobes times a Gaussian across, with its terms.
+fn footprint(beta: f64, width_y: f64) -> (Footprint, Terms) {
+    let along = TipFunction::triple_gaussian(beta, 1.0).unwrap();
+    let term = |a: f64, c: f64| [a, c, 1.0, 0.0, width_y];
+    let terms = vec![term(1.0, 0.0), term(-0.5 * beta, -2.0), term(-0.5 * beta, 2.0)];
+    (Footprint::separable(along, width_y).unwrap(), terms)
+}
+
+struct Case {
+    name: &'static str,
+    beta: f64,
+    alpha: f64,
+    stiffness: f64,
+    path: Path,
+    /// Pitch, number and length of the lines.
+    size: (f64, usize, f64),
+    wider: Wider,
+    kick: f64,
+    /// Amplitude of a pulse across in the middle of the first line.
+    push: f64,
+}
+
+impl Case {
+    fn plan(&self) -> (Plan, Law) {
+        let (footprint, terms) = footprint(self.beta, 1.0);
+        let model = Model::under(self.wider, footprint.path().clone(), self.alpha, 1.0).unwrap();
+        let (pitch, lines, length) = self.size;
+        let pulse = |amplitude| [amplitude, 0.5 * length, 1.2];
+        let force = |[amplitude, time, width]: [f64; 3]| {
+            Force::new(vec![Pulse { amplitude, time, width }], None).unwrap()
+        };
+        let mut free = Free { kick: self.kick, ..Free::new(self.stiffness) };
+        if self.push.abs() > 0.0 {
+            free.disturbance = force(pulse(self.push));
+        }
+        let plan = Plan::new(footprint, model, self.path, pitch, lines, length).with_free(free);
+        let law = Law {
+            terms,
+            alpha: self.alpha,
+            r: 1.0,
+            stiffness: self.stiffness,
+            inertia: self.wider.inertia,
+            healing: self.wider.healing_time,
+            depth: self.wider.depth_limit,
+            pulses: [None, (self.push.abs() > 0.0).then(|| pulse(self.push))],
+        };
+        (plan, law)
+    }
+}
+
+/// The ways of the support over the lines of a plan.
+fn ways(plan: &Plan, kick: f64) -> Vec<Way> {
+    let way = |n: usize| {
+        let track = plan.track(n);
+        let goes_on = plan.path == Path::Zigzag && n > 0;
+        let off = [0.0, if n == 0 { kick } else { 0.0 }];
+        Way {
+            y: track.y,
+            from: track.start,
+            to: track.x(track.length),
+            put_down: (!goes_on).then_some(off),
+        }
+    };
+    (0..plan.lines()).map(way).collect()
+}
+
+/// Largest differences of x0 and y0 on any line, and of u around the lines; and the lines.
+fn differences(plan: &Plan, law: Law, steps: usize) -> ([f64; 3], Vec<Line>) {
+    let kick = plan.free.as_ref().unwrap().kick;
+    let (lines, mut reference) = (scanned(plan), Reference::new(law));
+    let mut worst = [0.0_f64; 3];
+    for (way, line) in ways(plan, kick).iter().zip(&lines) {
+        for (t, at) in reference.line(way, steps) {
+            worst[0] = worst[0].max((line.x0(t) - at[0]).abs());
+            worst[1] = worst[1].max((line.y0(t) - at[1]).abs());
+        }
+    }
+    let (low, high) = plan.area.ends();
+    let x: Vec<f64> = (0..7).map(|i| low + (high - low) * f64::from(i) / 5.7).collect();
+    let y = [-1.2, 0.3, 0.9, 2.6];
+    let u = Scanned::new(plan, &lines).heights(&x, &y);
+    for ((n, i), u) in u.indexed_iter() {
+        worst[2] = worst[2].max((u - reference.height([x[i], y[n]])).abs());
+    }
+    (worst, lines)
+}
+
+fn judge(case: &Case, steps: usize) -> Vec<Line> {
+    let (plan, law) = case.plan();
+    let (worst, lines) = differences(&plan, law, steps);
+    let farthest = lines.iter().flat_map(|line| {
+        let off = |visit: stickslip_tip::planar::Visit| (visit.y - line.track().y).abs();
+        line.visits().into_iter().map(off)
+    });
+    println!("{}: {worst:?}, {:.2} off the line", case.name, farthest.fold(0.0, f64::max));
+    assert!(worst.iter().all(|miss| *miss < 3e-8), "{}: {worst:?}", case.name);
+    lines
+}
+
+fn plain() -> Case {
+    Case {
+        name: "one-way",
+        beta: 0.0,
+        alpha: 0.5,
+        stiffness: 1.0,
+        path: Path::OneWay,
+        size: (0.5, 5, 14.0),
+        wider: Wider::default(),
+        kick: 0.0,
+        push: 0.6,
+    }
+}
+
+#[test]
+fn one_way_lines_are_those_of_the_direct_sum() {
+    judge(&plain(), 140);
+    judge(&Case { name: "soft", stiffness: 0.2, alpha: 0.8, kick: 0.4, ..plain() }, 280);
+    judge(&Case { name: "side lobes", beta: 1.0, alpha: 0.9, stiffness: 0.4, ..plain() }, 140);
+}
+
+#[test]
+fn zigzag_lines_are_those_of_the_direct_sum() {
+    let zigzag = Case { name: "zigzag", path: Path::Zigzag, ..plain() };
+    judge(&zigzag, 140);
+    judge(&Case { name: "side lobes", beta: 1.0, alpha: 0.9, stiffness: 0.4, ..zigzag }, 140);
+}

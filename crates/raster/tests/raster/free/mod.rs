@@ -1,4 +1,6 @@
 //! Rasters of a tip that is free to move across the lines.
 
+mod limits;
 mod lines;
 mod reference;
+mod theory;

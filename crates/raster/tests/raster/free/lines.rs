@@ -152,6 +152,10 @@ fn lines_under_the_wider_law_are_those_of_the_direct_sum() {
     judge(&case("heavy", heavy, Path::OneWay), 100);
     judge(&case("both, there and back", both, Path::Zigzag), 100);
     judge(&case("both, repeated", both, Path::Repeat), 100);
+    let limited = Wider { depth_limit: Some(2.0), ..Wider::default() };
+    let all = Wider { depth_limit: Some(3.0), ..both };
+    judge(&case("limited", limited, Path::OneWay), 100);
+    judge(&case("all, there and back", all, Path::Zigzag), 100);
 }
 
 /// Lines of several lengths that begin at several x, one of them twice, and one that goes back.

@@ -9,7 +9,8 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_raster::{Area, AreaLine, Line, Path, Plan, RasterError, Scanning};
+use stickslip_raster::{Area, AreaLine, Free, Line, Path, Plan, RasterError, Scanning};
+use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{Force, Pulse, RunError, Scenario};
 
 /// Default distance that the support moves between samples, in widths of the tip.
@@ -82,6 +83,15 @@ pub struct Raster {
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
     pub memory: MemoryName,
+    /// κ_y, the spring constant across the lines over that along them; above 0. Without it the tip cannot leave its
+    /// line.
+    #[schemars(extend("x-option" = option("K", "Across the scan", 30)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
+    /// Initial distance of the tip from the first line, in σ, if it is free to move across the lines; 0 by default.
+    #[schemars(extend("x-option" = option("D", "Across the scan", 31)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kick_across: Option<f64>,
     /// Times of the samples of each line, from its start.
     #[serde(flatten)]
     pub sampling: Sampling,
@@ -171,6 +181,8 @@ impl Raster {
             pulses: plan.disturbance.pulses().iter().copied().map(Into::into).collect(),
             tolerance: plan.law.tolerance,
             memory: plan.law.memory.into(),
+            stiffness_across: plan.free.as_ref().map(|free| free.stiffness),
+            kick_across: plan.free.as_ref().map(|free| free.kick).filter(|kick| kick.abs() > 0.0),
             sampling: Sampling::default(),
         })
     }
@@ -211,9 +223,24 @@ impl Raster {
         let pulses: Vec<Pulse> = self.pulses.iter().map(Into::into).collect();
         let force = Force::new(pulses, None);
         plan.disturbance = force.map_err(|error| Refused::whole("pulses", error))?;
+        plan.free = self.free()?;
         plan.law = Scenario { tolerance: self.tolerance, memory: self.memory.into(), ..plan.law };
         plan.validate().map_err(|error| self.refused(&error))?;
         Ok(plan)
+    }
+
+    /// Motion across the lines; `None` if the tip is held on them.
+    fn free(&self) -> Result<Option<Free>, Refused> {
+        match (self.stiffness_across, self.kick_across) {
+            (Some(stiffness), kick) => {
+                Ok(Some(Free { kick: kick.unwrap_or_default(), ..Free::new(stiffness) }))
+            }
+            (None, None) => Ok(None),
+            (None, Some(kick)) => {
+                let why = "is of a tip that is free to move across the lines: give {stiffness_across} too";
+                Err(Refused::number("kick_across", kick, why))
+            }
+        }
     }
 
     /// The plan of a question that was read from a document and may be invalid.
@@ -253,6 +280,16 @@ impl Raster {
                 Refused { parameter: "memory".into(), value, why: error.to_string() }
             }
             RasterError::Line { .. } => of_area("length", self.length),
+            RasterError::Free { error: PlanarError::Kick(kick), .. } => {
+                Refused::number("kick_across", *kick, error)
+            }
+            RasterError::Free { error: PlanarError::Footprint { .. }, .. } => {
+                Refused::whole("tip", error)
+            }
+            RasterError::Free { .. } => {
+                let stiffness = self.stiffness_across.unwrap_or_default();
+                Refused::number("stiffness_across", stiffness, error)
+            }
         }
     }
 

@@ -67,6 +67,13 @@ impl RasterFound {
     }
 }
 
+/// A column of samples that exists only for a tip that is free to move across the lines.
+type SamplesAcross = fn(&RasterSamples) -> Option<&Vec<f64>>;
+
+/// The samples of a tip that is free to move across the lines.
+const ACROSS: [(&str, SamplesAcross); 2] =
+    [("y0", |samples| samples.y0.as_ref()), ("velocity_y", |samples| samples.velocity_y.as_ref())];
+
 impl Tabular for RasterFound {
     /// The samples as a table, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
@@ -78,14 +85,21 @@ impl Tabular for RasterFound {
             let rows = |(n, line): (usize, &RasterLine)| vec![of(n); line.samples.t.len()];
             self.lines.iter().enumerate().flat_map(rows).collect::<Vec<_>>().into()
         };
-        vec![
+        let mut columns = vec![
             ("line", repeated(&|n| n as f64 + 1.0)),
             ("y", repeated(&|n| self.lines[n].y)),
             ("t", joined(|samples| &samples.t)),
             ("x0", joined(|samples| &samples.x0)),
             ("lag", joined(|samples| &samples.lag)),
             ("velocity", joined(|samples| &samples.velocity)),
-        ]
+        ];
+        for (name, of) in ACROSS {
+            let all = self.lines.iter().map(|line| of(&line.samples));
+            let all: Option<Vec<&Vec<f64>>> = all.collect();
+            let joined = all.map(|all| all.into_iter().flatten().copied().collect::<Vec<_>>());
+            columns.extend(joined.map(|joined| (name, joined.into())));
+        }
+        columns
     }
 
     /// `x0`, `lag` and `velocity` have a row for each line, filled with NaN after its end; the histories of all lines
@@ -94,13 +108,14 @@ impl Tabular for RasterFound {
         let Some(longest) = self.lines.iter().max_by_key(|line| line.samples.t.len()) else {
             return vec![];
         };
+        let whole = |values: &Vec<f64>| {
+            let mut row = values.clone();
+            row.resize(longest.samples.t.len(), f64::NAN);
+            row
+        };
         let rows = |of: fn(&RasterSamples) -> &Vec<f64>| {
-            let row = |line: &RasterLine| {
-                let mut row = of(&line.samples).clone();
-                row.resize(longest.samples.t.len(), f64::NAN);
-                row
-            };
-            Array::matrix(&self.lines.iter().map(row).collect::<Vec<_>>())
+            let rows = self.lines.iter().map(|line| whole(of(&line.samples)));
+            Array::matrix(&rows.collect::<Vec<_>>())
         };
         let y: Vec<f64> = self.lines.iter().map(|line| line.y).collect();
         let t = longest.samples.t.clone();
@@ -111,6 +126,11 @@ impl Tabular for RasterFound {
             ("lag", rows(|samples| &samples.lag)),
             ("velocity", rows(|samples| &samples.velocity)),
         ];
+        for (name, of) in ACROSS {
+            let rows = self.lines.iter().map(|line| of(&line.samples).map(whole));
+            let rows: Option<Vec<Vec<f64>>> = rows.collect();
+            arrays.extend(rows.map(|rows| (name, Array::matrix(&rows))));
+        }
         arrays.extend(self.history.arrays());
         arrays
     }

@@ -5,7 +5,10 @@ use crate::{History, Unusable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
-use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Work, nodes_and_weights};
+use stickslip_tip::{Heights, STAGES, Step, Support, Work, nodes_and_weights, planar};
+
+/// Largest distance of a tip from its line in a history, in σ.
+const FARTHEST_ACROSS: f64 = 1e6;
 
 /// One scan line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -47,6 +50,12 @@ pub struct RasterSamples {
     /// Height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<f64>>,
+    /// Position of the tip across the lines, in σ, if it is free to move there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<f64>>,
+    /// y0', the velocity across the lines, in kσ/Γ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_y: Option<Vec<f64>>,
 }
 
 /// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and moves to
@@ -76,6 +85,9 @@ pub struct LineHistory {
     /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<Vec<f64>>>,
+    /// y0 on the surface at the start of each step and at its nodes, in σ, if the tip is free to move across the lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<Vec<f64>>>,
 }
 
 /// A finished line of an unfinished raster.
@@ -89,6 +101,10 @@ pub struct KeptLine {
     /// The heights of each step, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heights: Option<Vec<Vec<f64>>>,
+    /// For each step the distance of the tip from the line at its start, and its changes at the nodes, if the tip is free
+    /// to move across.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<Vec<[f64; 1 + STAGES]>>,
     /// Numbers of accepted steps, rejected steps, and Newton iterations.
     pub work: [u64; 3],
     /// Numbers of Taylor expansions and of changes from them to collocation.
@@ -113,15 +129,23 @@ impl RasterLine {
                 .map(|t| line.height(*t))
                 .collect::<Option<_>>()
                 .filter(|_| !times.is_empty()),
+            y0: line.is_free().then(|| column(&|t| line.y0(t))),
+            velocity_y: line.is_free().then(|| column(&|t| line.velocity_y(t))),
         };
         Self { y: line.track().y, samples, regime: line_regime(plan, line).into() }
     }
 }
 
 impl LineHistory {
-    fn of(trajectory: &Trajectory) -> Self {
-        let History { t, extension, displacement, height, .. } = trajectory.into();
-        Self { t, extension, displacement, height }
+    fn of(line: &Line) -> Self {
+        let History { t, extension, displacement, height, .. } = line.trajectory().into();
+        let y = line.track().y;
+        let places = |step: planar::Step| {
+            let at_nodes = step.across.map(|across| y + step.y + across);
+            [y + step.y].into_iter().chain(at_nodes).collect()
+        };
+        let y0 = line.is_free().then(|| line.planar_steps().map(places).collect());
+        Self { t, extension, displacement, height, y0 }
     }
 
     /// Line `n` of a plan.
@@ -132,7 +156,7 @@ impl LineHistory {
         n: usize,
         work: Work,
     ) -> Result<Line, Unusable> {
-        let Self { t, extension, displacement, height } = self.clone();
+        let Self { t, extension, displacement, height, y0 } = self.clone();
         let (nodes, weights) = (nodes.to_vec(), weights.to_vec());
         let model = &plan.law.model;
         let history = History { nodes, weights, t, extension, displacement, height, y0: None };
@@ -142,14 +166,35 @@ impl LineHistory {
         if n >= plan.lines() || start.abs() > 0.0 || (end - duration).abs() > 1e-9 * duration {
             return Err(Unusable::new(format!("line {} is none of this raster", n + 1)));
         }
-        Ok(Line::new(plan.track(n), model, found.steps().to_vec(), work))
+        let (track, steps) = (plan.track(n), found.steps().to_vec());
+        let damaged =
+            || Unusable::new(format!("line {}: history: y0 is not that of its steps", n + 1));
+        match (y0, &plan.free) {
+            (None, None) => Ok(Line::new(track, model, steps, work)),
+            (Some(y0), Some(_)) if y0.len() == steps.len() => {
+                let rows = steps.into_iter().zip(&y0);
+                let steps = rows.map(|(along, row)| free_step(along, row, track.y));
+                let steps: Vec<planar::Step> = steps.collect::<Option<_>>().ok_or_else(damaged)?;
+                Ok(Line::free(track, model, &steps, work))
+            }
+            _ => Err(damaged()),
+        }
     }
+}
+
+/// A step of a line at y, from y0 at its start and nodes; `None` for another number of them, or positions out of range.
+fn free_step(along: Step, y0: &[f64], y: f64) -> Option<planar::Step> {
+    let (start, nodes) = y0.split_first()?;
+    let nodes: [f64; STAGES] = nodes.try_into().ok()?;
+    let is_near = y0.iter().all(|y0| (y0 - y).abs() <= FARTHEST_ACROSS);
+    let step = planar::Step { along, y: start - y, across: nodes.map(|y0| y0 - start) };
+    is_near.then_some(step)
 }
 
 impl RasterHistory {
     pub(super) fn of(lines: &[Line]) -> Self {
         let (nodes, weights) = nodes_and_weights();
-        let lines = lines.iter().map(|line| LineHistory::of(line.trajectory())).collect();
+        let lines = lines.iter().map(LineHistory::of).collect();
         Self { nodes: nodes.to_vec(), weights: weights.to_vec(), lines }
     }
 
@@ -190,6 +235,11 @@ impl RasterHistory {
         if !height.is_empty() {
             arrays.push(("history_height", Array::matrix(&height)));
         }
+        let y0: Vec<Vec<f64>> =
+            lines().filter_map(|line| line.y0.as_ref()).flatten().cloned().collect();
+        if !y0.is_empty() {
+            arrays.push(("history_y0", Array::matrix(&y0)));
+        }
         arrays
     }
 }
@@ -208,10 +258,16 @@ impl KeptLine {
         let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
         let steps = line.trajectory().steps();
         let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
+        let across = |step: planar::Step| {
+            let mut numbers = [step.y; 1 + STAGES];
+            numbers[1..].copy_from_slice(&step.across);
+            numbers
+        };
         Self {
             index,
             steps: steps.iter().map(numbers).collect(),
             heights: steps.iter().map(heights).collect(),
+            across: line.is_free().then(|| line.planar_steps().map(across).collect()),
             work: [done, rejected, newton_iterations],
             series: [series, switches],
         }
@@ -229,12 +285,24 @@ impl KeptLine {
         let [series, switches] = self.series;
         let work = Work { steps: done, rejected, newton_iterations, series, switches };
         let (nodes, weights) = nodes_and_weights();
-        let line = Line::new(plan.track(self.index), &plan.law.model, steps, work);
-        LineHistory::of(line.trajectory()).line((&nodes, &weights), plan, self.index, work)?;
+        let (track, model) = (plan.track(self.index), &plan.law.model);
+        let line =
+            match &self.across {
+                None => Line::new(track, model, steps, work),
+                Some(across) => {
+                    let pairs = steps.into_iter().zip(across);
+                    let step = |(along, [y, across @ ..]): (Step, &[f64; 1 + STAGES])| {
+                        planar::Step { along, y: *y, across: *across }
+                    };
+                    let steps: Vec<planar::Step> = pairs.map(step).collect();
+                    Line::free(track, model, &steps, work)
+                }
+            };
+        LineHistory::of(&line).line((&nodes, &weights), plan, self.index, work)?;
         Ok(line)
     }
 
-    /// The steps of the line; `None` if there are none, or if the number of heights differs.
+    /// The steps of the line; `None` if there are none, or if the number of heights or positions across differs.
     fn steps(&self) -> Option<Vec<Step>> {
         let steps = self.steps.iter().map(step);
         let steps: Vec<Step> = match &self.heights {
@@ -249,7 +317,8 @@ impl KeptLine {
             }
             Some(_) => return None,
         };
-        (!steps.is_empty()).then_some(steps)
+        let is_whole = self.across.as_ref().is_none_or(|across| across.len() == steps.len());
+        (is_whole && !steps.is_empty()).then_some(steps)
     }
 }
 

@@ -11,6 +11,9 @@ pub enum GridError {
     /// r must be finite and > 0.
     #[error("r is {0}: the support velocity must be a finite number > 0")]
     R(f64),
+    /// κ_y must be finite and ≥ 0.
+    #[error("the stiffness across is {0}: it must be a finite number ≥ 0")]
+    StiffnessAcross(f64),
     /// A depth limit, a healing time or an inertia must be finite and > 0.
     #[error("{0}: a depth limit, healing time or inertia must be a finite number > 0")]
     Wider(f64),

@@ -50,6 +50,11 @@ impl<'a> Footprint<'a> {
         if x.abs() <= self.reach { self.value(x) } else { 0.0 }
     }
 
+    /// ∫_x^∞ f(y) e^{-s(y-x)}dy for this s.
+    pub(crate) fn tail(&self, fading: f64) -> Tail<&'a dyn Fn(f64) -> f64> {
+        Tail::new(self.value, self.reach, fading)
+    }
+
     /// Distance beyond which f is taken as 0.
     #[must_use]
     pub fn reach(&self) -> f64 {
@@ -57,10 +62,11 @@ impl<'a> Footprint<'a> {
     }
 }
 
-/// ∫_x^∞ f(y) e^{-s(y-x)}dy, with s = 0 by default, by Gauss–Legendre quadrature with 16 nodes on 64 panels over the
+/// ∫_x^∞ f(y) e^{-s(y-x)}dy by Gauss–Legendre quadrature with 16 nodes on 64 panels over the
 /// reach: exact to round-off if f is smooth on the scale reach/32.
-pub(crate) struct Tail<'a> {
-    footprint: Footprint<'a>,
+pub(crate) struct Tail<F> {
+    value: F,
+    reach: f64,
     /// s
     fading: f64,
     rule: GaussLegendre,
@@ -69,18 +75,16 @@ pub(crate) struct Tail<'a> {
     panel: f64,
 }
 
-impl<'a> Tail<'a> {
+impl<F: Fn(f64) -> f64> Tail<F> {
     const PANELS: usize = 64;
     const NODES: NonZeroUsize = NonZeroUsize::MIN.saturating_add(15);
 
-    pub(crate) fn new(footprint: Footprint<'a>) -> Self {
-        Self::fading(footprint, 0.0)
-    }
-
-    pub(crate) fn fading(footprint: Footprint<'a>, fading: f64) -> Self {
-        let panel = 2.0 * footprint.reach / Self::PANELS as f64;
+    /// The tail of f, 0 beyond a reach.
+    pub(crate) fn new(value: F, reach: f64, fading: f64) -> Self {
+        let panel = 2.0 * reach / Self::PANELS as f64;
         let mut tail = Self {
-            footprint,
+            value,
+            reach,
             fading,
             rule: GaussLegendre::new(Self::NODES),
             right: vec![0.0; Self::PANELS],
@@ -94,7 +98,7 @@ impl<'a> Tail<'a> {
     }
 
     fn edge(&self, k: usize) -> f64 {
-        k as f64 * self.panel - self.footprint.reach
+        k as f64 * self.panel - self.reach
     }
 
     /// e^{-s length}
@@ -104,20 +108,20 @@ impl<'a> Tail<'a> {
 
     /// The integral from `from` to `to`, with the exponential relative to x.
     fn integral(&self, x: f64, from: f64, to: f64) -> f64 {
-        self.rule.integrate(from, to, |y| self.footprint.value(y) * self.left_over(y - x))
+        self.rule.integrate(from, to, |y| (self.value)(y) * self.left_over(y - x))
     }
 
     /// ∫_x^∞ f(y) e^{-s(y-x)}dy
-    pub(crate) fn value(&self, x: f64) -> f64 {
-        let from = x.max(-self.footprint.reach);
-        if from >= self.footprint.reach {
+    pub(crate) fn at(&self, x: f64) -> f64 {
+        let from = x.max(-self.reach);
+        if from >= self.reach {
             return 0.0;
         }
         self.left_over(from - x) * self.value_from(from)
     }
 
     fn value_from(&self, x: f64) -> f64 {
-        let k = (((x + self.footprint.reach) / self.panel) as usize).min(Self::PANELS - 1);
+        let k = (((x + self.reach) / self.panel) as usize).min(Self::PANELS - 1);
         let edge = self.edge(k + 1);
         self.right[k] * self.left_over(edge - x) + self.integral(x, x, edge)
     }
@@ -133,7 +137,7 @@ mod tests {
 
     #[test]
     fn the_tail_of_a_gaussian_is_its_error_function() -> Result<(), GridError> {
-        let tail = Tail::new(Footprint::new(&gaussian, 8.8)?);
+        let tail = Tail::new(gaussian, 8.8, 0.0);
         let total = std::f64::consts::TAU.sqrt();
         // √(π/2) erfc(1/√2) and √(π/2) erfc(3/√2), from 30-digit arithmetic.
         let known = [
@@ -144,7 +148,7 @@ mod tests {
             (9.0, 0.0),
         ];
         for (x, exact) in known {
-            assert!((tail.value(x) - exact).abs() < 2e-15, "tail({x}) = {}", tail.value(x));
+            assert!((tail.at(x) - exact).abs() < 2e-15, "tail({x}) = {}", tail.at(x));
         }
         Ok(())
     }

@@ -18,6 +18,9 @@
 //! distance, never by time. The methods are explicit: a deep groove (a trapped tip) makes the problem stiff, u_xx ~
 //! αt, and the number of steps grows with it.
 //!
+//! [`solve_plane`] and [`scan_plane`] solve the same equations on cells of a plane, for a tip that is free along the
+//! scan and across it.
+//!
 //! # Example
 //!
 //! ```
@@ -47,6 +50,7 @@ mod footprint;
 mod marcher;
 mod method;
 mod patch;
+mod plane;
 mod problem;
 mod raster;
 mod row_scheme;
@@ -65,6 +69,10 @@ mod wider;
 pub use error::GridError;
 pub use footprint::Footprint;
 pub use method::{Method, solve, solve_observed};
+pub use plane::{
+    PlaneMethod, PlaneObserver, PlaneProblem, PlaneRequest, PlaneRun, PlaneScan, PlaneScanned,
+    PlaneStart, Product, scan_plane, solve_plane,
+};
 pub use problem::Problem;
 pub use raster::{Layer, LineObserver, Scan, ScanLine, Scanned, scan};
 pub use row_scheme::RowMethod;

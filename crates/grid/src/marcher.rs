@@ -1,7 +1,7 @@
 //! The integrator that updates only the cells within reach of the tip.
 
 use crate::cells::Cells;
-use crate::control::{Control, reached, too_small, towards};
+use crate::control::{Control, blend, reached, too_small, towards};
 use crate::patch::Patch;
 use crate::scheme::Scheme;
 use crate::tableau::Tableau;
@@ -289,9 +289,4 @@ fn combine(
             out.add(factor * weight, &stage.imprint);
         }
     }
-}
-
-/// Hairer, Nørsett and Wanner's e5²/√(e5² + 0.01 e3²); without a second estimate e5.
-fn blend(fifth: f64, third: f64) -> f64 {
-    if third > 0.0 { fifth * fifth / fifth.hypot(0.1 * third) } else { fifth }
 }

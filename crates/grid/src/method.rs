@@ -2,7 +2,7 @@
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, positive};
 use crate::sinc::Sinc;
 use crate::tableau::Tableau;
 use crate::theta::Theta;
@@ -113,12 +113,4 @@ fn spectral(
     let (cells, start) = (Cells::new(&nothing), &problem.start);
     Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start))
         .run(request, observe)
-}
-
-fn positive(spacing: f64) -> Result<f64, GridError> {
-    if spacing.is_finite() && spacing > 0.0 {
-        Ok(spacing)
-    } else {
-        Err(GridError::Spacing(spacing))
-    }
 }

@@ -34,6 +34,18 @@ impl Patch {
         }
     }
 
+    /// Σ own · other over the cells of both.
+    pub(crate) fn overlap(&self, other: &Patch) -> f64 {
+        let first = self.first.max(other.first);
+        let end = self.end().min(other.end());
+        if first >= end {
+            return 0.0;
+        }
+        let own = &self.values[(first - self.first) as usize..(end - self.first) as usize];
+        let its = &other.values[(first - other.first) as usize..(end - other.first) as usize];
+        own.iter().zip(its).map(|(own, its)| own * its).sum()
+    }
+
     /// Σ own · other over the same cells.
     pub(crate) fn dot(&self, other: &[f64]) -> f64 {
         self.values.iter().zip(other).map(|(a, b)| a * b).sum()

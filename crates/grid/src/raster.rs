@@ -104,10 +104,7 @@ pub fn scan(
         x0.push(at);
         steps.push(own);
         state = Some(end);
-        work.steps += took.steps;
-        work.rejected += took.rejected;
-        work.right_hand_sides += took.right_hand_sides;
-        work.cells_updated += took.cells_updated;
+        work = work.plus(&took);
     }
     let u = plane.rows.iter().map(|row| plane.read(row, method, points)).collect();
     Ok(Scanned { x0, steps, y: plane.y, u, work })

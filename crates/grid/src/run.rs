@@ -51,3 +51,15 @@ pub struct Work {
     /// Number of evaluations of the right-hand side of (11), summed over the cells.
     pub cells_updated: u64,
 }
+
+impl Work {
+    /// The work of both.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            steps: self.steps + other.steps,
+            rejected: self.rejected + other.rejected,
+            right_hand_sides: self.right_hand_sides + other.right_hand_sides,
+            cells_updated: self.cells_updated + other.cells_updated,
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! The interface of a discretisation.
 
+use crate::GridError;
 use crate::patch::Patch;
 
 /// Cells x_j = j h, with a rule for writing and a rule for reading.
@@ -34,7 +35,7 @@ pub(crate) fn sample(footprint: &crate::Footprint, spacing: f64, tip: f64, out: 
 }
 
 /// max |Σ_j read(x - x_j) write(x_j - y) - f(x - y)| over the reach, relative to max |f|.
-pub(crate) fn defect(scheme: &impl Scheme, footprint: &crate::Footprint) -> f64 {
+pub(crate) fn defect(scheme: &(impl Scheme + ?Sized), footprint: &crate::Footprint) -> f64 {
     let (mut read, mut write, mut local) = Default::default();
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for k in -64..=64 {
@@ -54,4 +55,13 @@ pub(crate) fn defect(scheme: &impl Scheme, footprint: &crate::Footprint) -> f64 
 fn local_copy(local: &mut Patch, read: &Patch, write: &Patch) {
     local.reset(read.first, read.values.len());
     local.add(1.0, write);
+}
+
+/// A spacing, if it is a finite number above 0.
+pub(crate) fn positive(spacing: f64) -> Result<f64, GridError> {
+    if spacing.is_finite() && spacing > 0.0 {
+        Ok(spacing)
+    } else {
+        Err(GridError::Spacing(spacing))
+    }
 }

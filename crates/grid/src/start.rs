@@ -1,7 +1,7 @@
 //! Initial conditions: time, position and surface.
 
 use crate::Wider;
-use crate::footprint::{Footprint, Tail};
+use crate::footprint::Footprint;
 
 /// t1, x0(t1) and the surface u0 with its slope.
 pub struct Start<'a> {
@@ -36,11 +36,11 @@ impl<'a> Start<'a> {
     #[must_use]
     pub fn steady(alpha: f64, r: f64, footprint: Footprint<'a>, position: f64, kick: f64) -> Self {
         let steady_l = alpha * footprint.value(0.0) / r;
-        let tail = Tail::new(footprint);
+        let tail = footprint.tail(0.0);
         Self::new(
             (position + r + steady_l) / r,
             position - kick,
-            move |x| -(alpha / r) * tail.value(x - position),
+            move |x| -(alpha / r) * tail.at(x - position),
             move |x| (alpha / r) * footprint.value_within_reach(x - position),
         )
     }
@@ -56,27 +56,18 @@ impl<'a> Start<'a> {
         kick: f64,
     ) -> Self {
         let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (r * time));
-        let tail = Tail::fading(footprint, fading);
-        let depth = alpha / r * tail.value(0.0);
-        // w e^{w depth/b} = 1 has one root in (0, 1], which halving finds.
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            let above = middle > wider.weight(middle * depth);
-            *(if above { &mut high } else { &mut low }) = middle;
-        }
-        let density =
-            alpha / r * if wider.depth_limit.is_some() { 0.5 * (low + high) } else { 1.0 };
+        let tail = footprint.tail(fading);
+        let density = alpha / r * wider.steady_weight(alpha / r * tail.at(0.0));
         let slope_at = {
-            let tail = Tail::fading(footprint, fading);
-            move |x: f64| footprint.value_within_reach(x) - fading * tail.value(x)
+            let tail = footprint.tail(fading);
+            move |x: f64| footprint.value_within_reach(x) - fading * tail.at(x)
         };
         let lag = r + density * slope_at(0.0);
         let time = if wider.path.is_some() { 0.0 } else { (position + lag) / r };
         Self::new(
             time,
             position - kick,
-            move |x| -density * tail.value(x - position),
+            move |x| -density * tail.at(x - position),
             move |x| density * slope_at(x - position),
         )
     }

@@ -45,19 +45,25 @@ impl Theta {
             return Err(GridError::Gaussians);
         }
         let width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
+        Ok(Self::read_by(width, gaussians, spacing))
+    }
+
+    /// The scheme that reads with a Gaussian of W²/2 for this W, at most the smallest width; `spacing` is in units of
+    /// it.
+    pub(crate) fn read_by(width: f64, gaussians: &[Gaussian], spacing: f64) -> Self {
         let half = 0.5 * width * width;
         let spacing = spacing * width;
         let write = |g: &Gaussian| {
             let narrowed = (g.width * g.width - half).sqrt();
             (g.amplitude * g.width / narrowed, g.center, Bell::new(narrowed, spacing))
         };
-        Ok(Self {
+        Self {
             spacing,
             read: Bell::new(half.sqrt(), spacing),
             read_steepness: 1.0 / half,
             read_factor: spacing / (half * std::f64::consts::TAU).sqrt(),
             write: gaussians.iter().map(write).collect(),
-        })
+        }
     }
 }
 

@@ -52,6 +52,21 @@ impl Wider<'_> {
         self.depth_limit.map_or(1.0, |limit| (-height.abs() / limit).exp())
     }
 
+    /// The weight w0 of steady motion whose groove is this deep for w = 1.
+    pub(crate) fn steady_weight(&self, depth: f64) -> f64 {
+        if self.depth_limit.is_none() {
+            return 1.0;
+        }
+        // w e^{w depth/b} = 1 has one root in (0, 1], which halving finds.
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let above = middle > self.weight(middle * depth);
+            *(if above { &mut high } else { &mut low }) = middle;
+        }
+        0.5 * (low + high)
+    }
+
     /// e^{-time/T}
     pub(crate) fn left_after(&self, time: f64) -> f64 {
         self.healing_time.map_or(1.0, |healing| (-time / healing).exp())

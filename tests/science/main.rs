@@ -14,6 +14,7 @@ mod documents;
 mod examples;
 mod grids_converge;
 mod memories_agree;
+mod planes_on_grids;
 mod properties;
 mod questions;
 mod raster_documents;

@@ -25,6 +25,7 @@ pub mod state;
 pub mod step;
 pub mod stop;
 pub mod tip_function;
+pub mod walker;
 
 mod eigenvalues;
 mod footprint;

@@ -13,6 +13,7 @@ mod term;
 
 use crate::Footprint;
 pub(crate) use apex::Apex;
+pub use bessel::bessel_orders;
 pub use error::TipFunctionError;
 pub use gaussian::GaussianSum;
 pub use scale::{BAND_OF_A_GAUSSIAN, widths};

@@ -13,7 +13,8 @@
 //! these three ([`onset`], [`trapping_alpha`], [`creep`]) accept the extended model (a depth limit, healing, inertia)
 //! as well. A tip that is flexible across the scan may [snake](Snaking), and its scan lines may bunch
 //! ([`Raster::with_stiffness_across`]). [`least_depth_limit`] and [`memory_length`] give limits within which steady
-//! motion is always stable; [`walking_speeds`] and [`walk`] treat a tip without a spring. `docs/stability.md` derives
+//! motion is always stable; [`walking_speeds`] and [`walk`] treat a tip without a spring, [`orbits`]
+//! a walker in the plane. `docs/stability.md` derives
 //! all of it. Nothing here integrates (18) in time, so that linear theory and integration are independent tests of
 //! each other.
 
@@ -37,6 +38,7 @@ mod limits;
 mod newton;
 mod one_sided;
 mod onset;
+mod orbits;
 mod pulse;
 mod raster;
 mod response;
@@ -61,6 +63,7 @@ pub use error::StabilityError;
 pub use inversion::Inversion;
 pub use limits::{least_depth_limit, memory_length};
 pub use onset::{Criticality, Onset, onset, onset_at};
+pub use orbits::{Orbit, orbits};
 pub use raster::{Raster, RasterCertificate, RasterCritical, RasterKind, RasterPath};
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};

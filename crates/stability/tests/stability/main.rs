@@ -3,6 +3,7 @@
 mod across;
 mod critical;
 mod onset;
+mod orbits;
 mod raster;
 mod response;
 mod roots;

@@ -133,6 +133,12 @@ impl Observer {
         (!steps.is_empty()).then(|| Trajectory::under(self.wider, self.support.clone(), steps))
     }
 
+    /// Time reached; `None` before the first step.
+    #[must_use]
+    pub fn t(&self) -> Option<f64> {
+        self.last().map(|last| last.end())
+    }
+
     pub(crate) fn save(&self, state: &mut State) {
         state.flag(self.span.is_some());
         if let Some((start, last)) = &self.span {
@@ -153,5 +159,11 @@ impl Observer {
         self.tail = state.steps()?.into();
         // The last step is the end of the tail.
         if self.tail.back() == self.last().as_ref() { Ok(()) } else { Err(Damaged::OutOfRange) }
+    }
+}
+
+impl Extend<Step> for Observer {
+    fn extend<I: IntoIterator<Item = Step>>(&mut self, steps: I) {
+        steps.into_iter().for_each(|step| self.observe(&step));
     }
 }

@@ -83,6 +83,12 @@ impl<'a> Watched<'a> {
         judge(self.scenario, self.surface, &self.observer)
     }
 
+    /// The observer of the steps, from which the outcome follows.
+    #[must_use]
+    pub fn observer(&self) -> &Observer {
+        &self.observer
+    }
+
     /// The last steps, from which the outcome and the corresponding ripple follow; `None` before the first step.
     #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {

@@ -81,7 +81,8 @@ pub use ask::run::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
     SupportPathParameters, SurfaceTable,
 };
-pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became};
+pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became, observed};
+pub use ask::run_many::ask_runs;
 pub use ask::sampling::{Sampling, Times};
 pub use ask::stability::{Stability, StabilityDocument};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};

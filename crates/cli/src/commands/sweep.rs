@@ -52,7 +52,10 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let finished = compute(&indices, finished, threads, &interrupt, |index| judged(index, &grid))?;
+    let work = (threads, grid.together());
+    let finished = compute(&indices, finished, work, &interrupt, |indices, take| {
+        judged(indices, &grid, take);
+    })?;
     let points = finished.in_order();
     let found = SweepFound { points, ensembles: None, arithmetic: Some(arithmetic()), crc32: None };
     let document: SweepDocument = Document::new(grid.parameters, found, vec![]);
@@ -73,13 +76,21 @@ fn threads(asked: Option<usize>) -> Result<usize, Failure> {
     }
 }
 
-/// A point; if a library panics, a point with an error.
-fn judged(index: usize, grid: &Grid) -> SweepPoint {
-    let place = grid.place(index);
-    let empty = place.empty(index, None);
-    let point = AssertUnwindSafe(|| point::point(index, place, grid.parameters.tolerance));
-    catch_unwind(point).unwrap_or_else(|_| SweepPoint {
-        error: Some("the computation failed for an unknown reason: please report it".into()),
-        ..empty
-    })
+/// These points; if a library panics, each by itself, and a point with an error where it does so again.
+fn judged(indices: &[usize], grid: &Grid, take: &mut dyn FnMut(SweepPoint)) {
+    let mut missing = indices.to_vec();
+    let mut each = |point: SweepPoint| {
+        missing.retain(|index| *index != point.index);
+        take(point);
+    };
+    if catch_unwind(AssertUnwindSafe(|| point::points(indices, grid, &mut each))).is_ok() {
+        return;
+    }
+    for index in missing {
+        let alone = AssertUnwindSafe(|| point::points(&[index], grid, take));
+        if catch_unwind(alone).is_err() {
+            let error = "the computation failed for an unknown reason: please report it";
+            take(SweepPoint { error: Some(error.into()), ..grid.place(index).empty(index, None) });
+        }
+    }
 }

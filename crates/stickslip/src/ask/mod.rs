@@ -32,6 +32,7 @@ pub(crate) mod raster_stability;
 pub(crate) mod response;
 pub(crate) mod run;
 pub(crate) mod run_found;
+pub(crate) mod run_many;
 pub(crate) mod sampling;
 pub(crate) mod stability;
 pub(crate) mod walking;

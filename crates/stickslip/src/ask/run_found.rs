@@ -7,7 +7,7 @@ use crate::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Outcome, Watched};
+use stickslip_outcome::{Observer, Outcome, Watched, judge};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::friction::{Loop, loops};
 use stickslip_tip::{InitialSurface, Scenario, Step, Support, Trajectory, Wider};
@@ -93,15 +93,29 @@ pub fn became(
     running: &Watched,
     seconds: f64,
 ) -> Result<RunEnd, Failure> {
-    let tail = running.tail().ok_or_else(|| Failure::Failed("the run has no steps".into()))?;
-    let outcome = running.outcome();
+    let memory = (running.memory(), running.memory_reason());
+    let work = WorkDocument::of(&running.work(), memory, seconds);
+    observed(scenario, initial, running.observer(), work)
+}
+
+/// The result of a run whose steps an observer has seen.
+///
+/// # Errors
+/// The run has no steps.
+pub fn observed(
+    scenario: &Scenario,
+    initial: &InitialSurface,
+    observer: &Observer,
+    work: WorkDocument,
+) -> Result<RunEnd, Failure> {
+    let seen = observer.tail().zip(observer.t());
+    let (tail, t) = seen.ok_or_else(|| Failure::Failed("the run has no steps".into()))?;
+    let outcome = judge(scenario, initial, observer);
     let oscillation = outcome.oscillation.as_ref().map(|found| {
         let surface = Surface::new(&scenario.model, initial, &tail);
         OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
     });
-    let memory = (running.memory(), running.memory_reason());
-    let work = WorkDocument::of(&running.work(), memory, seconds);
-    Ok(RunEnd::of(running.t(), outcome, oscillation, work))
+    Ok(RunEnd::of(t, outcome, oscillation, work))
 }
 
 /// The motion at these times, as far as it was computed, in the order of the request.

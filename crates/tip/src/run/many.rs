@@ -1,9 +1,11 @@
 //! Many runs, vectorised where possible.
 
-use super::{MOST_STEPS, Run, RunError, Scenario, Start, run};
+use super::{Collected, MOST_STEPS, Run, RunError, Scenario, Start, collected};
 use crate::integrator::{BeginBeside, EndedBeside, SideBySide, Work};
 use crate::memory::{Fit, MemoryChoice, MemoryReport, Retreat, Sum, accuracy_needed};
-use crate::{Step, TipFunction, Trajectory};
+use crate::{Step, TipFunction};
+use std::cell::Cell;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Runs of all these scenarios, each as by [`run`] and in the order of the scenarios: see [`run_each`].
@@ -35,12 +37,39 @@ pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run, RunError>)) {
+    // Of those that have ended: room for the next.
+    let most = Cell::new(0);
+    let steps = |_| Vec::with_capacity(most.get() + most.get() / 4);
+    collect_at_most(MOST_STEPS as u64, scenarios, steps, |number, run| {
+        let run = run.map(|collected| collected.into_run(&scenarios[number]));
+        most.set(run.as_ref().map_or(0, |run| run.trajectory.steps().len()).max(most.get()));
+        ended(number, run);
+    });
+}
+
+/// Runs all these scenarios as [`run_each`], but passes the steps of each run to a collector, which `begin` creates for
+/// the scenario of this number, and keeps none of them. A run that leaves the lanes begins again with a new collector.
+pub fn collect_each<C: Extend<Step>>(
+    scenarios: &[Scenario],
+    begin: impl Fn(usize) -> C,
+    ended: impl FnMut(usize, Result<Collected<C>, RunError>),
+) {
+    collect_at_most(u64::MAX, scenarios, begin, ended);
+}
+
+fn collect_at_most<C: Extend<Step>>(
+    most_steps: u64,
+    scenarios: &[Scenario],
+    begin: impl Fn(usize) -> C,
+    mut ended: impl FnMut(usize, Result<Collected<C>, RunError>),
+) {
     let mut waiting = vec![true; scenarios.len()];
     for group in groups(scenarios) {
-        let mut beside = SideBySide::new(&group.tip, &group.fit, group.tolerance, MOST_STEPS);
-        beside.run(group.begins.iter().copied(), |number, end| {
+        let mut beside = SideBySide::new(&group.tip, &group.fit, group.tolerance, most_steps);
+        let begins = group.begins.iter().map(|motion| (*motion, begin(motion.number)));
+        beside.run(begins, |number, end| {
             if let EndedBeside::Whole(steps, work) = end
-                && let Ok(run) = group.run(&scenarios[number], steps, work)
+                && let Ok(run) = group.collected(&scenarios[number], steps, work)
             {
                 waiting[number] = false;
                 ended(number, Ok(run));
@@ -48,7 +77,16 @@ pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run,
         });
     }
     for (number, scenario) in scenarios.iter().enumerate().filter(|(number, _)| waiting[*number]) {
-        ended(number, run(scenario));
+        let mut count = 0;
+        let take = |steps: &mut C, step: Step| {
+            if count == most_steps {
+                return Err(RunError::HistoryTooLong { t: step.t });
+            }
+            count += 1;
+            steps.extend([step]);
+            Ok(ControlFlow::Continue(()))
+        };
+        ended(number, collected(scenario, begin(number), take));
     }
 }
 
@@ -111,15 +149,19 @@ fn begin(number: usize, scenario: &Scenario) -> BeginBeside {
 }
 
 impl Group {
-    fn run(&self, scenario: &Scenario, steps: Vec<Step>, work: Work) -> Result<Run, RunError> {
+    fn collected<C>(
+        &self,
+        scenario: &Scenario,
+        steps: C,
+        work: Work,
+    ) -> Result<Collected<C>, RunError> {
         let (terms, certificate) = (self.fit.terms().len(), self.fit.certificate());
         let sum = Sum::Modes { terms, certificate, retreats: 0 };
         let report = MemoryReport { choice: scenario.memory, accuracy: self.fit.wanted(), sum };
         let fared = report.fared().unwrap_or_default();
-        let wider = *scenario.model.wider();
-        Ok(Run {
+        Ok(Collected {
             initial_surface: scenario.initial_surface()?,
-            trajectory: Trajectory::under(wider, scenario.support(), steps),
+            steps,
             work,
             memory: report.name(),
             memory_reason: format!("side by side with other motions; {fared}"),

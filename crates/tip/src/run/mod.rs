@@ -4,7 +4,7 @@ mod many;
 mod running;
 mod scenario;
 
-pub use many::{run_each, run_many};
+pub use many::{collect_each, run_each, run_many};
 pub use running::Running;
 pub use scenario::{MOST_STEPS, RunError, Scenario, Start, TOLERANCES};
 
@@ -32,6 +32,41 @@ pub struct Run {
     pub side_by_side: bool,
 }
 
+/// A finished run whose steps were passed to a collector: [`collect_each`].
+#[derive(Debug, Clone)]
+pub struct Collected<C> {
+    /// Surface u0(x) at the start.
+    pub initial_surface: InitialSurface,
+    /// The collector of the steps.
+    pub steps: C,
+    /// Numbers of steps, iterations and series.
+    pub work: Work,
+    /// Name of the memory in use at the end.
+    pub memory: &'static str,
+    /// Reason for this memory.
+    pub memory_reason: String,
+    /// Whether the run was stopped before `until`.
+    pub interrupted: bool,
+    /// Whether the run shared SIMD lanes with other motions.
+    pub side_by_side: bool,
+}
+
+impl Collected<Vec<Step>> {
+    fn into_run(self, scenario: &Scenario) -> Run {
+        let Self { initial_surface, steps, work, memory, memory_reason, .. } = self;
+        let wider = *scenario.model.wider();
+        Run {
+            initial_surface,
+            trajectory: Trajectory::under(wider, scenario.support(), steps),
+            work,
+            memory,
+            memory_reason,
+            interrupted: self.interrupted,
+            side_by_side: self.side_by_side,
+        }
+    }
+}
+
 /// Integrates (15) from the start of the scenario to its end, and keeps the whole history. A history of more than
 /// [`MOST_STEPS`] steps is an error; for longer runs take the steps one by one from [`Running`].
 ///
@@ -50,24 +85,31 @@ pub fn run_observed(
     scenario: &Scenario,
     mut observe: impl FnMut(&Step) -> ControlFlow<()>,
 ) -> Result<Run, RunError> {
-    scenario.validate()?;
-    let surface = scenario.initial_surface()?;
-    let mut running = Running::new(scenario, &surface)?;
-    let mut steps = vec![];
-    let mut interrupted = false;
-    while !interrupted && let Some(step) = running.step()? {
+    let take = |steps: &mut Vec<Step>, step: Step| {
         if steps.len() == MOST_STEPS {
             return Err(RunError::HistoryTooLong { t: step.t });
         }
         steps.push(step);
-        interrupted = observe(&step).is_break() || stop::is_asked();
+        Ok(observe(&step))
+    };
+    Ok(collected(scenario, vec![], take)?.into_run(scenario))
+}
+
+/// Runs a scenario by itself: `take` adds each step to a collector, and may end the run there.
+fn collected<C>(
+    scenario: &Scenario,
+    mut steps: C,
+    mut take: impl FnMut(&mut C, Step) -> Result<ControlFlow<()>, RunError>,
+) -> Result<Collected<C>, RunError> {
+    scenario.validate()?;
+    let initial_surface = scenario.initial_surface()?;
+    let mut running = Running::new(scenario, &initial_surface)?;
+    let mut interrupted = false;
+    while !interrupted && let Some(step) = running.step()? {
+        interrupted = take(&mut steps, step)?.is_break() || stop::is_asked();
     }
-    let (work, memory) = (running.work(), running.memory());
-    let memory_reason = running.memory_reason();
+    let (work, memory, memory_reason) = (running.work(), running.memory(), running.memory_reason());
     drop(running);
-    let wider = *scenario.model.wider();
-    let trajectory = Trajectory::under(wider, scenario.support(), steps);
-    let initial_surface = surface;
     let side_by_side = false;
-    Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted, side_by_side })
+    Ok(Collected { initial_surface, steps, work, memory, memory_reason, interrupted, side_by_side })
 }

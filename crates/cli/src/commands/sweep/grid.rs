@@ -13,6 +13,9 @@ const MOST_POINTS: usize = 10_000_000;
 /// Largest number of footprints; each is prepared separately.
 const MOST_TIPS: usize = 10_000;
 
+/// Largest number of runs that share SIMD lanes in turn: at the end of a group lanes are empty.
+const MOST_RUNS_TOGETHER: usize = 128;
+
 #[derive(Debug)]
 pub(super) struct Grid {
     tips: Vec<TipFunction>,
@@ -104,6 +107,11 @@ impl Grid {
             }
         }
         Ok(())
+    }
+
+    /// Largest number of points that are computed together: runs share SIMD lanes.
+    pub(super) fn together(&self) -> usize {
+        if self.parameters.run.is_some() { MOST_RUNS_TOGETHER } else { 1 }
     }
 
     /// The indices of the points in this part.

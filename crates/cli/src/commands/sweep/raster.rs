@@ -60,7 +60,9 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let finished = compute(&indices, finished, threads, &interrupt, |index| grid.point(index))?;
+    let finished = compute(&indices, finished, (threads, 1), &interrupt, |indices, take| {
+        indices.iter().for_each(|index| take(grid.point(*index)));
+    })?;
     let points = finished.in_order();
     let found = RasterSweepFound { points, arithmetic: Some(arithmetic()), crc32: None };
     let document: RasterSweepDocument = Document::new(grid.parameters, found, vec![]);

@@ -5,9 +5,9 @@ use stickslip::{
     Ask, Context, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
     SweepRunParameters, Tip,
 };
-use stickslip_outcome::{Motion, Watched};
+use stickslip_outcome::{Motion, Observer, judge};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::{Model, RunError, Scenario, Step};
+use stickslip_tip::{Collected, Model, Scenario, Step, collect_each};
 
 /// The run of this model.
 ///
@@ -77,30 +77,57 @@ impl Swing {
     }
 }
 
-/// The point with the result of the run.
-///
-/// # Errors
-/// The tolerance cannot be met.
-pub(super) fn ended(point: SweepPoint, scenario: &Scenario) -> Result<SweepPoint, RunError> {
-    let initial = scenario.initial_surface()?;
-    let mut running = Watched::new(scenario, &initial)?;
-    let mut swing = Swing::new(scenario);
-    while let Some(step) = running.step()? {
-        swing.take(&step, |t| t < step.end());
+/// Observer and statistics of a run.
+struct Followed {
+    observer: Observer,
+    swing: Swing,
+}
+
+impl Extend<Step> for Followed {
+    fn extend<I: IntoIterator<Item = Step>>(&mut self, steps: I) {
+        for step in steps {
+            self.observer.observe(&step);
+            self.swing.take(&step, |t| t < step.end());
+        }
     }
-    running.last().iter().for_each(|last| swing.take(last, |t| t <= last.end()));
+}
+
+/// Runs the scenarios of these points, in SIMD lanes as far as possible, and passes each point with its result to
+/// `take`. A result does not depend on the other scenarios.
+pub(super) fn each(
+    points: &[SweepPoint],
+    scenarios: &[Scenario],
+    take: &mut dyn FnMut(SweepPoint),
+) {
+    let begin = |number: usize| {
+        let scenario: &Scenario = &scenarios[number];
+        Followed { observer: Observer::new(scenario), swing: Swing::new(scenario) }
+    };
+    collect_each(scenarios, begin, |number, run| {
+        let point = || points[number].clone();
+        take(match run {
+            Ok(run) => ended(point(), &scenarios[number], run),
+            Err(error) => SweepPoint { error: Some(error.to_string()), ..point() },
+        });
+    });
+}
+
+/// The point with the result of the run.
+fn ended(point: SweepPoint, scenario: &Scenario, run: Collected<Followed>) -> SweepPoint {
+    let Collected { initial_surface, steps: Followed { observer, mut swing }, .. } = run;
+    observer.last().iter().for_each(|last| swing.take(last, |t| t <= last.end()));
     let (mean_l, deviation_l) = swing.found();
     let point = SweepPoint { mean_l, deviation_l, ..point };
-    let outcome = running.outcome();
-    let ripple = outcome.oscillation.as_ref().zip(running.tail()).map(|(found, tail)| {
-        let surface = Surface::new(&scenario.model, &initial, &tail);
+    let outcome = judge(scenario, &initial_surface, &observer);
+    let ripple = outcome.oscillation.as_ref().zip(observer.tail()).map(|(found, tail)| {
+        let surface = Surface::new(&scenario.model, &initial_surface, &tail);
         OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
     });
     let point = point.settled(Motion::Run(Box::new(outcome)));
-    Ok(match ripple {
+    match ripple {
         Some(OscillationDocument { amplitude_u, amplitude_u_error, .. }) => {
             SweepPoint { amplitude_u, amplitude_u_error, ..point }
         }
         None => point,
-    })
+    }
 }

@@ -6,13 +6,16 @@ use crate::failure::Failure;
 use crate::host;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
 use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_tip::stop;
+
+const GROUPS_PER_THREAD: usize = 4;
 
 /// State shared by the threads.
 struct State<P> {
@@ -34,16 +37,17 @@ impl<P: Part> State<P> {
     }
 }
 
-/// Computes all points that are not finished yet.
+/// Computes all points that are not finished yet, on this number of threads (0 means one per core). `judged` computes
+/// the points with some indices, at most `together` of them, and passes each on as soon as it is complete.
 ///
 /// # Errors
 /// A signal arrived, or a point could not be saved.
 pub(super) fn compute<P: Part + Send>(
     indices: &[usize],
     finished: Finished<P>,
-    threads: usize,
+    (threads, together): (usize, usize),
     interrupt: &Interrupt,
-    judged: impl Fn(usize) -> P + Sync,
+    judged: impl Fn(&[usize], &mut dyn FnMut(P)) + Sync,
 ) -> Result<Finished<P>, Failure> {
     let done: HashSet<usize> = finished.parts().iter().map(P::index).collect();
     let missing: Vec<usize> =
@@ -71,15 +75,19 @@ pub(super) fn compute<P: Part + Send>(
             unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
         });
     }
-    let work = |index: &usize| {
-        if interrupt.signal().is_some() {
-            return None;
+    let work = |indices: &[usize]| {
+        let mut kept = Some(());
+        let mut take = |point: P| {
+            // What a signal cut short is no point.
+            if kept.is_some() && interrupt.signal().is_none() {
+                finished_so_far.fetch_add(1, Ordering::Relaxed);
+                kept = state.lock().unwrap_or_else(PoisonError::into_inner).keep(point);
+            }
+        };
+        if interrupt.signal().is_none() {
+            stop::where_asked_by(interrupt.flag(), || judged(indices, &mut take));
         }
-        let found = stop::where_asked_by(interrupt.flag(), || judged(*index));
-        // What a signal cut short is no point.
-        let point = Some(found).filter(|_| interrupt.signal().is_none())?;
-        finished_so_far.fetch_add(1, Ordering::Relaxed);
-        state.lock().unwrap_or_else(PoisonError::into_inner).keep(point)
+        kept.filter(|()| interrupt.signal().is_none())
     };
     // More than there are points have nothing to do but to look for it; 0 of them is one for each core.
     let threads = threads.min(missing.len().max(1));
@@ -87,7 +95,10 @@ pub(super) fn compute<P: Part + Send>(
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let pool = pool.start_handler(move |_| host::set(host.clone())).build();
     let pool = pool.map_err(|error| Failure::Run(format!("cannot start threads: {error}")))?;
-    pool.install(|| missing.par_iter().with_max_len(1).try_for_each(work));
+    // Several groups for each thread, as some take longer than others.
+    let groups = GROUPS_PER_THREAD * pool.current_num_threads();
+    let size = missing.len().div_ceil(groups).clamp(1, together);
+    pool.install(|| missing.par_chunks(size).with_max_len(1).try_for_each(work));
     let State { finished, kept, .. } = state.into_inner().unwrap_or_else(PoisonError::into_inner);
     kept.map_err(|error: io::Error| {
         let target = finished.path().map_or("memory".into(), |path| path.display().to_string());

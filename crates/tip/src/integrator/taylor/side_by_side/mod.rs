@@ -49,9 +49,9 @@ pub(crate) struct Begin {
 }
 
 /// What became of a motion.
-pub(crate) enum Ended {
-    /// It came to its end.
-    Whole(Vec<Step>, Work),
+pub(crate) enum Ended<C> {
+    /// It came to its end; its steps were passed to this collector.
+    Whole(C, Work),
     /// It is to be made otherwise, from its start.
     Elsewhere,
 }
@@ -60,10 +60,7 @@ pub(crate) enum Ended {
 pub(crate) struct SideBySide {
     limits: Limits,
     exponentials: Exponentials,
-    members: [Option<Member>; LANES],
     numbers: Numbers,
-    /// Of those that have ended: room for the next.
-    most_steps: usize,
 }
 
 /// What bounds a step of any of them.
@@ -81,7 +78,7 @@ struct Limits {
     retreat: f64,
     between_steps: f64,
     /// So many steps may be kept of a motion.
-    most_steps: usize,
+    most_steps: u64,
     rules: Rules,
     order: usize,
 }
@@ -103,14 +100,14 @@ struct Numbers {
 }
 
 /// A motion under way.
-struct Member {
+struct Member<C> {
     begin: Begin,
     t: f64,
     extension: f64,
     /// Of the places it has been to, the farthest, as a displacement from where it is.
     farthest: f64,
     switch: Switch,
-    steps: Vec<Step>,
+    collector: C,
     work: Work,
 }
 
@@ -119,7 +116,7 @@ const COST_OF_COLLOCATION: f64 = 16.0;
 
 impl SideBySide {
     /// Of this footprint, with this sum for it.
-    pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: usize) -> Self {
+    pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: u64) -> Self {
         let target = Control::new(tolerance).target();
         let error = SHARE_OF_SERIES * target;
         let exponentials = Exponentials::new(fit);
@@ -151,34 +148,30 @@ impl SideBySide {
             nodes: [zero; MOST_PIECES * STAGES],
             visits: Visits::none(),
         };
-        Self { limits, exponentials, members: [const { None }; LANES], numbers, most_steps: 0 }
+        Self { limits, exponentials, numbers }
     }
 
-    /// Makes all of these motions, and tells of each when it has ended: which one, and how. Once nobody waits any more
-    /// the others are left out.
-    pub(crate) fn run(
+    /// Integrates all of these motions, and passes the steps of each to its collector. Reports each motion, by number and
+    /// result, when it has ended. After a request to stop the others are left out.
+    pub(crate) fn run<C: Extend<Step>>(
         &mut self,
-        mut begins: impl Iterator<Item = Begin>,
-        mut ended: impl FnMut(usize, Ended),
+        mut begins: impl Iterator<Item = (Begin, C)>,
+        mut ended: impl FnMut(usize, Ended<C>),
     ) {
+        let mut members = [const { None }; LANES];
         loop {
-            for lane in 0..LANES {
-                if self.members[lane].is_none()
-                    && let Some(begin) = begins.next()
-                {
-                    self.members[lane] = Some(self.enter(lane, begin));
-                }
+            for (lane, place) in members.iter_mut().enumerate().filter(|(_, m)| m.is_none()) {
+                *place = begins.next().map(|begin| self.enter(lane, begin));
             }
-            if self.members.iter().all(Option::is_none) || stop::is_asked() {
-                self.members = [const { None }; LANES];
+            if members.iter().all(Option::is_none) || stop::is_asked() {
                 return;
             }
-            self.step(&mut ended);
+            self.step(&mut members, &mut ended);
         }
     }
 
     /// A motion takes a lane.
-    fn enter(&mut self, lane: usize, begin: Begin) -> Member {
+    fn enter<C>(&mut self, lane: usize, (begin, collector): (Begin, C)) -> Member<C> {
         let Begin { alpha, r, t, extension, steady, .. } = begin;
         let Numbers { acting, past, .. } = &mut self.numbers;
         (acting.alpha.0[lane], acting.support.0[lane]) = (alpha, r);
@@ -188,14 +181,16 @@ impl SideBySide {
         }
         let farthest = steady.unwrap_or(f64::NEG_INFINITY);
         let switch = Switch::at_cost(COST_OF_COLLOCATION);
-        let (steps, work) =
-            (Vec::with_capacity(self.most_steps + self.most_steps / 4), Work::default());
-        Member { begin, t, extension, farthest, switch, steps, work }
+        Member { begin, t, extension, farthest, switch, collector, work: Work::default() }
     }
 
     /// One step of each.
-    fn step(&mut self, ended: &mut impl FnMut(usize, Ended)) {
-        let Self { limits, exponentials, members, numbers, .. } = self;
+    fn step<C: Extend<Step>>(
+        &mut self,
+        members: &mut [Option<Member<C>>; LANES],
+        ended: &mut impl FnMut(usize, Ended<C>),
+    ) {
+        let Self { limits, exponentials, numbers } = self;
         for (lane, member) in members.iter().enumerate() {
             numbers.acting.extension.0[lane] = member.as_ref().map_or(0.0, |m| m.extension);
         }
@@ -210,25 +205,21 @@ impl SideBySide {
         for (lane, place) in members.iter_mut().enumerate() {
             let Some(member) = place else { continue };
             let rule = member.advance(limits, numbers, lane);
-            let end = match rule {
-                Some(rule) => {
-                    numbers.visits.set(lane, rule, numbers.length.0[lane]);
-                    let is_there = member.t >= member.begin.until;
-                    is_there.then(|| Ended::Whole(std::mem::take(&mut member.steps), member.work))
-                }
-                None => Some(Ended::Elsewhere),
-            };
-            if let Some(end) = end {
-                self.most_steps = self.most_steps.max(member.work.steps as usize);
-                ended(member.begin.number, end);
-                *place = None;
+            if let Some(rule) = rule {
+                numbers.visits.set(lane, rule, numbers.length.0[lane]);
+            }
+            let goes_on = rule.is_some() && member.t < member.begin.until;
+            if let Some(Member { begin, collector, work, .. }) = place.take_if(|_| !goes_on) {
+                let end =
+                    if rule.is_some() { Ended::Whole(collector, work) } else { Ended::Elsewhere };
+                ended(begin.number, end);
             }
         }
         remember(numbers, exponentials);
     }
 }
 
-impl Member {
+impl<C: Extend<Step>> Member<C> {
     /// How long its step is to be, of how many pieces; `None` where it is to be made elsewhere.
     fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<(f64, usize)> {
         let Plan { over, piece, fastest } = &numbers.plan;
@@ -287,28 +278,29 @@ impl Member {
             }
         }
         self.farthest = farthest - end;
-        let has_room = self.steps.len() + MOST_PIECES <= limits.most_steps;
+        let has_room = self.work.steps + MOST_PIECES as u64 <= limits.most_steps;
         (self.farthest <= limits.between_steps && has_room).then_some(())
     }
 
     /// The pieces of a step, by their nodes.
     fn take(&mut self, positions: &[f64], total: f64) {
         let (pieces, _) = positions.as_chunks::<STAGES>();
-        let (start, mut before) = (self.t, 0.0);
-        self.steps.reserve(pieces.len());
-        for (i, positions) in pieces.iter().enumerate() {
-            let part = (i + 1) as f64 / pieces.len() as f64;
+        let (start, count, r, mut before) = (self.t, pieces.len(), self.begin.r, 0.0);
+        let (mut t, mut extension) = (self.t, self.extension);
+        let step = |(i, positions): (usize, &[f64; STAGES])| {
+            let part = (i + 1) as f64 / count as f64;
             // Ends are representable times.
-            let end = if i + 1 < pieces.len() { start + part * total } else { start + total };
+            let end = if i + 1 < count { start + part * total } else { start + total };
             let mut displacement = *positions;
             displacement.iter_mut().for_each(|position| *position -= before);
-            let (t, extension) = (self.t, self.extension);
             let step = Step { t, h: end - t, extension, displacement, height: None };
             before = positions[STAGES - 1];
-            (self.t, self.extension) = (step.end(), step.extension_at_end(self.begin.r));
-            self.steps.push(step);
-        }
-        self.work.steps += pieces.len() as u64;
+            (t, extension) = (step.end(), step.extension_at_end(r));
+            step
+        };
+        self.collector.extend(pieces.iter().enumerate().map(step));
+        (self.t, self.extension) = (t, extension);
+        self.work.steps += count as u64;
         self.work.series += 1;
     }
 }

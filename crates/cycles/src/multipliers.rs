@@ -8,6 +8,7 @@
 use super::embedding::Embedding;
 use super::lattice;
 use super::leading::{leading, sorted};
+use super::linearisation::Linearisation;
 use super::solve::Closed;
 use nalgebra::DMatrix;
 use num_complex::Complex;
@@ -52,6 +53,17 @@ pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     // What grows is of the motion, whatever told it.
     found.retain(|m| m.norm() >= 1.0 - SAME.1 || others.iter().any(|other| near(m, other)));
     Some(found)
+}
+
+/// Largest modulus of the multipliers except that of a shift in time, in the sum of this linearisation; 0 if they are
+/// not available.
+pub(super) fn largest_multiplier(linearisation: &Linearisation) -> f64 {
+    let Some(found) = sorted(linearisation.monodromy()) else { return 0.0 };
+    let distance = |m: &Complex<f64>| (m - 1.0).norm();
+    let nearest =
+        (0..found.len()).min_by(|a, b| distance(&found[*a]).total_cmp(&distance(&found[*b])));
+    let others = found.iter().enumerate().filter(|(i, _)| Some(*i) != nearest);
+    others.map(|(_, m)| m.norm()).fold(0.0, f64::max)
 }
 
 /// The multipliers in the short sum; under a depth limit in the fine one, because heights decay more slowly than

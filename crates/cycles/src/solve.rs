@@ -73,6 +73,11 @@ const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
 /// Number of successive corrections of nearly equal size, each longer than all remaining ones together can be, after
 /// which a guess is given up.
 const TOO_FAR: usize = 3;
+/// Corrections longer than this many times all remaining ones together count as well, whatever their sizes.
+const FAR_BEYOND: f64 = 30.0;
+/// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it: the
+/// solution on it begins with the fine sum.
+const NEARLY_MET: f64 = 10.0;
 /// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that
 /// amplify deviations amplify its errors.
 const SLOW: f64 = 0.1;
@@ -80,10 +85,22 @@ const NEAR: f64 = 1e-3;
 
 /// The cycle near a guess.
 pub(super) fn close(
+    equation: Embedding,
+    orbit: Orbit,
+    condition: Condition,
+    allowed: f64,
+) -> Result<Closed, NotClosed> {
+    close_if(equation, orbit, condition, allowed, |_| true)
+}
+
+/// The cycle near a guess, if it is wanted: the first solution, on the mesh of the guess, decides. Its linearisation is
+/// in the rough sum.
+pub(super) fn close_if(
     mut equation: Embedding,
     mut orbit: Orbit,
     condition: Condition,
     allowed: f64,
+    is_wanted: impl Fn(&Linearisation) -> bool,
 ) -> Result<Closed, NotClosed> {
     if orbit.stages.len() > MOST_STEPS_OF_GUESS {
         return Err(NotClosed::Lost);
@@ -96,9 +113,10 @@ pub(super) fn close(
     equation.short = Arc::clone(&equation.rough);
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
     let meshes = if equation.wider.is_papers() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
-    let mut short_of_it = 0;
-    for _ in 0..meshes {
-        for (solved, enough) in [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)] {
+    let (mut short_of_it, mut is_near) = (0, false);
+    for round in 0..meshes {
+        let passes = [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)];
+        for (solved, enough) in passes.into_iter().skip(usize::from(is_near)) {
             let before = Arc::clone(&equation.short);
             if enough <= ENOUGH {
                 // The last linearisation is kept.
@@ -112,11 +130,15 @@ pub(super) fn close(
             if work > MOST_WORK || stop::is_asked() {
                 return Err(NotClosed::Lost);
             }
+            if round == 0 && enough > ENOUGH && !is_wanted(&linearisation) {
+                return Err(NotClosed::Lost);
+            }
             let residuals = residuals(&orbit, &linearisation.of_steps);
             let residual = residuals.iter().copied().fold(0.0, f64::max);
             reached = residual;
             let corners = orbit.corners(equation.r);
             let met = orbit.meets(&corners, &equation, allowed);
+            is_near = met && residual <= NEARLY_MET * allowed;
             if residual > ESTIMATE_FALLS_SHORT * allowed || !met {
                 let is_fine = residual <= ESTIMATE_FALLS_SHORT * allowed;
                 let moved = if is_fine { orbit.moved_to(&corners) } else { None };
@@ -205,8 +227,9 @@ impl Newton<'_> {
                 self.equation.short = Arc::clone(self.precise);
             }
             let reach = (MOST_ITERATIONS - count) as f64 * LONGEST_CORRECTION;
+            let excess = size / (reach * self.equation.width());
             let stays = size > 0.5 * last && size < 2.0 * last;
-            far = if stays && size > reach * self.equation.width() { far + 1 } else { 0 };
+            far = if excess > FAR_BEYOND || (stays && excess > 1.0) { far + 1 } else { 0 };
             if far == TOO_FAR {
                 break;
             }
